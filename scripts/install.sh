@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs everything Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
+set -euo pipefail
+
+build_packages=(
+  g++ cmake ninja-build pkg-config git ca-certificates
+  libpetsc-real-dev libopenmpi-dev openmpi-bin
+  libeigen3-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
+)
+test_packages=(libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9)
+picture_packages=(python3 python3-numpy python3-matplotlib python3-vtk9)
+
+wanted=("${build_packages[@]}" "${test_packages[@]}" "${picture_packages[@]}")
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+  [[ $status == "install ok installed" ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  command -v sudo >/dev/null || {
+    echo "install.sh: run as root or install sudo; missing packages: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+echo "install.sh: installing ${missing[*]}" >&2
+"${as_root[@]}" apt-get update -qq
+DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

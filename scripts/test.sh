@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs, builds and passes the tests. Usage: scripts/test.sh [preset] [ctest arguments]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+preset=${1:-release}
+shift || true
+
+scripts/build.sh "$preset"
+ctest --test-dir "build/$preset" --output-on-failure --parallel 2 "$@"

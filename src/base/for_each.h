@@ -1,0 +1,16 @@
+// The one way loops over particles run. The body is a function of one index that touches only its own row, so the
+// wrapper can later hand the range to threads or to a GPU.
+#pragma once
+
+#include <cstddef>
+
+namespace tailwater {
+
+template <class Body>
+void for_each(std::size_t count, Body&& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    body(i);
+  }
+}
+
+}  // namespace tailwater

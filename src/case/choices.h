@@ -1,0 +1,122 @@
+// The named alternatives a case file can select. Each enumeration has its names here, once, in the enumerators' order:
+// the reader, the written effective case, the error messages and the help all use this list.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace tailwater {
+
+enum class BlockShape { box, polygon };
+enum class WallShape { polyline, polygon, box };
+enum class FluidSide { left, right, inside, outside };
+enum class Slip { free, no_slip, partial };
+
+enum class SchemeName { farzin2014 };
+enum class Formulation { robust, published };
+enum class Integrator { explicit_projection, implicit_projection };
+
+enum class KernelName { wendland_c2, cubic_spline, farzin };
+enum class LaplacianKind { morris, consistent };
+enum class GradientKind { conservative, consistent };
+enum class DivergenceKind { standard, consistent };
+enum class SurfaceTreatment { air, cone, farzin };
+enum class WallTreatment { dummies, pressure_rows };
+enum class ShiftingKind { none, lind, farzin };
+
+enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
+enum class PreconditionerName { automatic, ilu, boomeramg, gamg, jacobi };
+
+enum class ProbeType {
+  depth,
+  wall_pressure,
+  wall_pressure_mean,
+  front,
+  profile,
+  pressure,
+  velocity,
+  energy,
+  volume,
+};
+
+template <class Enumeration>
+struct Choices;
+
+template <>
+struct Choices<BlockShape> {
+  static constexpr std::array<std::string_view, 2> names{"box", "polygon"};
+};
+template <>
+struct Choices<WallShape> {
+  static constexpr std::array<std::string_view, 3> names{"polyline", "polygon", "box"};
+};
+template <>
+struct Choices<FluidSide> {
+  static constexpr std::array<std::string_view, 4> names{"left", "right", "inside", "outside"};
+};
+template <>
+struct Choices<Slip> {
+  static constexpr std::array<std::string_view, 3> names{"free", "no-slip", "partial"};
+};
+template <>
+struct Choices<SchemeName> {
+  static constexpr std::array<std::string_view, 1> names{"farzin2014"};
+};
+template <>
+struct Choices<Formulation> {
+  static constexpr std::array<std::string_view, 2> names{"robust", "published"};
+};
+template <>
+struct Choices<Integrator> {
+  static constexpr std::array<std::string_view, 2> names{"explicit", "implicit"};
+};
+template <>
+struct Choices<KernelName> {
+  static constexpr std::array<std::string_view, 3> names{"wendland-c2", "cubic-spline", "farzin"};
+};
+template <>
+struct Choices<LaplacianKind> {
+  static constexpr std::array<std::string_view, 2> names{"morris", "consistent"};
+};
+template <>
+struct Choices<GradientKind> {
+  static constexpr std::array<std::string_view, 2> names{"conservative", "consistent"};
+};
+template <>
+struct Choices<DivergenceKind> {
+  static constexpr std::array<std::string_view, 2> names{"standard", "consistent"};
+};
+template <>
+struct Choices<SurfaceTreatment> {
+  static constexpr std::array<std::string_view, 3> names{"air", "cone", "farzin"};
+};
+template <>
+struct Choices<WallTreatment> {
+  static constexpr std::array<std::string_view, 2> names{"dummies", "pressure-rows"};
+};
+};
+template <>
+struct Choices<ShiftingKind> {
+  static constexpr std::array<std::string_view, 3> names{"none", "lind", "farzin"};
+};
+template <>
+struct Choices<KrylovMethod> {
+  static constexpr std::array<std::string_view, 4> names{"auto", "bicgstab", "gmres", "fgmres"};
+};
+template <>
+struct Choices<PreconditionerName> {
+  static constexpr std::array<std::string_view, 5> names{"auto", "ilu", "boomeramg", "gamg", "jacobi"};
+};
+template <>
+struct Choices<ProbeType> {
+  static constexpr std::array<std::string_view, 9> names{"depth",   "wall-pressure", "wall-pressure-mean",
+                                                         "front",   "profile",       "pressure",
+                                                         "velocity", "energy",       "volume"};
+};
+
+template <class Enumeration>
+constexpr std::string_view name_of(Enumeration value) {
+  return Choices<Enumeration>::names[static_cast<std::size_t>(value)];
+}
+
+}  // namespace tailwater

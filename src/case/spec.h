@@ -1,0 +1,329 @@
+// What a case file can say: one struct per table, one `describe` per struct. `describe` is the single home of every
+// key: its name, default (the member's initialiser), unit, range and one line of documentation. The reader, the
+// effective case written beside the results, `tailwater run --help-case` and docs/reference/case-file.md all come
+// from it, so they cannot disagree.
+//
+// All numbers are SI. Lengths and other numbers may be written in the file as expressions of named parameters
+// ("2*H"); the structs hold the values.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/choices.h"
+
+namespace tailwater {
+
+/// A point or vector as read from the file: `dimension` numbers.
+using Coordinates = std::vector<double>;
+
+/// The values a number may take. Bounds are inclusive unless `above`/`below` made them exclusive.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_is_excluded = false;
+  bool high_is_excluded = false;
+
+  static constexpr Range any() { return {}; }
+  static constexpr Range above(double low) { return {.low = low, .low_is_excluded = true}; }
+  static constexpr Range at_least(double low) { return {.low = low}; }
+  static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+  static constexpr Range above_up_to(double low, double high) {
+    return {.low = low, .high = high, .low_is_excluded = true};
+  }
+  constexpr bool contains(double value) const {
+    return (low_is_excluded ? value > low : value >= low) && (high_is_excluded ? value < high : value <= high);
+  }
+};
+
+enum class Presence { optional, required };
+
+struct CaseTable {
+  std::string title = "untitled";
+  int dimension = 2;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("title", self.title, "One line that names the case in summaries and reports");
+    v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
+  }
+};
+
+struct PhysicsTable {
+  double density = 1000.0;
+  double viscosity = 1e-6;
+  Coordinates gravity = {0.0, -9.81};
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("density", self.density, "kg/m^3", Range::above(0.0), "Density of the fluid");
+    v.number("viscosity", self.viscosity, "m^2/s", Range::at_least(0.0), "Kinematic viscosity of the fluid, nu_0");
+    v.coordinates("gravity", self.gravity, "m/s^2",
+                  "Acceleration of gravity, one number per dimension (default in 3D: 0, 0, -9.81)");
+  }
+};
+
+struct ParticlesTable {
+  double spacing = 0.0;
+  double jitter = 0.0;
+  int seed = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("spacing", self.spacing, "m", Range::above(0.0),
+             "Distance dx between neighbouring particles of the starting lattice", Presence::required);
+    v.number("jitter", self.jitter, "dx", Range::between(0.0, 0.4),
+             "Random displacement of each fluid particle at the start, up to this share of dx per coordinate");
+    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of the random displacement");
+  }
+};
+
+/// A direction in which the domain repeats itself; empty: not periodic.
+struct DomainTable {
+  std::vector<double> periodic_x;
+  std::vector<double> periodic_y;
+  std::vector<double> periodic_z;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.numbers("periodic_x", self.periodic_x, "m", "[low, high]: what leaves at one end in x enters at the other");
+    v.numbers("periodic_y", self.periodic_y, "m", "[low, high]: the same in y");
+    v.numbers("periodic_z", self.periodic_z, "m", "[low, high]: the same in z");
+  }
+};
+
+struct FluidTable {
+  std::string name;
+  BlockShape shape = BlockShape::box;
+  Coordinates min;
+  Coordinates max;
+  std::vector<Coordinates> points;
+  Coordinates velocity;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages (default: fluid1, fluid2, ...)");
+    v.choice("shape", self.shape, "Shape of the block: an axis-parallel box, or a polygon (2D)");
+    v.coordinates("min", self.min, "m", "Lowest corner of a box");
+    v.coordinates("max", self.max, "m", "Highest corner of a box");
+    v.points("points", self.points, "m", "Corners of a polygon, in order; the last joins the first");
+    v.coordinates("velocity", self.velocity, "m/s", "Velocity at the start (default: at rest)");
+  }
+};
+
+struct WallTable {
+  std::string name;
+  WallShape shape = WallShape::polyline;
+  std::vector<Coordinates> points;
+  Coordinates min;
+  Coordinates max;
+  std::vector<std::string> open;
+  FluidSide fluid_side = FluidSide::left;
+  Slip slip = Slip::free;
+  double friction = 0.5;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
+    v.choice("shape", self.shape,
+             "polyline: open chain of points (2D); polygon: the same, closed (2D); box: faces of a box");
+    v.points("points", self.points, "m", "Corners of a polyline or polygon, in order");
+    v.coordinates("min", self.min, "m", "Lowest corner of a box");
+    v.coordinates("max", self.max, "m", "Highest corner of a box");
+    v.texts("open", self.open, "Faces left out of a box: any of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\"");
+    v.choice("fluid_side", self.fluid_side,
+             "Where the water is: left or right of a polyline as one walks along its points; inside or outside a "
+             "polygon or box");
+    v.choice("slip", self.slip, "Friction on the wall: none at all, water sticks to it, or a share of that");
+    v.number("friction", self.friction, "", Range::between(0.0, 1.0),
+             "With slip = \"partial\": share of the no-slip wall stress");
+  }
+};
+
+struct TimeTable {
+  double end = 0.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("end", self.end, "s", Range::above(0.0), "Simulated time at which the run ends", Presence::required);
+  }
+};
+
+/// The scheme and every choice inside it. `formulation` sets the defaults of the keys marked (formulation).
+struct SchemeTable {
+  SchemeName name = SchemeName::farzin2014;
+  Formulation formulation = Formulation::robust;
+  Integrator integrator = Integrator::explicit_projection;
+
+  KernelName kernel = KernelName::wendland_c2;
+  double support = 3.0;
+  LaplacianKind laplacian = LaplacianKind::morris;
+  GradientKind gradient = GradientKind::conservative;
+  DivergenceKind divergence = DivergenceKind::standard;
+  SurfaceTreatment surface = SurfaceTreatment::air;
+  WallTreatment walls = WallTreatment::dummies;
+
+  double courant = 0.25;
+  double length = 0.0;
+
+  double artificial_viscosity = 0.02;
+  double viscosity_floor = 0.02;
+  double smagorinsky = 0.0;
+
+  ShiftingKind shifting = ShiftingKind::lind;
+  double shifting_strength = 2.0;
+  double shifting_cap = 0.1;
+
+  double density_relaxation = 0.01;
+
+  int max_passes = 3;
+  double pass_tolerance = 1e-3;
+  double relax_pressure = 1.0;
+  double relax_velocity = 1.0;
+  double relax_position = 1.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.choice("name", self.name, "The published system the run follows");
+    v.choice("formulation", self.formulation,
+             "robust: what works (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
+    v.choice("integrator", self.integrator,
+             "explicit: derivatives at the old positions (F14-F17); implicit: iterated to the new ones (F20-F27)");
+    v.choice("kernel", self.kernel, "Smoothing kernel (formulation)");
+    v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support");
+    v.choice("laplacian", self.laplacian, "Laplacian of the pressure equation and of the viscous term (formulation)");
+    v.choice("gradient", self.gradient, "Pressure gradient (formulation)");
+    v.choice("divergence", self.divergence, "Velocity divergence in the source of the pressure equation (formulation)");
+    v.choice("surface", self.surface,
+             "Free surface in the pressure equation: missing neighbours count as air, or p = 0 on detected particles "
+             "(formulation)");
+    v.choice("walls", self.walls,
+             "Three layers of dummy particles behind the wall, or one layer on it that carries pressure rows "
+             "(formulation)");
+    v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0), "alpha of the time-step rule (F40, F41)");
+    v.number("length", self.length, "m", Range::at_least(0.0),
+             "L of (F41), the scale of the start; 0: the height of the fluid along gravity");
+    v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
+             "c_a of nu_a = c_a |u| dx (F3)");
+    v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
+             "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest");
+    v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
+             "c_s of the sub-particle stress (F4-F6); 0: no stress; the paper uses 0.10");
+    v.choice("shifting", self.shifting, "Particle shifting: none, along the concentration gradient, or (F28-F32) "
+             "(formulation)");
+    v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
+             "Factor of the shifting displacement; eps of (F30) for the published one (formulation)");
+    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.5), "Largest shift of one step");
+    v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
+             "Share of the density error corrected per step by the source of the pressure equation (formulation)");
+    v.integer("max_passes", self.max_passes, "", Range::between(1, 100), "Most passes of the implicit iteration");
+    v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),
+             "The implicit iteration ends when the pressure changes by less than this share of its rms value");
+    v.number("relax_pressure", self.relax_pressure, "", Range::above_up_to(0.0, 1.0),
+             "Under-relaxation of p in the implicit iteration; the paper uses 0.4");
+    v.number("relax_velocity", self.relax_velocity, "", Range::above_up_to(0.0, 1.0),
+             "Under-relaxation of u; the paper uses 0.3");
+    v.number("relax_position", self.relax_position, "", Range::above_up_to(0.0, 1.0),
+             "Under-relaxation of r; the paper uses 0.4");
+  }
+};
+
+struct PressureSolverTable {
+  KrylovMethod method = KrylovMethod::automatic;
+  PreconditionerName preconditioner = PreconditionerName::automatic;
+  double tolerance = 1e-5;
+  int max_iterations = 500;
+  std::string petsc_options;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.choice("method", self.method, "Krylov method; auto chooses by size (docs/theory/linear.md)");
+    v.choice("preconditioner", self.preconditioner, "Preconditioner; auto chooses by size");
+    v.number("tolerance", self.tolerance, "", Range::between(1e-14, 0.1), "Relative residual at which a solve ends");
+    v.integer("max_iterations", self.max_iterations, "", Range::at_least(1), "More iterations are an error");
+    v.text("petsc_options", self.petsc_options, "PETSc options with prefix pressure_, applied last");
+  }
+};
+
+struct OutputTable {
+  double fields_interval = 0.0;
+  std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
+  int compression = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
+             "Time between two field files; 0: a hundredth of the end time");
+    v.texts("fields", self.fields,
+            "Fields to write: any of \"pressure\", \"velocity\", \"density_error\", \"is_free_surface\", \"id\"");
+    v.integer("compression", self.compression, "", Range::between(0, 9), "zlib level of the field files; 0: none");
+  }
+};
+
+struct ProbeTable {
+  std::string name;
+  ProbeType type = ProbeType::depth;
+  Coordinates at;
+  Coordinates from;
+  Coordinates to;
+  Coordinates direction;
+  std::vector<double> times;
+  double interval = 0.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name of the CSV file, probes/NAME.csv", Presence::required);
+    v.choice("type", self.type, "What is measured", Presence::required);
+    v.coordinates("at", self.at, "m",
+                  "Place of a depth probe (its height is ignored), of a wall-pressure, pressure or velocity probe");
+    v.coordinates("from", self.from, "m", "Start of a stretch of wall or of a profile");
+    v.coordinates("to", self.to, "m", "End of a stretch of wall or of a profile");
+    v.coordinates("direction", self.direction, "", "Direction in which a front probe looks (default: +x)");
+    v.numbers("times", self.times, "s", "Times at which a profile is taken");
+    v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two lines; 0: every step");
+  }
+};
+
+/// A named number of the case file, for use in expressions.
+struct Parameter {
+  std::string name;
+  double value = 0.0;
+};
+
+/// A whole case, read and validated key by key; cross-checks of the geometry are in geometry/check.h.
+struct CaseSpec {
+  std::vector<Parameter> parameters;
+  CaseTable general;
+  PhysicsTable physics;
+  ParticlesTable particles;
+  DomainTable domain;
+  std::vector<FluidTable> fluid;
+  std::vector<WallTable> walls;
+  TimeTable time;
+  SchemeTable scheme;
+  PressureSolverTable pressure_solver;
+  OutputTable output;
+  std::vector<ProbeTable> probes;
+
+  /// The tables by name: [case], [physics], ..., [[fluid]], [[wall]], [[probe]].
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.table("case", self.general, "The case as a whole");
+    v.table("physics", self.physics, "Fluid and gravity");
+    v.table("particles", self.particles, "Resolution and start");
+    v.table("domain", self.domain, "Periodic directions");
+    v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");
+    v.tables("wall", self.walls, "A solid wall; one table each");
+    v.table("time", self.time, "Duration");
+    v.table("scheme", self.scheme, "Numerical scheme");
+    v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
+    v.table("output", self.output, "Field files for ParaView");
+    v.tables("probe", self.probes, "A measurement written while the run goes; one table each");
+  }
+};
+
+}  // namespace tailwater
