@@ -94,7 +94,6 @@ template <>
 struct Choices<WallTreatment> {
   static constexpr std::array<std::string_view, 2> names{"dummies", "pressure-rows"};
 };
-};
 template <>
 struct Choices<ShiftingKind> {
   static constexpr std::array<std::string_view, 3> names{"none", "lind", "farzin"};
@@ -109,9 +108,8 @@ struct Choices<PreconditionerName> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 9> names{"depth",   "wall-pressure", "wall-pressure-mean",
-                                                         "front",   "profile",       "pressure",
-                                                         "velocity", "energy",       "volume"};
+  static constexpr std::array<std::string_view, 9> names{
+      "depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume"};
 };
 
 template <class Enumeration>

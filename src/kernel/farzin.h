@@ -1,0 +1,30 @@
+// The quadratic kernel of Farzin et al. (2014), (F8): W = s (1 - q)^2, q = r/R, with s = 6/(pi R^2) in 2D. The paper is
+// 2D; in 3D the integral 4 pi R^3 (1/3 - 1/2 + 1/5) = 2 pi R^3/15 gives s = 15/(2 pi R^3).
+#pragma once
+
+#include <numbers>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct FarzinKernel {
+  explicit FarzinKernel(double support_radius)
+      : radius(support_radius), scale((Dim == 2 ? 6.0 : 7.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+
+  double value(double r) const {
+    const double q = r / radius;
+    return q < 1.0 ? scale * (1.0 - q) * (1.0 - q) : 0.0;
+  }
+
+  double derivative(double r) const {
+    const double q = r / radius;
+    return q < 1.0 ? -2.0 * scale / radius * (1.0 - q) : 0.0;
+  }
+
+  double radius;
+  double scale;
+};
+
+}  // namespace tailwater

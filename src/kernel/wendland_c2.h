@@ -1,0 +1,34 @@
+// Wendland's C2 kernel: W = s (1 - q)^4 (1 + 4 q), q = r/R. Its positive Fourier transform keeps particles from pairing.
+// Wendland (1995); Dehnen & Aly (2012), table 1.
+#pragma once
+
+#include <numbers>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct WendlandC2 {
+  explicit WendlandC2(double support_radius)
+      : radius(support_radius), scale((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+
+  double value(double r) const {
+    const double q = r / radius;
+    if (q >= 1.0) return 0.0;
+    const double a = 1.0 - q;
+    return scale * a * a * a * a * (1.0 + 4.0 * q);
+  }
+
+  double derivative(double r) const {
+    const double q = r / radius;
+    if (q >= 1.0) return 0.0;
+    const double a = 1.0 - q;
+    return -20.0 * scale / radius * q * a * a * a;
+  }
+
+  double radius;
+  double scale;
+};
+
+}  // namespace tailwater

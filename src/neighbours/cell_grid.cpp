@@ -1,0 +1,76 @@
+#include "neighbours/cell_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tailwater {
+
+template <int Dim>
+CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double cell_size) : cell_size_(cell_size) {
+  count_.fill(0);
+  if (positions.empty()) return;
+
+  Vec<Dim> low = positions[0];
+  Vec<Dim> high = positions[0];
+  for (const Vec<Dim>& position : positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  origin_ = low;
+
+  // A few far particles must not make the grid huge: coarser cells are slower there, never wrong.
+  const double most_cells = 8.0 * static_cast<double>(positions.size()) + 1e5;
+  for (;; cell_size_ *= 2.0) {
+    double cells = 1.0;
+    for (int d = 0; d < Dim; ++d) {
+      cells *= std::floor((high[d] - low[d]) / cell_size_) + 1.0;
+    }
+    if (cells <= most_cells) break;
+  }
+  std::int64_t cells = 1;
+  for (int d = 0; d < Dim; ++d) {
+    count_[d] = static_cast<std::int64_t>((high[d] - low[d]) / cell_size_) + 1;
+    cells *= count_[d];
+  }
+
+  std::vector<std::int64_t> cell(positions.size());
+  cell_begin_.assign(cells + 1, 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    cell[i] = flat_index(positions[i]);
+    ++cell_begin_[cell[i] + 1];
+  }
+  for (std::int64_t c = 0; c < cells; ++c) {
+    cell_begin_[c + 1] += cell_begin_[c];
+  }
+  std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
+  order_.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    order_[next[cell[i]]++] = static_cast<std::int32_t>(i);
+  }
+}
+
+template <int Dim>
+std::array<std::int64_t, Dim> CellGrid<Dim>::cell_of(const Vec<Dim>& place) const {
+  std::array<std::int64_t, Dim> cell;
+  for (int d = 0; d < Dim; ++d) {
+    // Clamped before the cast: a place far outside has no cell, and its index need not fit an integer.
+    const double index = std::floor((place[d] - origin_[d]) / cell_size_);
+    cell[d] = static_cast<std::int64_t>(std::clamp(index, -2.0, static_cast<double>(count_[d]) + 1.0));
+  }
+  return cell;
+}
+
+template <int Dim>
+std::int64_t CellGrid<Dim>::flat_index(const Vec<Dim>& place) const {
+  const auto cell = cell_of(place);
+  std::int64_t index = 0;
+  for (int d = Dim - 1; d >= 0; --d) {
+    index = index * count_[d] + std::min(cell[d], count_[d] - 1);
+  }
+  return index;
+}
+
+template class CellGrid<2>;
+template class CellGrid<3>;
+
+}  // namespace tailwater

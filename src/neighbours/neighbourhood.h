@@ -1,0 +1,55 @@
+// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions, at least cost: lists reach a
+// skin beyond the support and are made anew only when some particle has moved half of it.
+#pragma once
+
+#include <vector>
+
+#include "neighbours/cell_grid.h"
+#include "neighbours/halo.h"
+#include "neighbours/pairs.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// Which rows wall particles get: none of the wall-wall pairs (dummies look only at fluid), or all.
+enum class WallRows { fluid_only, all };
+
+template <int Dim>
+class Neighbourhood {
+ public:
+  /// `radius` [m] is the kernel's support, `skin` [m] what lists reach beyond it.
+  Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain);
+
+  /// Brings everything up to date with particles.position. Returns true when the lists (and so the pattern of a matrix
+  /// made from them, and the number of ghosts) are new.
+  bool update(Particles<Dim>& particles);
+
+  /// Sorts the owned particles along the cell grid, wraps them into a periodic domain and forgets lists and ghosts.
+  /// Call between steps only: indices change.
+  void reorder(Particles<Dim>& particles);
+
+  const Pairs<Dim>& pairs() const { return pairs_; }
+  const Halo<Dim>& halo() const { return halo_; }
+  /// All particles, ghosts included, as they were when the lists were made: search up to half a skin farther.
+  const CellGrid<Dim>& grid() const { return grid_; }
+  const Kernel<Dim>& kernel() const { return kernel_; }
+  double skin() const { return skin_; }
+  std::size_t rebuilds() const { return rebuilds_; }
+
+ private:
+  bool lists_are_valid(const Particles<Dim>& particles) const;
+  void rebuild(Particles<Dim>& particles);
+
+  Kernel<Dim> kernel_;
+  double least_distance_;
+  double skin_;
+  WallRows wall_rows_;
+  PeriodicDomain<Dim> domain_;
+  CellGrid<Dim> grid_;
+  Halo<Dim> halo_;
+  Pairs<Dim> pairs_;
+  std::vector<Vec<Dim>> position_at_rebuild_;
+  std::size_t rebuilds_ = 0;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,36 @@
+// The interacting pairs: compact neighbour rows, and for each pair what every operator needs. Operators never see the
+// kernel's name, only its values here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "kernel/kernel.h"
+
+namespace tailwater {
+
+/// Row i holds the neighbours of owned particle i: entries row_begin[i] .. row_begin[i + 1] of the arrays below.
+/// Entries may lie beyond the support (the list has a skin); their W and dW are 0.
+template <int Dim>
+struct Pairs {
+  std::vector<std::size_t> row_begin;  ///< owned + 1 entries
+  std::vector<std::int32_t> j;         ///< neighbour, owned or ghost
+  std::vector<Vec<Dim>> e;             ///< unit vector e_ij = (r_i - r_j)/|r_ij|, from j to i
+  std::vector<double> r;               ///< m; |r_ij|, never 0
+  std::vector<double> W;               ///< 1/m^Dim; kernel
+  std::vector<double> dW;              ///< 1/m^(Dim+1); dW/dr, so grad_i W_ij = dW e
+
+  std::size_t begin(std::size_t i) const { return row_begin[i]; }
+  std::size_t end(std::size_t i) const { return row_begin[i + 1]; }
+  std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
+};
+
+/// Fills e, r, W and dW for the positions given. Two particles at one place get r = `least_distance` and an arbitrary
+/// but fixed direction, so that they can part again.
+template <int Dim>
+void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, double least_distance,
+                    Pairs<Dim>& pairs);
+
+}  // namespace tailwater

@@ -1,0 +1,32 @@
+// How full space is around a particle:
+//
+//   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j grad_i W_ij
+//
+// C is 1 (up to quadrature, see lattice.h) inside, smaller at a surface; -grad C points out of the fluid.
+#pragma once
+
+#include <span>
+
+#include "neighbours/pairs.h"
+
+namespace tailwater {
+
+template <int Dim>
+double concentration(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume, double W_0) {
+  double sum = volume[i] * W_0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    sum += volume[pairs.j[k]] * pairs.W[k];
+  }
+  return sum;
+}
+
+template <int Dim>
+Vec<Dim> concentration_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    sum += (volume[pairs.j[k]] * pairs.dW[k]) * pairs.e[k];
+  }
+  return sum;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,27 @@
+// Conservative pressure gradient with constant volumes:
+//
+//   grad p_i = sum_j w_j (p_i + p_j) grad_i W_ij,   grad_i W_ij = dW e_ij
+//
+// Antisymmetric pair by pair: linear momentum is conserved to round-off, and where neighbours are missing (p = 0 there)
+// the force is that of a free surface. Not zero for a constant p on a disordered set.
+#pragma once
+
+#include <span>
+
+#include "neighbours/pairs.h"
+
+namespace tailwater {
+
+/// Gradient of a scalar at particle i.
+template <int Dim>
+Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
+                               std::span<const double> field) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    sum += (volume[j] * pairs.dW[k] * (field[i] + field[j])) * pairs.e[k];
+  }
+  return sum;
+}
+
+}  // namespace tailwater

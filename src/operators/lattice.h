@@ -1,0 +1,17 @@
+// Sums over a full cubic lattice of spacing dx: what an interior particle of a perfect set sees. They are the reference
+// for "how much is missing here".
+#pragma once
+
+#include "kernel/kernel.h"
+
+namespace tailwater {
+
+struct LatticeSums {
+  double concentration = 0.0;  ///< w W(0) + sum w W, close to 1
+  double morris = 0.0;         ///< 1/m^2; sum of the Morris Laplacian weights
+};
+
+template <int Dim>
+LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing);
+
+}  // namespace tailwater

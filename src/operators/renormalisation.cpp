@@ -1,0 +1,76 @@
+#include "operators/renormalisation.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+/// Relative size below which a pivot of the B2 system counts as zero.
+constexpr double singular_pivot = 1e-9;
+
+template <int Dim>
+struct Moments {
+  using Third = Eigen::Matrix<double, Dim, symmetric_size<Dim>>;
+  using Fourth = Eigen::Matrix<double, symmetric_size<Dim>, symmetric_size<Dim>>;
+
+  Mat<Dim> A = Mat<Dim>::Zero();
+  Third C = Third::Zero();
+  Third D = Third::Zero();
+  Fourth E = Fourth::Zero();
+
+  void add(const Vec<Dim>& e, double r, double wW) {
+    const Packed<Dim> ee = packed_dyad<Dim>(e);
+    A += wW * e * e.transpose();
+    C += (wW / r) * e * ee.transpose();
+    D += (wW * r) * e * ee.transpose();
+    E += wW * ee * ee.transpose();
+  }
+};
+
+template <int Dim>
+Renormalisation<Dim> renormalisation_of(const Moments<Dim>& moments) {
+  Renormalisation<Dim> result;
+  result.trace_A = moments.A.trace();
+  result.least_eigenvalue_A = least_eigenvalue<Dim>(moments.A);
+  if (result.least_eigenvalue_A < 1e-9) return result;
+  result.B1 = moments.A.inverse();
+
+  // sum over a <= b of m_ab B2_ab M_ab,cd = I_cd, M = E - C . B1 . D, is the transposed system for m * B2.
+  const typename Moments<Dim>::Fourth M = moments.E - moments.C.transpose() * result.B1 * moments.D;
+  const Eigen::FullPivLU<typename Moments<Dim>::Fourth> factors(M.transpose());
+  if (factors.maxPivot() == 0.0 ||
+      std::abs(factors.matrixLU().diagonal()[symmetric_size<Dim> - 1]) < singular_pivot * factors.maxPivot()) {
+    return result;
+  }
+  const Packed<Dim> weighted_B2 = factors.solve(packed_identity<Dim>());
+  result.B2 = weighted_B2.cwiseQuotient(packed_multiplicity<Dim>());
+  result.drift = result.B1 * (moments.C * weighted_B2);
+  result.b2_sum = result.B2.cwiseAbs().sum();
+  result.has_inverse = true;
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+void compute_renormalisation(const Pairs<Dim>& pairs, std::span<const double> volume,
+                             std::span<const std::uint8_t> takes_part, std::span<Renormalisation<Dim>> result) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    Moments<Dim> moments;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!takes_part[j] || pairs.W[k] == 0.0) continue;
+      moments.add(pairs.e[k], pairs.r[k], volume[j] * pairs.W[k]);
+    }
+    result[i] = renormalisation_of(moments);
+  });
+}
+
+template void compute_renormalisation<2>(const Pairs<2>&, std::span<const double>, std::span<const std::uint8_t>,
+                                         std::span<Renormalisation<2>>);
+template void compute_renormalisation<3>(const Pairs<3>&, std::span<const double>, std::span<const std::uint8_t>,
+                                         std::span<Renormalisation<3>>);
+
+}  // namespace tailwater

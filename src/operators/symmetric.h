@@ -1,0 +1,64 @@
+// Symmetric Dim x Dim tensors as packed vectors: xx, xy, yy in 2D; xx, xy, xz, yy, yz, zz in 3D.
+#pragma once
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+template <int Dim>
+using Packed = Eigen::Matrix<double, symmetric_size<Dim>, 1>;
+
+/// a_c b_d for c <= d, symmetric when a = b.
+template <int Dim>
+Packed<Dim> packed_dyad(const Vec<Dim>& a) {
+  Packed<Dim> packed;
+  int n = 0;
+  for (int c = 0; c < Dim; ++c) {
+    for (int d = c; d < Dim; ++d) packed[n++] = a[c] * a[d];
+  }
+  return packed;
+}
+
+/// How often each packed entry stands in the full tensor: 1 on the diagonal, 2 off it. A : B = sum m A B.
+template <int Dim>
+Packed<Dim> packed_multiplicity() {
+  Packed<Dim> packed;
+  int n = 0;
+  for (int c = 0; c < Dim; ++c) {
+    for (int d = c; d < Dim; ++d) packed[n++] = c == d ? 1.0 : 2.0;
+  }
+  return packed;
+}
+
+template <int Dim>
+Packed<Dim> packed_identity() {
+  Packed<Dim> packed;
+  int n = 0;
+  for (int c = 0; c < Dim; ++c) {
+    for (int d = c; d < Dim; ++d) packed[n++] = c == d ? 1.0 : 0.0;
+  }
+  return packed;
+}
+
+template <int Dim>
+Mat<Dim> unpacked(const Packed<Dim>& packed) {
+  Mat<Dim> full;
+  int n = 0;
+  for (int c = 0; c < Dim; ++c) {
+    for (int d = c; d < Dim; ++d) {
+      full(c, d) = packed[n];
+      full(d, c) = packed[n++];
+    }
+  }
+  return full;
+}
+
+/// Least eigenvalue of a symmetric matrix.
+template <int Dim>
+double least_eigenvalue(const Mat<Dim>& matrix) {
+  Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
+  solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0];
+}
+
+}  // namespace tailwater
