@@ -1,0 +1,39 @@
+#include "io/pvd_series.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "io/write_file.h"
+
+namespace tailwater {
+
+PvdSeries::PvdSeries(std::filesystem::path folder, std::string name, int compression)
+    : folder_(std::move(folder)), name_(std::move(name)), compression_(compression) {}
+
+template <int Dim>
+void PvdSeries::write(double time, const ParticleFields<Dim>& particles) {
+  const EncodedPiece piece = encode_piece(particles, compression_);
+  write_vtp(folder_ / file_name(times_.size()), time, {&piece, 1}, compression_);
+  times_.push_back(time);
+  write_list();
+}
+
+std::string PvdSeries::file_name(std::size_t index) const { return fmt::format("{}_{:05}.vtp", name_, index); }
+
+void PvdSeries::write_list() const {
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    fmt::format_to(std::back_inserter(xml), "    <DataSet timestep=\"{}\" file=\"{}\"/>\n", times_[i], file_name(i));
+  }
+  xml += "  </Collection>\n</VTKFile>\n";
+  write_text_file(folder_ / (name_ + ".pvd"), xml);
+}
+
+template void PvdSeries::write<2>(double, const ParticleFields<2>&);
+template void PvdSeries::write<3>(double, const ParticleFields<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,35 @@
+// The field files of a run and the list of them with their times (ParaView's .pvd). The list is rewritten whole after
+// every file, so a killed run leaves a series that opens.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/vtp_writer.h"
+
+namespace tailwater {
+
+class PvdSeries {
+ public:
+  /// Files FOLDER/NAME_00000.vtp, ... listed in FOLDER/NAME.pvd; zlib level `compression`, 0 to 9.
+  PvdSeries(std::filesystem::path folder, std::string name, int compression);
+
+  /// Adds the fields at `time` [s]. Throws IoError.
+  template <int Dim>
+  void write(double time, const ParticleFields<Dim>& particles);
+
+  /// Number of files written.
+  std::size_t size() const { return times_.size(); }
+
+ private:
+  std::string file_name(std::size_t index) const;
+  void write_list() const;
+
+  std::filesystem::path folder_;
+  std::string name_;
+  int compression_;
+  std::vector<double> times_;
+};
+
+}  // namespace tailwater

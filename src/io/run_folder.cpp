@@ -1,0 +1,132 @@
+#include "io/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "base/error.h"
+#include "io/write_file.h"
+
+namespace tailwater {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> result_files{"case.effective.toml", "steps.csv", "summary.json"};
+constexpr std::array<std::string_view, 3> result_folders{"probes", "fields", "failure"};
+/// Endings of the files a run writes into its folders.
+constexpr std::array<std::string_view, 5> result_endings{".csv", ".vtp", ".pvd", ".txt", ".json"};
+
+void require(const std::error_code& error, std::string_view what, const fs::path& path) {
+  if (error) {
+    throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), error.message()));
+  }
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  require(error, "make the folder", path);
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    paths.push_back(entry->path());
+  }
+  require(error, "read the folder", folder);
+  return paths;
+}
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& list, const fs::path& name) {
+  return std::find(list.begin(), list.end(), name.string()) != list.end();
+}
+
+/// The name without the ending of a temporary file.
+fs::path final_name(const fs::path& path) {
+  return path.extension() == temporary_ending ? path.stem() : path.filename();
+}
+
+bool is_result_folder(const fs::path& path) {
+  return is_one_of(result_folders, path.filename()) && fs::is_directory(fs::symlink_status(path));
+}
+
+/// What an earlier run wrote into `folder`. Links are not followed.
+std::vector<fs::path> earlier_results(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::path& path : entries(folder)) {
+    if (is_result_folder(path)) {
+      for (const fs::path& inner : entries(path)) {
+        if (is_one_of(result_endings, final_name(inner).extension()) &&
+            fs::is_regular_file(fs::symlink_status(inner))) {
+          found.push_back(inner);
+        }
+      }
+    } else if (is_one_of(result_files, final_name(path)) && fs::is_regular_file(fs::symlink_status(path))) {
+      found.push_back(path);
+    }
+  }
+  return found;
+}
+
+void remove_earlier_results(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& path : earlier_results(folder)) {
+    fs::remove(path, error);
+    require(error, "remove", path);
+  }
+  const fs::path failure = folder / "failure";
+  if (is_result_folder(failure) && entries(failure).empty()) {
+    fs::remove(failure, error);
+    require(error, "remove", failure);
+  }
+}
+
+/// Permission bits do not tell: they do not bind root, and a file system may be read-only or full.
+void require_writable(const fs::path& folder) {
+  const fs::path trial = folder / ".tailwater-write-test";
+  write_text_file(trial, "can this folder be written?\n");
+  std::error_code error;
+  fs::remove(trial, error);
+  require(error, "remove", trial);
+}
+
+}  // namespace
+
+RunFolder RunFolder::create(const fs::path& path, bool force) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() != fs::file_type::not_found) {
+    require(error, "read", path);
+  }
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw InputError(fmt::format("output folder '{}' is a file: name another folder", path.string()));
+  }
+  if (fs::is_directory(status) && !force && !entries(path).empty()) {
+    throw InputError(
+        fmt::format("output folder '{}' is not empty: name another one, or add --force to replace the "
+                    "results in it",
+                    path.string()));
+  }
+  make_folder(path);
+  require_writable(path);
+  make_folder(path / "probes");
+  make_folder(path / "fields");
+  remove_earlier_results(path);
+  return RunFolder(path);
+}
+
+fs::path RunFolder::make_failure() const {
+  const fs::path failure = path_ / "failure";
+  make_folder(failure);
+  return failure;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,31 @@
+// The folder a run writes into, and the names of what is in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tailwater {
+
+class RunFolder {
+ public:
+  /// Makes the folder with its empty probes/ and fields/. Nothing is changed unless all of it can be.
+  /// InputError: `path` is a file, or a folder that is not empty and `force` is not given. IoError: it cannot be made,
+  /// read or written. With `force` the results of an earlier run go; what no run writes stays, wherever it lies.
+  static RunFolder create(const std::filesystem::path& path, bool force);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path effective_case() const { return path_ / "case.effective.toml"; }
+  std::filesystem::path steps() const { return path_ / "steps.csv"; }
+  std::filesystem::path summary() const { return path_ / "summary.json"; }
+  std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
+  std::filesystem::path fields() const { return path_ / "fields"; }
+  /// Where a run that fails leaves its last good fields; made here, at the first call. Throws IoError.
+  std::filesystem::path make_failure() const;
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  std::filesystem::path path_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,185 @@
+#include "io/vtp_writer.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <new>
+#include <numeric>
+#include <string_view>
+
+#include "base/assert.h"
+#include "base/fp_traps.h"
+#include "io/write_file.h"
+
+namespace tailwater {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "VTP files are written in the machine's byte order");
+
+/// VTK's own default: bytes per zlib block before compression.
+constexpr std::size_t block_size = 32768;
+
+void append_header(std::string& bytes, std::span<const std::uint64_t> words) {
+  bytes.append(reinterpret_cast<const char*>(words.data()), words.size_bytes());
+}
+
+/// [byte count] data
+void append_plain(std::string& bytes, std::string_view data) {
+  const std::uint64_t size = data.size();
+  append_header(bytes, {&size, 1});
+  bytes.append(data);
+}
+
+/// [block count][block size][size of a partial last block, or 0][compressed sizes...] compressed blocks
+void append_compressed(std::string& bytes, std::string_view data, int level) {
+  std::vector<std::uint64_t> header{(data.size() + block_size - 1) / block_size, block_size, data.size() % block_size};
+  std::string blocks;
+  std::vector<Bytef> buffer(compressBound(block_size));
+  for (std::size_t begin = 0; begin < data.size(); begin += block_size) {
+    const std::string_view block = data.substr(begin, block_size);
+    uLongf size = buffer.size();
+    const int status =
+        compress2(buffer.data(), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(), level);
+    if (status == Z_MEM_ERROR) {
+      throw std::bad_alloc();
+    }
+    TAILWATER_ASSERT(status == Z_OK, "zlib accepts levels 0 to 9 and a buffer of compressBound bytes");
+    header.push_back(size);
+    blocks.append(reinterpret_cast<const char*>(buffer.data()), size);
+  }
+  append_header(bytes, header);
+  bytes += blocks;
+}
+
+template <class Value>
+constexpr std::string_view vtk_type() {
+  if constexpr (std::is_same_v<Value, double>) {
+    return "Float64";
+  } else if constexpr (std::is_same_v<Value, float>) {
+    return "Float32";
+  } else {
+    static_assert(std::is_same_v<Value, std::int64_t>);
+    return "Int64";
+  }
+}
+
+/// Encodes `values` at the end of `piece` and describes where they are.
+template <class Value>
+EncodedPiece::Array append_array(EncodedPiece& piece, std::string name, int components,
+                                 const std::vector<Value>& values, int compression) {
+  EncodedPiece::Array array{std::move(name), std::string(vtk_type<Value>()), components, piece.bytes.size()};
+  const std::string_view data(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+  if (compression == 0) {
+    append_plain(piece.bytes, data);
+  } else {
+    append_compressed(piece.bytes, data, compression);
+  }
+  return array;
+}
+
+template <class Value, int Dim>
+std::vector<Value> three_components(std::span<const Vec<Dim>> vectors) {
+  std::vector<Value> values(3 * vectors.size(), Value(0));
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    for (int d = 0; d < Dim; ++d) {
+      values[3 * i + d] = static_cast<Value>(vectors[i][d]);
+    }
+  }
+  return values;
+}
+
+/// The values as they go into the file, for each kind of field.
+std::vector<float> stored(std::span<const double> values) {
+  std::vector<float> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<float>(v); });
+  return result;
+}
+template <int Dim>
+std::vector<float> stored(std::span<const Vec<Dim>> values) {
+  return three_components<float, Dim>(values);
+}
+std::vector<std::int64_t> stored(std::span<const std::int64_t> values) { return {values.begin(), values.end()}; }
+
+std::vector<std::int64_t> consecutive(std::size_t count, std::int64_t first) {
+  std::vector<std::int64_t> values(count);
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+
+void append_array_xml(std::string& xml, const EncodedPiece::Array& array, std::size_t piece_offset) {
+  fmt::format_to(
+      std::back_inserter(xml),
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+      array.type, array.name, array.components, piece_offset + array.offset);
+}
+
+void append_piece_xml(std::string& xml, const EncodedPiece& piece, std::size_t piece_offset) {
+  fmt::format_to(std::back_inserter(xml), "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\">\n", piece.count);
+  xml += "      <PointData>\n";
+  for (const EncodedPiece::Array& field : piece.fields) {
+    append_array_xml(xml, field, piece_offset);
+  }
+  xml += "      </PointData>\n      <Points>\n";
+  append_array_xml(xml, piece.points, piece_offset);
+  xml += "      </Points>\n      <Verts>\n";
+  append_array_xml(xml, piece.connectivity, piece_offset);
+  append_array_xml(xml, piece.offsets, piece_offset);
+  xml += "      </Verts>\n    </Piece>\n";
+}
+
+}  // namespace
+
+template <int Dim>
+EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression) {
+  // The fields of a failed run may exceed Float32; infinities in the file then tell so.
+  const SuspendFpTraps suspend;
+  EncodedPiece piece;
+  piece.count = particles.position.size();
+  for (const ParticleField<Dim>& field : particles.fields) {
+    std::visit(
+        [&]<class Value>(std::span<const Value> values) {
+          TAILWATER_ASSERT(values.size() == piece.count, "a field has one value per particle");
+          const int components = std::is_same_v<Value, Vec<Dim>> ? 3 : 1;
+          piece.fields.push_back(append_array(piece, field.name, components, stored(values), compression));
+        },
+        field.values);
+  }
+  piece.points = append_array(piece, "Points", 3, three_components<double, Dim>(particles.position), compression);
+  piece.connectivity = append_array(piece, "connectivity", 1, consecutive(piece.count, 0), compression);
+  piece.offsets = append_array(piece, "offsets", 1, consecutive(piece.count, 1), compression);
+  return piece;
+}
+
+void write_vtp(const std::filesystem::path& path, double time, std::span<const EncodedPiece> pieces, int compression) {
+  TAILWATER_ASSERT(!pieces.empty(), "VTK reads no file without a piece");
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
+      "  <PolyData>\n"
+      "    <FieldData>\n"
+      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n"
+      "    </FieldData>\n",
+      compression == 0 ? "" : " compressor=\"vtkZLibDataCompressor\"", time);
+  std::size_t piece_offset = 0;
+  for (const EncodedPiece& piece : pieces) {
+    append_piece_xml(xml, piece, piece_offset);
+    piece_offset += piece.bytes.size();
+  }
+  xml += "  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+
+  std::vector<std::string_view> parts{xml};
+  for (const EncodedPiece& piece : pieces) {
+    parts.emplace_back(piece.bytes);
+  }
+  parts.emplace_back("\n  </AppendedData>\n</VTKFile>\n");
+  write_file(path, parts);
+}
+
+template EncodedPiece encode_piece<2>(const ParticleFields<2>&, int);
+template EncodedPiece encode_piece<3>(const ParticleFields<3>&, int);
+
+}  // namespace tailwater

@@ -1,0 +1,59 @@
+// Particles as VTK XML PolyData (.vtp): points, one vertex per particle, point fields, the time as field data
+// "TimeValue". Appended raw binary, little endian, UInt64 headers, optionally zlib blocks (VTK file formats, "XML file
+// formats"). Points are Float64, fields Float32, integers Int64; in 2D the third coordinate is 0.
+//
+// Why VTP files listed by a PVD and not VTKHDF: the VTKHDF reader of Debian 12's ParaView (5.11) knows no time steps,
+// while PVD and VTP open alike there and in the newest one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+/// One named quantity, a value per particle. Borrows its values.
+template <int Dim>
+struct ParticleField {
+  std::string name;
+  std::variant<std::span<const double>, std::span<const Vec<Dim>>, std::span<const std::int64_t>> values;
+};
+
+/// What one field file shows of a set of particles. Borrows its values.
+template <int Dim>
+struct ParticleFields {
+  std::span<const Vec<Dim>> position;  ///< m
+  std::vector<ParticleField<Dim>> fields;
+};
+
+/// A <Piece> ready to be written: its arrays' descriptions and their encoded bytes. Offsets count from the first byte
+/// of this piece, so that pieces made on different ranks only need shifting.
+struct EncodedPiece {
+  struct Array {
+    std::string name;
+    std::string type;
+    int components;
+    std::size_t offset;
+  };
+  std::size_t count = 0;  ///< particles
+  std::vector<Array> fields;
+  Array points;
+  Array connectivity;
+  Array offsets;
+  std::string bytes;
+};
+
+/// Encodes particles with zlib level `compression` (0: none, up to 9).
+template <int Dim>
+EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression);
+
+/// Writes one file at time `time` [s] from one or more pieces that have the same fields and were all encoded with the
+/// same `compression`. Throws IoError; never leaves half a file.
+void write_vtp(const std::filesystem::path& path, double time, std::span<const EncodedPiece> pieces, int compression);
+
+}  // namespace tailwater

@@ -1,0 +1,24 @@
+// Whole files, written in one go: first under a temporary name beside the target, then renamed over it, so that a run
+// killed at any moment leaves either the old file or the new one.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace tailwater {
+
+/// Ending of the temporary name; a killed run may leave one such file.
+inline constexpr std::string_view temporary_ending = ".part";
+
+/// Writes `parts` one after the other as the file `path`. Throws IoError with the path and the system's reason; the
+/// file that stood there before is then untouched.
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts);
+
+/// The same for one text.
+void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// Throws IoError: "cannot WHAT 'path': the system's reason for `error_number`".
+[[noreturn]] void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number);
+
+}  // namespace tailwater

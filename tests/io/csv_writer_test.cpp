@@ -1,0 +1,64 @@
+#include "io/csv_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+
+#include "base/error.h"
+#include "io/temporary_folder.h"
+
+namespace tailwater {
+namespace {
+
+TEST(CsvWriter, WritesHeaderAndLinesAtOnce) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  CsvWriter csv(path, {"time_s", "depth_m"});
+  EXPECT_EQ(text_of(path), "time_s,depth_m\n");
+  csv.write(std::array{0.0, 0.5});
+  EXPECT_EQ(text_of(path), "time_s,depth_m\n0,0.5\n");  // while it is still open
+  csv.write(std::array{0.1, -2e-20});
+  EXPECT_EQ(text_of(path), "time_s,depth_m\n0,0.5\n0.1,-2e-20\n");
+}
+
+TEST(CsvWriter, NumbersReadBackExactly) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  const std::array values{1.0 / 3.0, 0.1 + 0.2, 1e300 / 7.0, std::numeric_limits<double>::denorm_min(),
+                          std::numeric_limits<double>::max()};
+  CsvWriter csv(path, {"a", "b", "c", "d", "e"});
+  csv.write(values);
+  const std::string text = text_of(path);
+  const char* cursor = text.c_str() + text.find('\n') + 1;
+  for (const double value : values) {
+    char* end = nullptr;
+    EXPECT_EQ(std::strtod(cursor, &end), value);
+    cursor = end + 1;
+  }
+}
+
+TEST(CsvWriter, EmptiesAnOlderFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  { CsvWriter(path, {"time_s"}).write(std::array{1.0}); }
+  { const CsvWriter csv(path, {"time_s"}); }
+  EXPECT_EQ(text_of(path), "time_s\n");
+}
+
+TEST(CsvWriter, ReportsAFolderThatDoesNotExist) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "missing" / "probe.csv";
+  const std::string message = message_of<IoError>([&] { CsvWriter(path, {"time_s"}); });
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+}
+
+TEST(CsvWriter, ReportsAFullDisk) {
+  const std::string message = message_of<IoError>([] { CsvWriter("/dev/full", {"time_s"}); });
+  EXPECT_NE(message.find("/dev/full"), std::string::npos) << message;
+  EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace tailwater

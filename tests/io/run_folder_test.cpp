@@ -1,0 +1,109 @@
+#include "io/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/temporary_folder.h"
+#include "io/write_file.h"
+
+namespace tailwater {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything below `folder`, sorted.
+std::vector<std::string> tree(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    names.push_back(fs::relative(entry.path(), folder).string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(RunFolder, IsMadeWithItsParents) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path() / "a" / "b", false);
+  EXPECT_EQ(run.path(), folder.path() / "a" / "b");
+  EXPECT_EQ(tree(run.path()), (Names{"fields", "probes"}));
+  EXPECT_EQ(run.probe("wall"), run.path() / "probes" / "wall.csv");
+}
+
+TEST(RunFolder, AnEmptyFolderIsTakenAsItIs) {
+  const TemporaryFolder folder;
+  RunFolder::create(folder.path(), false);
+  EXPECT_EQ(tree(folder.path()), (Names{"fields", "probes"}));
+}
+
+TEST(RunFolder, IsNeverOverwrittenUnasked) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "summary.json", "{}");
+  const std::string message = message_of<InputError>([&] { RunFolder::create(folder.path(), false); });
+  EXPECT_NE(message.find(folder.path().string()), std::string::npos) << message;
+  EXPECT_NE(message.find("--force"), std::string::npos) << message;
+  EXPECT_EQ(tree(folder.path()), (Names{"summary.json"}));
+}
+
+TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path(), false);
+  for (const fs::path& path :
+       {run.effective_case(), run.steps(), run.summary(), run.probe("wall"), run.fields() / "fields.pvd",
+        run.fields() / "fields_00000.vtp", run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
+    write_text_file(path, "result");
+  }
+  for (const char* name : {"notes.txt", "case.toml", "fields/view.pvsm", "probes/plot.py"}) {
+    write_text_file(folder.path() / name, "foreign");
+  }
+  fs::create_directory(folder.path() / "fields" / "old.vtp");
+  RunFolder::create(folder.path(), true);
+  EXPECT_EQ(tree(folder.path()), (Names{"case.toml", "fields", "fields/old.vtp", "fields/view.pvsm", "notes.txt",
+                                        "probes", "probes/plot.py"}));
+}
+
+TEST(RunFolder, ForceDoesNotFollowLinks) {
+  const TemporaryFolder elsewhere;
+  write_text_file(elsewhere.path() / "measured.csv", "foreign");
+  const TemporaryFolder folder;
+  fs::create_directory_symlink(elsewhere.path(), folder.path() / "probes");
+  fs::create_symlink(elsewhere.path() / "measured.csv", folder.path() / "steps.csv");
+  RunFolder::create(folder.path(), true);
+  EXPECT_EQ(text_of(elsewhere.path() / "measured.csv"), "foreign");
+}
+
+TEST(RunFolder, AFileInItsPlaceIsBadInput) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "out", "foreign");
+  for (const bool force : {false, true}) {
+    EXPECT_THROW(RunFolder::create(folder.path() / "out", force), InputError);
+  }
+  EXPECT_EQ(text_of(folder.path() / "out"), "foreign");
+}
+
+TEST(RunFolder, UnwritableIsAnIoErrorForRootToo) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "file", "foreign");
+  const auto below_a_file = folder.path() / "file" / "out";
+  const std::string message = message_of<IoError>([&] { RunFolder::create(below_a_file, false); });
+  EXPECT_NE(message.find(below_a_file.string()), std::string::npos) << message;
+  EXPECT_EQ(tree(folder.path()), (Names{"file"}));
+  // A file system on which nobody can make a folder.
+  EXPECT_THROW(RunFolder::create("/proc/tailwater", false), IoError);
+}
+
+TEST(RunFolder, NothingIsRemovedWhenItsFoldersCannotBeMade) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "summary.json", "result");
+  write_text_file(folder.path() / "fields", "a file where a folder must be");
+  EXPECT_THROW(RunFolder::create(folder.path(), true), IoError);
+  EXPECT_TRUE(fs::exists(folder.path() / "summary.json"));
+}
+
+}  // namespace
+}  // namespace tailwater

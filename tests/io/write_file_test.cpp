@@ -1,0 +1,83 @@
+#include "io/write_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <vector>
+
+#include "base/error.h"
+#include "io/temporary_folder.h"
+
+namespace tailwater {
+namespace {
+
+/// Files cannot grow beyond `bytes` while this lives: what a full disk looks like to the program.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &old_limit_);
+    const rlimit limit{bytes, old_limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_limit_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  rlimit old_limit_{};
+  void (*old_handler_)(int);
+};
+
+std::size_t count_entries(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+TEST(WriteFile, WritesThePartsInOrderAndReplacesTheOldFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "note.txt";
+  write_text_file(path, "the old text, which is longer");
+  const std::vector<std::string_view> parts{"one ", "", "two"};
+  write_file(path, parts);
+  EXPECT_EQ(text_of(path), "one two");
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(WriteFile, KeepsBytesAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_text_file(folder.path() / "bytes", bytes);
+  EXPECT_EQ(text_of(folder.path() / "bytes"), bytes);
+}
+
+TEST(WriteFile, NamesThePathAndTheReason) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "missing" / "note.txt";
+  const std::string message = message_of<IoError>([&] { write_text_file(path, "text"); });
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+  EXPECT_NE(message.find("No such file or directory"), std::string::npos) << message;
+}
+
+TEST(WriteFile, AFailedWriteKeepsTheOldFileAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "note.txt";
+  write_text_file(path, "old");
+  // Shorter than a buffer (fails when the file is closed) and longer (fails while writing).
+  for (const std::size_t size : {2000u, 1000000u}) {
+    const FileSizeLimit limit(1000);
+    EXPECT_THROW(write_text_file(path, std::string(size, 'x')), IoError) << size;
+  }
+  EXPECT_EQ(text_of(path), "old");
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(WriteFile, DoesNotReplaceAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "note.txt");
+  EXPECT_THROW(write_text_file(folder.path() / "note.txt", "text"), IoError);
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+}  // namespace
+}  // namespace tailwater
