@@ -13,7 +13,7 @@ using Mat = Eigen::Matrix<double, Dim, Dim>;
 
 /// Number of independent entries of a symmetric Dim x Dim tensor: 3 in 2D, 6 in 3D.
 template <int Dim>
-inline constexpr int symmetric_size = Dim * (Dim + 1) / 2;
+inline constexpr int symmetric_size = Dim*(Dim + 1) / 2;
 
 /// A length to the power Dim: the area (2D) or volume (3D) of a cube with that edge.
 template <int Dim>

@@ -1,5 +1,5 @@
-// Wendland's C2 kernel: W = s (1 - q)^4 (1 + 4 q), q = r/R. Its positive Fourier transform keeps particles from pairing.
-// Wendland (1995); Dehnen & Aly (2012), table 1.
+// Wendland's C2 kernel: W = s (1 - q)^4 (1 + 4 q), q = r/R. Its positive Fourier transform keeps particles from
+// pairing. Wendland (1995); Dehnen & Aly (2012), table 1.
 #pragma once
 
 #include <numbers>

@@ -42,7 +42,7 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
 
 template <int Dim>
 void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
-  wrap_positions(domain_, particles);
+  wrap_positions<Dim>(domain_, particles);
   particles.resize(particles.owned);
   const CellGrid<Dim> grid(particles.position, kernel_radius(kernel_) + skin_);
   permute(grid.order(), particles.position);
@@ -70,7 +70,7 @@ void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
   ++rebuilds_;
   const double reach = kernel_radius(kernel_) + skin_;
   particles.resize(particles.owned);
-  halo_ = make_halo(domain_, reach, particles);
+  halo_ = make_halo<Dim>(domain_, reach, particles);
   grid_ = CellGrid<Dim>(particles.position, reach);
   position_at_rebuild_.assign(particles.position.begin(),
                               particles.position.begin() + static_cast<std::ptrdiff_t>(particles.owned));

@@ -18,9 +18,8 @@ Vec<Dim> consistent_gradient_weight(const Mat<Dim>& B1, double volume_j, const V
 
 /// Gradient of a scalar at particle i.
 template <int Dim>
-Vec<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& B1,
-                             std::span<const double> volume, std::span<const std::uint8_t> takes_part,
-                             std::span<const double> field) {
+Vec<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& B1, std::span<const double> volume,
+                             std::span<const std::uint8_t> takes_part, std::span<const double> field) {
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
@@ -32,9 +31,8 @@ Vec<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<D
 
 /// Gradient of a vector at particle i: result(a, b) = d field_a / d x_b.
 template <int Dim>
-Mat<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& B1,
-                             std::span<const double> volume, std::span<const std::uint8_t> takes_part,
-                             std::span<const Vec<Dim>> field) {
+Mat<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& B1, std::span<const double> volume,
+                             std::span<const std::uint8_t> takes_part, std::span<const Vec<Dim>> field) {
   Mat<Dim> sum = Mat<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];

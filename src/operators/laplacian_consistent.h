@@ -20,8 +20,8 @@ double consistent_laplacian_weight(const Renormalisation<Dim>& tensors, double v
   return 2.0 * volume_j * W / r * (B2_ee / r - tensors.drift.dot(e));
 }
 
-/// The scaled two-point weight that stands in for a row whose B2 is unsound (method.md 2): 2 w W/r^2 * 2/max(0.5, tr A),
-/// of one sign. Distances below dx/2 count as dx/2.
+/// The scaled two-point weight that stands in for a row whose B2 is unsound (method.md 2): 2 w W/r^2 * 2/max(0.5, tr
+/// A), of one sign. Distances below dx/2 count as dx/2.
 template <int Dim>
 double fallback_laplacian_weight(const Renormalisation<Dim>& tensors, double volume_j, double r, double W,
                                  double spacing) {

@@ -2,8 +2,8 @@
 //
 //   lap v_i = sum_j 2 w_j (-dW_ij/dr / r_ij) (v_i - v_j) * (-1)
 //
-// All weights have one sign, so a matrix made of it is an M-matrix; pairs are antisymmetric, so it conserves. Exact only
-// for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.
+// All weights have one sign, so a matrix made of it is an M-matrix; pairs are antisymmetric, so it conserves. Exact
+// only for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,43 @@
+// Where the free surface is. Three tests, one result: a mark on surface particles.
+//
+//   air     C/C_0 < 0.85: marks for shifting and statistics only; the pressure equation then needs no marks at all
+//   cone    no neighbour within 2.3 dx in a cone of opening 105 degrees around the outward normal -grad C, and
+//           sum w W < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. What worked in prototypes of the
+//           published scheme (method.md 3); the cone around the normal replaces their angular gap, which is 2D only.
+//   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
+//           (printed 0.25, but a flat regular surface reads 0.240), c: S_B2 > 14, d: det A = 0 (printed det B1)
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "case/choices.h"
+#include "operators/renormalisation.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// What the tests look at. `concentration` is C/C_0; `tensors` are needed by cone and farzin only.
+template <int Dim>
+struct SurfaceInput {
+  const Pairs<Dim>& pairs;
+  const Particles<Dim>& particles;
+  std::span<const double> concentration;
+  std::span<const Vec<Dim>> concentration_gradient;
+  std::span<const Renormalisation<Dim>> tensors;
+  double spacing;
+  double lattice_concentration;  ///< C_0
+  double W_0;
+};
+
+/// Marks owned fluid particles on the free surface; walls are never marked.
+template <int Dim>
+void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, std::span<std::uint8_t> is_surface);
+
+/// Marks fluid particles that are on the surface or within 2 dx of a particle that is. `is_surface` must be up to date
+/// on ghosts.
+template <int Dim>
+void find_near_surface(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                       std::span<const std::uint8_t> is_surface, std::span<std::uint8_t> is_near);
+
+}  // namespace tailwater

@@ -1,0 +1,88 @@
+#include "closures/shifting.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+/// A particle with fewer neighbours is spray: there is no evenness to keep.
+constexpr int fewest_neighbours = 8;
+
+template <int Dim>
+Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                        std::size_t i) {
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const double ratio = pairs.W[k] / law.W_spacing;
+    const double tensile = 1.0 + 0.2 * ratio * ratio * ratio * ratio;
+    gradient += particles.volume[pairs.j[k]] * tensile * pairs.dW[k] * pairs.e[k];
+  }
+  return -law.spacing * gradient;
+}
+
+template <int Dim>
+Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (pairs.W[k] == 0.0) continue;
+    sum += pairs.r[k];
+    ++count;
+  }
+  const double mean_distance = sum / count;
+  Vec<Dim> direction = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (pairs.W[k] == 0.0) continue;
+    const double ratio = mean_distance / pairs.r[k];
+    direction += ratio * ratio * ratio * pairs.e[k];
+  }
+  return direction;
+}
+
+template <int Dim>
+int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
+  int count = 0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) count += pairs.W[k] > 0.0;
+  return count;
+}
+
+}  // namespace
+
+template <int Dim>
+std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                          std::span<const std::uint8_t> is_near_surface,
+                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
+  std::size_t capped = 0;
+  for_each(pairs.owned(), [&](std::size_t i) {
+    shift[i].setZero();
+    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return;
+    const Vec<Dim> direction =
+        law.kind == ShiftingKind::lind ? lind_direction(law, pairs, particles, i) : farzin_direction(pairs, i);
+    shift[i] = law.strength * particles.velocity[i].norm() * dt * direction;
+    if (is_near_surface[i]) {
+      const double steepness = concentration_gradient[i].norm();
+      if (steepness * law.spacing > 1e-3) {
+        const Vec<Dim> normal = concentration_gradient[i] / steepness;
+        shift[i] -= shift[i].dot(normal) * normal;
+      }
+    }
+    const double length = shift[i].norm();
+    if (length > law.cap) {
+      shift[i] *= law.cap / length;
+      ++capped;
+    }
+  });
+  return capped;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                              \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, const Pairs<Dim>&, const Particles<Dim>&, \
+                                          std::span<const std::uint8_t>, std::span<const Vec<Dim>>,             \
+                                          std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,34 @@
+// Particle shifting: small displacements that keep the set evenly spread.
+//
+//   lind    dr_i = -s |u_i| dt dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012)
+//   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F31)
+//
+// Both: no part along the free surface's normal within 2 dx of it, capped at a share of dx, nothing for particles with
+// few neighbours. (F32), the correction of u and p by their gradients, belongs to the published scheme and is done
+// there.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "case/choices.h"
+#include "neighbours/pairs.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+struct ShiftingLaw {
+  ShiftingKind kind = ShiftingKind::lind;
+  double strength = 0.0;   ///< s or eps
+  double cap = 0.0;        ///< m
+  double spacing = 0.0;    ///< m
+  double W_spacing = 0.0;  ///< 1/m^Dim; W(dx)
+};
+
+/// Shift [m] of every owned particle (zero for walls). Returns how many were capped.
+template <int Dim>
+std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                          std::span<const std::uint8_t> is_near_surface,
+                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
+
+}  // namespace tailwater

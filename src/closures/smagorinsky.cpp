@@ -1,0 +1,58 @@
+#include "closures/smagorinsky.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+#include "operators/renormalisation.h"
+
+namespace tailwater {
+
+template <int Dim>
+void sub_particle_stress(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double c_s, double spacing,
+                         std::span<const Vec<Dim>> velocity, std::span<Mat<Dim>> stress) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    stress[i].setZero();
+    if (!particles.is_fluid(i)) return;
+    Mat<Dim> A = Mat<Dim>::Zero();
+    Mat<Dim> sum = Mat<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!particles.is_fluid(j)) continue;
+      const double wW = particles.volume[j] * pairs.W[k];
+      A += wW * pairs.e[k] * pairs.e[k].transpose();
+      sum -= wW / pairs.r[k] * (velocity[j] - velocity[i]) * pairs.e[k].transpose();
+    }
+    if (least_eigenvalue<Dim>(A) < least_sound_eigenvalue) return;
+    const Mat<Dim> gradient = sum * A.inverse();
+    const Mat<Dim> S = 0.5 * (gradient + gradient.transpose());
+    const double nu_t = c_s * c_s * spacing * spacing * std::sqrt(2.0) * S.norm();
+    const double k_sps = std::pow(nu_t / (0.08 * spacing), 2);
+    stress[i] = 2.0 * nu_t * S - 2.0 / 3.0 * k_sps * Mat<Dim>::Identity();
+  });
+}
+
+template <int Dim>
+void add_stress_divergence(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const Mat<Dim>> stress,
+                           std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!particles.is_fluid(j)) continue;
+      sum += particles.volume[j] * pairs.dW[k] * ((stress[i] + stress[j]) * pairs.e[k]);
+    }
+    acceleration[i] += sum;
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                              \
+  template void sub_particle_stress<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,              \
+                                         std::span<const Vec<Dim>>, std::span<Mat<Dim>>);                       \
+  template void add_stress_divergence<Dim>(const Pairs<Dim>&, const Particles<Dim>&, std::span<const Mat<Dim>>, \
+                                           std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

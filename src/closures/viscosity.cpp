@@ -1,0 +1,73 @@
+#include "closures/viscosity.h"
+
+#include "base/for_each.h"
+#include "operators/laplacian_consistent.h"
+#include "operators/laplacian_morris.h"
+
+namespace tailwater {
+
+template <int Dim>
+void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {
+  for_each(velocity.size(), [&](std::size_t i) { viscosity[i] = law.at_speed(velocity[i].norm()); });
+}
+
+template <int Dim>
+void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
+                          double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                          std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      const double weight = morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
+      if (particles.is_fluid(j)) {
+        sum += weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
+        continue;
+      }
+      const auto row = particles.wall_row[j];
+      const double lambda = walls.friction[row];
+      if (lambda == 0.0) continue;
+      const Vec<Dim> difference = -wall_mean[j] - velocity[i];
+      sum += lambda * weight * viscosity[i] * (difference - walls.particles.blocked[row] * difference);
+    }
+    acceleration[i] += sum;
+  });
+}
+
+template <int Dim>
+void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                              std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,
+                              double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                              std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    if (tensors[i].laplacian_is_sound()) {
+      acceleration[i] += viscosity[i] * consistent_laplacian<Dim, Vec<Dim>>(pairs, i, tensors[i], particles.volume,
+                                                                            takes_part, velocity, Vec<Dim>::Zero());
+      return;
+    }
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!takes_part[j]) continue;
+      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r[k], pairs.W[k], spacing) *
+             (velocity[j] - velocity[i]);
+    }
+    acceleration[i] += viscosity[i] * sum;
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
+  template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
+  template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&, double,    \
+                                          std::span<const double>, std::span<const Vec<Dim>>,                         \
+                                          std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                            \
+  template void add_consistent_viscosity<Dim>(                                                                        \
+      const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
+      double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,43 @@
+// Effective viscosity and the viscous acceleration.
+//
+//   nu_eff = nu_0 + max(c_a |u| dx, c_f dx sqrt(g L))        (F3) with a floor
+//
+// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (method.md 3).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "closures/wall_velocity.h"
+#include "operators/renormalisation.h"
+
+namespace tailwater {
+
+struct ViscosityLaw {
+  double molecular = 0.0;   ///< m^2/s; nu_0
+  double artificial = 0.0;  ///< m; c_a dx, times |u| gives nu_a
+  double floor = 0.0;       ///< m^2/s; c_f dx sqrt(g L)
+
+  double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
+};
+
+/// Effective viscosity [m^2/s] of every particle, ghosts included.
+template <int Dim>
+void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity);
+
+/// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, c_ij the Morris
+/// weight; conserves momentum and never adds energy. Walls add friction lambda times the no-slip stress: the tangential
+/// part of c_ij nu_i (-mean_w - u_i).
+template <int Dim>
+void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
+                          double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                          std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
+
+/// nu_i lap u by the consistent operator (F12), by its two-point fallback where that is unsound.
+template <int Dim>
+void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                              std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,
+                              double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                              std::span<Vec<Dim>> acceleration);
+
+}  // namespace tailwater

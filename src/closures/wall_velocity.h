@@ -1,0 +1,40 @@
+// Velocity of the particles that stand for walls.
+//
+//   mean_w = sum_f W u_f / sum_f W                       (Shepard mean of the fluid in reach)
+//   dummies:        u_w = (I - 2 M) mean - 2 lambda (I - M) mean     the mirror image: normal part reversed, tangential
+//                                                        part kept (lambda = 0, free slip) ... reversed (1, no slip)
+//   pressure rows:  u_w = (1 - lambda) (I - M) mean      the particle is on the wall: nothing goes through it
+//
+// M is the projector on the directions the wall blocks, lambda the wall's friction. A wall particle with no fluid in
+// reach is dry and at rest. Mirror images after Adami, Hu & Adams (2012), with their slip generalised.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "geometry/sampling.h"
+#include "neighbours/pairs.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// The walls as a step needs them: what each wall particle is, by its row in the table.
+template <int Dim>
+struct WallModel {
+  WallParticles<Dim> particles;
+  std::vector<double> friction;  ///< lambda of each wall particle's wall
+  WallTreatment treatment = WallTreatment::dummies;
+};
+
+/// Fills `fluid_weight` [1/m^Dim] (sum of W over fluid neighbours; 0 for fluid particles) and `is_wet` for walls.
+template <int Dim>
+void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double W_0,
+                    std::span<double> fluid_weight, std::span<std::uint8_t> is_wet);
+
+/// Sets the wall entries of `velocity`, and of `mean` to the Shepard mean it came from. Fluid entries stay.
+template <int Dim>
+void set_wall_velocity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
+                       std::span<const double> fluid_weight, std::span<const std::uint8_t> is_wet,
+                       std::span<Vec<Dim>> mean, std::span<Vec<Dim>> velocity);
+
+}  // namespace tailwater

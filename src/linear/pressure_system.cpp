@@ -1,0 +1,218 @@
+#include "linear/pressure_system.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/fp_traps.h"
+#include "linear/petsc.h"
+
+namespace tailwater {
+namespace {
+
+/// Below this many unknowns ILU(0) with BiCGStab costs less than algebraic multigrid with its set-up
+/// (docs/theory/linear.md gives the measurement).
+constexpr std::size_t multigrid_pays_from = 40000;
+
+/// Norm of the right-hand side below which the answer is zero pressure: nothing drives it.
+constexpr double vanishing_rhs = 1e-300;
+
+constexpr int longest_history = 2000;
+
+static_assert(sizeof(PetscInt) == sizeof(int), "the CSR arrays are shared with PETSc");
+static_assert(sizeof(PetscScalar) == sizeof(double), "the values are shared with PETSc");
+
+KSPType krylov_type(KrylovMethod method, std::size_t unknowns) {
+  switch (method) {
+    case KrylovMethod::bicgstab:
+      return KSPBCGS;
+    case KrylovMethod::gmres:
+      return KSPGMRES;
+    case KrylovMethod::fgmres:
+      return KSPFGMRES;
+    case KrylovMethod::automatic:
+      break;
+  }
+  return unknowns < multigrid_pays_from ? KSPBCGS : KSPGMRES;
+}
+
+PCType preconditioner_type(PreconditionerName name, std::size_t unknowns) {
+  switch (name) {
+    case PreconditionerName::ilu:
+      return PCILU;
+    case PreconditionerName::boomeramg:
+      return PCHYPRE;
+    case PreconditionerName::gamg:
+      return PCGAMG;
+    case PreconditionerName::jacobi:
+      return PCJACOBI;
+    case PreconditionerName::automatic:
+      break;
+  }
+  return unknowns < multigrid_pays_from ? PCILU : PCHYPRE;
+}
+
+}  // namespace
+
+struct PressureSystem::Petsc {
+  PetscMatrix matrix;
+  PetscVector rhs;
+  PetscVector solution;
+  PetscKrylovSolver solver;
+  PetscNullSpace constants;
+  std::size_t solver_size = 0;
+};
+
+PressureSystem::PressureSystem(const PressureSolverTable& settings)
+    : settings_(settings), petsc_(std::make_unique<Petsc>()) {
+  if (!settings_.petsc_options.empty()) {
+    check_petsc(PetscOptionsInsertString(nullptr, settings_.petsc_options.c_str()));
+  }
+}
+
+PressureSystem::~PressureSystem() = default;
+
+void PressureSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns) {
+  const std::size_t rows = row_begin.size() - 1;
+  const std::size_t entries = columns.size() + rows;
+  pattern_is_new_ = true;
+  pattern_begin_.assign(row_begin.begin(), row_begin.end());
+  csr_begin_.resize(rows + 1);
+  csr_column_.resize(entries);
+  csr_value_.assign(entries, 0.0);
+  slot_.resize(columns.size());
+  diagonal_slot_.resize(rows);
+  rhs_.assign(rows, 0.0);
+  scale_.assign(rows, 1.0);
+
+  std::vector<std::pair<int, int>> row;  // column and place in the pattern, -1 for the diagonal
+  csr_begin_[0] = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    row.clear();
+    row.emplace_back(static_cast<int>(i), -1);
+    for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) {
+      row.emplace_back(columns[k], static_cast<int>(k));
+    }
+    std::sort(row.begin(), row.end());
+    int slot = csr_begin_[i];
+    for (const auto& [column, place] : row) {
+      csr_column_[slot] = column;
+      (place < 0 ? diagonal_slot_[i] : slot_[place]) = slot;
+      ++slot;
+    }
+    csr_begin_[i + 1] = slot;
+  }
+}
+
+PressureSystem::Row::Row(PressureSystem& system, std::size_t i)
+    : system_(system), i_(i), slot_(system.slot_.data() + system.pattern_begin_[i]), value_(system.csr_value_.data()) {}
+
+void PressureSystem::Row::finish(double diagonal, double rhs) {
+  TAILWATER_ASSERT(diagonal != 0.0, "a pressure row has no diagonal");
+  const double scale = 1.0 / diagonal;
+  for (int slot = system_.csr_begin_[i_]; slot < system_.csr_begin_[i_ + 1]; ++slot) value_[slot] *= -scale;
+  value_[system_.diagonal_slot_[i_]] = 1.0;
+  system_.rhs_[i_] = scale * rhs;
+  system_.scale_[i_] = scale;
+}
+
+void PressureSystem::Row::finish_as_zero() {
+  std::fill(value_ + system_.csr_begin_[i_], value_ + system_.csr_begin_[i_ + 1], 0.0);
+  finish(1.0, 0.0);
+}
+
+void PressureSystem::make_rhs_consistent() {
+  // The unscaled operator is symmetric, so its right-hand side must sum to zero.
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rhs_.size(); ++i) sum += rhs_[i] / scale_[i];
+  const double mean = sum / static_cast<double>(rhs_.size());
+  for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];
+}
+
+SolveReport PressureSystem::solve(std::span<double> solution) {
+  const SuspendFpTraps suspended;
+  TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
+  const auto rows = static_cast<PetscInt>(size());
+  if (constant_is_free_) make_rhs_consistent();
+  const double rhs_norm = std::sqrt(std::inner_product(rhs_.begin(), rhs_.end(), rhs_.begin(), 0.0));
+  if (!std::isfinite(rhs_norm)) {
+    throw SolverError("the source of the pressure equation is not finite");
+  }
+  if (rhs_norm < vanishing_rhs) {
+    std::fill(solution.begin(), solution.end(), 0.0);
+    return {};
+  }
+
+  Petsc& petsc = *petsc_;
+  if (pattern_is_new_) {
+    check_petsc(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows, rows, csr_begin_.data(), csr_column_.data(),
+                                          csr_value_.data(), petsc.matrix.create()));
+    check_petsc(MatSetOption(petsc.matrix.get(), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
+    if (constant_is_free_) {
+      check_petsc(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_TRUE, 0, nullptr, petsc.constants.create()));
+      check_petsc(MatSetNullSpace(petsc.matrix.get(), petsc.constants.get()));
+    }
+    pattern_is_new_ = false;
+  }
+  // The values were refreshed in the shared array; taking and returning it tells PETSc so.
+  PetscScalar* values = nullptr;
+  check_petsc(MatSeqAIJGetArray(petsc.matrix.get(), &values));
+  check_petsc(MatSeqAIJRestoreArray(petsc.matrix.get(), &values));
+  check_petsc(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, rhs_.data(), petsc.rhs.create()));
+  check_petsc(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, solution.data(), petsc.solution.create()));
+
+  if (petsc.solver_size != size()) {
+    check_petsc(KSPCreate(PETSC_COMM_SELF, petsc.solver.create()));
+    petsc.solver_size = size();
+    KSP solver = petsc.solver.get();
+    check_petsc(KSPSetOptionsPrefix(solver, "pressure_"));
+    check_petsc(KSPSetType(solver, krylov_type(settings_.method, size())));
+    PC preconditioner = nullptr;
+    check_petsc(KSPGetPC(solver, &preconditioner));
+    check_petsc(PCSetType(preconditioner, preconditioner_type(settings_.preconditioner, size())));
+    check_petsc(KSPSetPCSide(solver, PC_RIGHT));
+    check_petsc(KSPSetTolerances(solver, settings_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings_.max_iterations));
+    check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
+    check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
+    check_petsc(KSPSetFromOptions(solver));
+  }
+  KSP solver = petsc.solver.get();
+  check_petsc(KSPSetOperators(solver, petsc.matrix.get(), petsc.matrix.get()));
+  check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
+
+  SolveReport report;
+  PetscInt iterations = 0;
+  PetscReal residual = 0.0;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check_petsc(KSPGetIterationNumber(solver, &iterations));
+  check_petsc(KSPGetResidualNorm(solver, &residual));
+  check_petsc(KSPGetConvergedReason(solver, &reason));
+  report.iterations = static_cast<int>(iterations);
+  report.residual = residual / rhs_norm;
+  if (reason <= 0) {
+    const PetscReal* history = nullptr;
+    PetscInt length = 0;
+    check_petsc(KSPGetResidualHistory(solver, &history, &length));
+    std::vector<double> shown;
+    const PetscInt stride = std::max<PetscInt>(1, length / 12);
+    for (PetscInt k = 0; k < length; k += stride) shown.push_back(history[k] / rhs_norm);
+    throw SolverError(fmt::format(
+        "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
+        "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
+        "another pressure_solver.method or preconditioner",
+        KSPConvergedReasons[reason], report.iterations, report.residual, settings_.tolerance, rows,
+        fmt::join(shown, ", ")));
+  }
+  if (constant_is_free_) {
+    const double mean = std::accumulate(solution.begin(), solution.end(), 0.0) / static_cast<double>(solution.size());
+    for (double& value : solution) value -= mean;
+  }
+  return report;
+}
+
+}  // namespace tailwater

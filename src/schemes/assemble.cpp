@@ -1,0 +1,188 @@
+// The pressure equation, row by row. For fluid particle i
+//
+//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho clamp(C/C_0 - 1, 0, 0.1)/dt^2
+//
+// c_ij      weights of the Laplacian: Morris, or consistent (F23)
+// a_i       max(0, A_0 - sum_j c_ij), A_0 the sum of a full lattice: missing neighbours count as air at p = 0 (the idea
+// of
+//           Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead,
+//           whose rows are p = 0
+// gamma     share of the density error that a step corrects: particles too close are pushed apart, never pulled
+// together
+//
+// Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
+// M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "operators/divergence.h"
+#include "operators/gradient_consistent.h"
+#include "operators/laplacian_consistent.h"
+#include "operators/laplacian_morris.h"
+#include "schemes/verbs.h"
+#include "schemes/wall_state.h"
+
+namespace tailwater {
+namespace {
+
+/// The density source answers errors up to this: a pile-up is dissolved over some steps, not blown up in one.
+constexpr double largest_density_error = 0.1;
+
+template <int Dim>
+double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
+  const double error = std::clamp(flow.concentration[i] - 1.0, 0.0, largest_density_error);
+  return flow.scheme.density_relaxation * flow.density * error / (dt * dt);
+}
+
+/// Sets the weights of row i by weight(k) and returns their sum.
+template <int Dim, class Weight>
+double set_weights(const Pairs<Dim>& pairs, std::size_t i, PressureSystem::Row& row, Weight&& weight) {
+  double sum = 0.0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const double c_ij = weight(k);
+    row.set_weight(k - pairs.begin(i), c_ij);
+    sum += c_ij;
+  }
+  return sum;
+}
+
+template <int Dim>
+double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, PressureSystem::Row& row, bool& fell_back) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const std::vector<double>& volume = flow.particles.volume;
+  if (flow.scheme.laplacian == LaplacianKind::morris) {
+    return set_weights(pairs, i, row, [&](std::size_t k) {
+      return flow.takes_part[pairs.j[k]]
+                 ? morris_laplacian_weight(volume[pairs.j[k]], pairs.r[k], pairs.dW[k], flow.spacing)
+                 : 0.0;
+    });
+  }
+  const Renormalisation<Dim>& tensors = flow.tensors[i];
+  if (tensors.laplacian_is_sound()) {
+    const double sum = set_weights(pairs, i, row, [&](std::size_t k) {
+      return flow.takes_part[pairs.j[k]]
+                 ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e[k], pairs.r[k], pairs.W[k])
+                 : 0.0;
+    });
+    if (sum > 0.0) return sum;
+  }
+  fell_back = true;
+  return set_weights(pairs, i, row, [&](std::size_t k) {
+    return flow.takes_part[pairs.j[k]]
+               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r[k], pairs.W[k], flow.spacing)
+               : 0.0;
+  });
+}
+
+/// Returns whether the row had to fall back to two-point weights.
+template <int Dim>
+bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
+  PressureSystem::Row row = flow.pressure_system.row(i);
+  const bool has_air = flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
+  if (!has_air && flow.is_surface[i] && !flow.is_closed) {
+    row.finish_as_zero();
+    return false;
+  }
+  bool fell_back = false;
+  const double sum = set_laplacian_weights(flow, i, row, fell_back);
+  const double air = has_air ? std::max(0.0, flow.lattice.morris - sum) : 0.0;
+  if (sum + air <= 0.0) {
+    row.finish_as_zero();  // a lone particle: nothing around it, no pressure
+    return fell_back;
+  }
+  row.finish(sum + air, -flow.density / dt * divergence_at(flow, i, flow.u_star) + density_source(flow, i, dt));
+  return fell_back;
+}
+
+template <int Dim>
+void assemble_dummy_row(Flow<Dim>& flow, std::size_t i) {
+  PressureSystem::Row row = flow.pressure_system.row(i);
+  if (!flow.is_wet[i]) {
+    row.finish_as_zero();
+    return;
+  }
+  const Pairs<Dim>& pairs = flow.pairs();
+  double rhs = 0.0;
+  set_weights(pairs, i, row, [&](std::size_t k) {
+    if (!flow.particles.is_fluid(pairs.j[k])) return 0.0;
+    const double share = pairs.W[k] / flow.wall_fluid_weight[i];
+    rhs += share * hydrostatic_difference(flow, k);
+    return share;
+  });
+  row.finish(1.0, rhs);
+}
+
+template <int Dim>
+void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
+  PressureSystem::Row row = flow.pressure_system.row(i);
+  const Renormalisation<Dim>& tensors = flow.tensors[i];
+  if (!flow.is_wet[i] || !tensors.gradient_is_sound()) {
+    row.finish_as_zero();
+    return;
+  }
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Vec<Dim> normal = flow.walls.particles.normal[flow.particles.wall_row[i]];
+  const double sum = set_weights(pairs, i, row, [&](std::size_t k) {
+    if (!flow.takes_part[pairs.j[k]]) return 0.0;
+    return consistent_gradient_weight<Dim>(tensors.B1, flow.particles.volume[pairs.j[k]], pairs.e[k], pairs.r[k],
+                                           pairs.W[k])
+        .dot(normal);
+  });
+  if (sum <= 0.0) {
+    row.finish_as_zero();
+    return;
+  }
+  row.finish(sum, -flow.density * flow.gravity.dot(normal));  // (F39)
+}
+
+}  // namespace
+
+template <int Dim>
+double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity) {
+  if (flow.scheme.divergence == DivergenceKind::standard) {
+    return standard_divergence<Dim>(flow.pairs(), i, flow.particles.volume, velocity);
+  }
+  const Renormalisation<Dim>& tensors = flow.tensors[i];
+  if (!tensors.gradient_is_sound()) return 0.0;
+  return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, flow.particles.volume, flow.takes_part,
+                                  std::span<const Vec<Dim>>(velocity))
+      .trace();
+}
+
+template <int Dim>
+void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (flow.particles.is_fluid(i)) {
+      interventions.fallback_rows += assemble_fluid_row(flow, i, dt);
+    } else if (flow.walls.treatment == WallTreatment::dummies) {
+      assemble_dummy_row(flow, i);
+    } else {
+      assemble_pressure_row(flow, i);
+    }
+  });
+}
+
+template <int Dim>
+double bulk_divergence(Flow<Dim>& flow) {
+  update_wall_velocity(flow, flow.particles.velocity);
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i) || flow.is_near_surface[i]) continue;
+    const double divergence = divergence_at(flow, i, flow.particles.velocity);
+    squares += divergence * divergence;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                 \
+  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&); \
+  template void assemble<Dim>(Flow<Dim>&, double, Interventions&);                                 \
+  template double bulk_divergence<Dim>(Flow<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,32 @@
+#include "schemes/projection.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+
+template <int Dim>
+StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
+  StepReport report;
+  report.dt = dt;
+  report.passes = 1;
+  remember(flow);
+  locate(flow);
+  predict(flow, dt);                         // (F14)
+  assemble(flow, dt, report.interventions);  // (F15)
+  const SolveReport solved = solve(flow, report.interventions);
+  correct(flow, dt);                              // (F16)
+  report.divergence_old = bulk_divergence(flow);  // (F18): what is left at the old positions
+  move(flow, dt, report.interventions);           // (F17)
+
+  locate(flow);
+  report.divergence_new = bulk_divergence(flow);  // (F19): and at the new ones
+  shift(flow, dt, report.interventions);          // (F28)-(F32)
+
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  return report;
+}
+
+template StepReport explicit_projection_step<2>(Flow<2>&, double);
+template StepReport explicit_projection_step<3>(Flow<3>&, double);
+
+}  // namespace tailwater

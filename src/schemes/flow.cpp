@@ -1,0 +1,168 @@
+#include "schemes/flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+#include "operators/concentration.h"
+
+namespace tailwater {
+namespace {
+
+/// Lists reach this far beyond the support [dx]: wide enough that the two searches of a step share one list, narrow
+/// enough that few entries are idle.
+constexpr double skin_over_spacing = 0.2;
+
+constexpr int dummy_layers = 3;
+
+template <int Dim>
+PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
+  PeriodicDomain<Dim> periodic;
+  for (int d = 0; d < Dim; ++d) {
+    const std::vector<double>& range = periodic_range(domain, d);
+    if (!range.empty()) periodic[d] = std::pair{range[0], range[1]};
+  }
+  return periodic;
+}
+
+template <int Dim>
+WallModel<Dim> make_wall_model(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  WallModel<Dim> walls;
+  walls.treatment = spec.scheme.walls;
+  walls.particles = walls.treatment == WallTreatment::dummies
+                        ? make_dummy_particles(boundary, spec.particles.spacing, dummy_layers)
+                        : make_surface_particles(boundary, spec.particles.spacing);
+  for (const int wall : walls.particles.wall) walls.friction.push_back(boundary.walls[wall].friction);
+  return walls;
+}
+
+/// Fluid first, then walls; ids in that order.
+template <int Dim>
+Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, double volume) {
+  Particles<Dim> particles;
+  const std::size_t fluid_count = fluid.position.size();
+  particles.resize(fluid_count + walls.size());
+  particles.owned = particles.size();
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const bool is_fluid = i < fluid_count;
+    particles.position[i] = is_fluid ? fluid.position[i] : walls.position[i - fluid_count];
+    particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
+    particles.pressure[i] = 0.0;
+    particles.volume[i] = volume;
+    particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
+    particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(i - fluid_count);
+    particles.id[i] = static_cast<std::int64_t>(i);
+  }
+  return particles;
+}
+
+/// Height of the fluid along gravity [m]; its largest extent where there is no gravity.
+template <int Dim>
+double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
+  if (fluid.position.empty()) return 0.0;
+  Vec<Dim> low = fluid.position[0];
+  Vec<Dim> high = fluid.position[0];
+  for (const Vec<Dim>& position : fluid.position) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  if (gravity.norm() == 0.0) return (high - low).maxCoeff() + spacing;
+  const Vec<Dim> down = gravity.normalized();
+  double lowest = down.dot(fluid.position[0]);
+  double highest = lowest;
+  for (const Vec<Dim>& position : fluid.position) {
+    lowest = std::max(lowest, down.dot(position));
+    highest = std::min(highest, down.dot(position));
+  }
+  return lowest - highest + spacing;
+}
+
+}  // namespace
+
+Interventions& Interventions::operator+=(const Interventions& other) {
+  put_back += other.put_back;
+  capped_shifts += other.capped_shifts;
+  clamped_pressures += other.clamped_pressures;
+  fallback_rows += other.fallback_rows;
+  return *this;
+}
+
+template <int Dim>
+Flow<Dim>::Flow(const CaseSpec& spec)
+    : scheme(spec.scheme),
+      density(spec.physics.density),
+      spacing(spec.particles.spacing),
+      gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
+      boundary(make_boundary<Dim>(spec)),
+      walls(make_wall_model(spec, boundary)),
+      neighbourhood(make_kernel<Dim>(spec.scheme.kernel, spec.scheme.support * spacing), spacing,
+                    skin_over_spacing * spacing,
+                    walls.treatment == WallTreatment::dummies ? WallRows::fluid_only : WallRows::all,
+                    periodic_domain<Dim>(spec.domain)),
+      pressure_system(spec.pressure_solver) {
+  const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
+  particles = make_particles(fluid, walls.particles, power<Dim>(spacing));
+  length = scheme.length > 0.0 ? scheme.length : fluid_height(fluid, gravity, spacing);
+
+  const Kernel<Dim>& kernel = neighbourhood.kernel();
+  lattice = lattice_sums(kernel, spacing);
+  W_0 = kernel_value(kernel, 0.0);
+  const double g = gravity.norm();
+  viscosity_law = {.molecular = spec.physics.viscosity,
+                   .artificial = scheme.artificial_viscosity * spacing,
+                   .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length)};
+  shifting_law = {.kind = scheme.shifting,
+                  .strength = scheme.shifting_strength,
+                  .cap = scheme.shifting_cap * spacing,
+                  .spacing = spacing,
+                  .W_spacing = kernel_value(kernel, spacing)};
+  time_step_rule = {
+      .courant = scheme.courant, .spacing = spacing, .reference_speed = std::sqrt(2.0 * g * length), .dimension = Dim};
+  const PeriodicDomain<Dim> domain = periodic_domain<Dim>(spec.domain);
+  is_closed = std::all_of(domain.begin(), domain.end(), [](const auto& interval) { return interval.has_value(); });
+  pressure_system.set_constant_is_free(is_closed);
+}
+
+template <int Dim>
+bool Flow<Dim>::uses_tensors() const {
+  return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
+         scheme.divergence == DivergenceKind::consistent || scheme.surface != SurfaceTreatment::air ||
+         scheme.walls == WallTreatment::pressure_rows || scheme.shifting == ShiftingKind::farzin;
+}
+
+template <int Dim>
+FlowMeasures measure(const Flow<Dim>& flow) {
+  FlowMeasures measures;
+  const Particles<Dim>& particles = flow.particles;
+  double error_sum = 0.0;
+  double error_squares = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const double mass = flow.density * particles.volume[i];
+    const double speed_squared = particles.velocity[i].squaredNorm();
+    measures.largest_speed = std::max(measures.largest_speed, speed_squared);
+    measures.kinetic_energy += 0.5 * mass * speed_squared;
+    measures.potential_energy -= mass * flow.gravity.dot(particles.position[i]);
+    if (i < flow.is_near_surface.size() && !flow.is_near_surface[i]) {
+      const double error = flow.concentration[i] - 1.0;
+      error_sum += error;
+      error_squares += error * error;
+      measures.density_error_largest = std::max(measures.density_error_largest, std::abs(error));
+      ++measures.bulk_particles;
+    }
+  }
+  measures.largest_speed = std::sqrt(measures.largest_speed);
+  if (measures.bulk_particles > 0) {
+    const auto count = static_cast<double>(measures.bulk_particles);
+    measures.density_error_mean = error_sum / count;
+    measures.density_error_rms = std::sqrt(error_squares / count);
+  }
+  return measures;
+}
+
+template struct Flow<2>;
+template struct Flow<3>;
+template FlowMeasures measure<2>(const Flow<2>&);
+template FlowMeasures measure<3>(const Flow<3>&);
+
+}  // namespace tailwater

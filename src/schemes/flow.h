@@ -1,0 +1,112 @@
+// The state of a run and the work fields of one step: everything the verbs of a step (predict, assemble, solve,
+// correct, move, shift) read and write.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "closures/shifting.h"
+#include "closures/time_step.h"
+#include "closures/viscosity.h"
+#include "closures/wall_velocity.h"
+#include "geometry/boundary.h"
+#include "linear/pressure_system.h"
+#include "neighbours/neighbourhood.h"
+#include "operators/lattice.h"
+#include "operators/renormalisation.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// Things a step did that the equations do not ask for. A sound run needs few.
+struct Interventions {
+  std::size_t put_back = 0;           ///< particles moved off a wall
+  std::size_t capped_shifts = 0;      ///< shifts cut to their cap
+  std::size_t clamped_pressures = 0;  ///< suction near the surface set to 0
+  std::size_t fallback_rows = 0;      ///< consistent rows replaced where B2 is unsound
+
+  Interventions& operator+=(const Interventions& other);
+};
+
+/// What one step reports.
+struct StepReport {
+  double dt = 0.0;
+  int passes = 0;                ///< of the implicit iteration; 1 for the explicit projection
+  int iterations = 0;            ///< of the pressure solves, all passes
+  double residual = 0.0;         ///< of the last solve
+  double pressure_change = 0.0;  ///< rms change of p in the last pass over rms p; 0 for one pass
+  double divergence_old = 0.0;   ///< 1/s; rms of div u in the bulk at the positions of the last solve
+  double divergence_new = 0.0;   ///< 1/s; the same at the new positions
+  Interventions interventions;
+};
+
+template <int Dim>
+struct Flow {
+  /// Builds the particles of a case, its walls and the empty work fields. Throws InputError for an impossible geometry.
+  explicit Flow(const CaseSpec& spec);
+
+  // What does not change.
+  SchemeTable scheme;
+  double density;    ///< kg/m^3
+  double spacing;    ///< m
+  Vec<Dim> gravity;  ///< m/s^2
+  double length;     ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
+  Boundary<Dim> boundary;
+  WallModel<Dim> walls;
+  LatticeSums lattice;
+  double W_0;  ///< W(0)
+  ViscosityLaw viscosity_law;
+  ShiftingLaw shifting_law;
+  TimeStepRule time_step_rule;
+  bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
+
+  // The state.
+  Particles<Dim> particles;
+  double time = 0.0;  ///< s
+  std::int64_t step = 0;
+
+  // Tools that keep memory between steps.
+  Neighbourhood<Dim> neighbourhood;
+  PressureSystem pressure_system;
+
+  // Work fields, one entry per particle, ghosts included. Geometry, valid for the present positions:
+  std::vector<double> concentration;  ///< C/C_0
+  std::vector<Vec<Dim>> concentration_gradient;
+  std::vector<double> wall_fluid_weight;
+  std::vector<std::uint8_t> is_wet;
+  std::vector<std::uint8_t> takes_part;       ///< fluid, and wet walls
+  std::vector<Renormalisation<Dim>> tensors;  ///< only where a consistent operator is chosen
+  std::vector<std::uint8_t> is_surface;
+  std::vector<std::uint8_t> is_near_surface;
+  // One step:
+  std::vector<Vec<Dim>> position_old;  ///< r^n, owned
+  std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
+  std::vector<Vec<Dim>> u_star;        ///< predicted velocity without gravity
+  std::vector<Vec<Dim>> wall_mean;
+  std::vector<Vec<Dim>> acceleration;
+  std::vector<double> viscosity;
+  std::vector<Mat<Dim>> stress;
+  std::vector<Vec<Dim>> shift;
+  std::vector<Vec<Dim>> shift_velocity;  ///< (F32)
+  std::vector<double> shift_pressure;    ///< (F32)
+
+  bool uses_tensors() const;
+  const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
+};
+
+/// What is measured of the whole flow at the end of a step.
+struct FlowMeasures {
+  double largest_speed = 0.0;       ///< m/s
+  double kinetic_energy = 0.0;      ///< J (per metre of width in 2D)
+  double potential_energy = 0.0;    ///< J, relative to the origin
+  double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
+  double density_error_rms = 0.0;
+  double density_error_largest = 0.0;
+  std::size_t bulk_particles = 0;
+};
+
+template <int Dim>
+FlowMeasures measure(const Flow<Dim>& flow);
+
+}  // namespace tailwater

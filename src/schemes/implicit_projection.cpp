@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "schemes/projection.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// Surface marks may still change in the second pass; later they would keep the iteration from settling (method.md 4).
+constexpr int passes_with_new_marks = 2;
+
+/// x <- x_before + factor (x - x_before) on owned entries.
+template <class Value>
+void relax(double factor, const std::vector<Value>& before, std::vector<Value>& field) {
+  if (factor == 1.0) return;
+  for_each(before.size(), [&](std::size_t i) { field[i] = before[i] + factor * (field[i] - before[i]); });
+}
+
+/// rms of the difference over the rms of `field`, owned entries.
+double relative_change(const std::vector<double>& before, const std::vector<double>& field) {
+  double difference = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    difference += (field[i] - before[i]) * (field[i] - before[i]);
+    size += field[i] * field[i];
+  }
+  return size > 0.0 ? std::sqrt(difference / size) : 0.0;
+}
+
+template <class Value>
+std::vector<Value> owned_part(const std::vector<Value>& field, std::size_t owned) {
+  return {field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned)};
+}
+
+}  // namespace
+
+template <int Dim>
+StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
+  StepReport report;
+  report.dt = dt;
+  Particles<Dim>& particles = flow.particles;
+  remember(flow);
+  for (bool settled = false; !settled && report.passes < flow.scheme.max_passes; ++report.passes) {
+    const auto pressure_before = owned_part(particles.pressure, particles.owned);
+    const auto velocity_before = owned_part(particles.velocity, particles.owned);
+    const auto position_before = owned_part(particles.position, particles.owned);
+
+    locate(flow, report.passes >= passes_with_new_marks);  // derivatives at the positions of iterate k
+    predict(flow, dt);                                     // (F21)
+    assemble(flow, dt, report.interventions);              // (F22)
+    const SolveReport solved = solve(flow, report.interventions);
+    correct(flow, dt);  // (F24)
+    report.divergence_old = bulk_divergence(flow);
+
+    report.pressure_change = relative_change(pressure_before, particles.pressure);
+    relax(flow.scheme.relax_pressure, pressure_before, particles.pressure);
+    relax(flow.scheme.relax_velocity, velocity_before, particles.velocity);
+    move(flow, dt, report.interventions);  // (F25)
+    relax(flow.scheme.relax_position, position_before, particles.position);
+
+    report.iterations += solved.iterations;
+    report.residual = solved.residual;
+    settled = report.pressure_change < flow.scheme.pass_tolerance;
+  }
+  locate(flow);
+  report.divergence_new = bulk_divergence(flow);  // (F19)
+  shift(flow, dt, report.interventions);          // (F28)-(F32)
+  return report;
+}
+
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, double dt) {
+  const StepReport report = flow.scheme.integrator == Integrator::explicit_projection
+                                ? explicit_projection_step(flow, dt)
+                                : implicit_projection_step(flow, dt);
+  flow.time += dt;
+  ++flow.step;
+  return report;
+}
+
+template StepReport implicit_projection_step<2>(Flow<2>&, double);
+template StepReport implicit_projection_step<3>(Flow<3>&, double);
+template StepReport advance<2>(Flow<2>&, double);
+template StepReport advance<3>(Flow<3>&, double);
+
+}  // namespace tailwater

@@ -1,0 +1,65 @@
+#include "base/for_each.h"
+#include "closures/free_surface.h"
+#include "operators/concentration.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+void resize_geometry(Flow<Dim>& flow) {
+  const std::size_t count = flow.particles.size();
+  flow.concentration.resize(count);
+  flow.concentration_gradient.resize(count);
+  flow.wall_fluid_weight.resize(count);
+  flow.is_wet.resize(count);
+  flow.takes_part.resize(count);
+  if (flow.uses_tensors()) flow.tensors.resize(count);
+  flow.is_surface.resize(count);
+  flow.is_near_surface.resize(count);
+  flow.wall_mean.resize(count, Vec<Dim>::Zero());
+  flow.u_star.resize(count, Vec<Dim>::Zero());
+}
+
+}  // namespace
+
+template <int Dim>
+void locate(Flow<Dim>& flow, bool keep_marks) {
+  Particles<Dim>& particles = flow.particles;
+  if (flow.neighbourhood.update(particles)) {
+    const Pairs<Dim>& pairs = flow.pairs();
+    std::vector<std::int32_t> columns(pairs.j);
+    for (std::int32_t& column : columns) column = flow.neighbourhood.halo().owner(column);
+    flow.pressure_system.set_pattern(pairs.row_begin, columns);
+  }
+  resize_geometry(flow);
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Halo<Dim>& halo = flow.neighbourhood.halo();
+
+  find_wet_walls<Dim>(pairs, particles, flow.W_0, flow.wall_fluid_weight, flow.is_wet);
+  for_each(particles.owned, [&](std::size_t i) {
+    const bool is_fluid = particles.is_fluid(i);
+    flow.takes_part[i] = is_fluid || flow.is_wet[i];
+    flow.concentration[i] =
+        is_fluid ? concentration<Dim>(pairs, i, particles.volume, flow.W_0) / flow.lattice.concentration : 0.0;
+    flow.concentration_gradient[i] =
+        is_fluid ? concentration_gradient<Dim>(pairs, i, particles.volume) : Vec<Dim>(Vec<Dim>::Zero());
+  });
+  halo.exchange(flow.is_wet);
+  halo.exchange(flow.takes_part);
+  if (flow.uses_tensors()) {
+    compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
+  }
+  if (keep_marks) return;
+  find_free_surface<Dim>(flow.scheme.surface,
+                         {pairs, particles, flow.concentration, flow.concentration_gradient, flow.tensors, flow.spacing,
+                          flow.lattice.concentration, flow.W_0},
+                         flow.is_surface);
+  halo.exchange(flow.is_surface);
+  find_near_surface<Dim>(pairs, particles, flow.spacing, flow.is_surface, flow.is_near_surface);
+}
+
+template void locate<2>(Flow<2>&, bool);
+template void locate<3>(Flow<3>&, bool);
+
+}  // namespace tailwater

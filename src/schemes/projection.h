@@ -1,0 +1,20 @@
+// One step of scheme F by either time integrator.
+#pragma once
+
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+/// Explicit projection (F14)-(F17): all derivatives at the old positions, so that div u' = 0 holds there (F18).
+template <int Dim>
+StepReport explicit_projection_step(Flow<Dim>& flow, double dt);
+
+/// Implicit projection (F20)-(F27): iterated until the derivatives are those at the new positions (F19).
+template <int Dim>
+StepReport implicit_projection_step(Flow<Dim>& flow, double dt);
+
+/// A step by the integrator that the case chose; advances flow.time and flow.step.
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, double dt);
+
+}  // namespace tailwater

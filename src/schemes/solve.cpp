@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "schemes/verbs.h"
+#include "schemes/wall_state.h"
+
+namespace tailwater {
+namespace {
+
+/// p >= 0 near the surface, where suction would tear particles together (method.md 6: without it a run dies at the
+/// first impact). The bulk keeps its sign.
+template <int Dim>
+std::size_t clamp_near_surface(Flow<Dim>& flow) {
+  std::size_t clamped = 0;
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (!flow.particles.is_fluid(i) || !flow.is_near_surface[i] || flow.particles.pressure[i] >= 0.0) return;
+    flow.particles.pressure[i] = 0.0;
+    ++clamped;
+  });
+  return clamped;
+}
+
+/// Dummies again from the clamped fluid, and never below 0.
+template <int Dim>
+void refresh_dummies(Flow<Dim>& flow) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  std::vector<double>& pressure = flow.particles.pressure;
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (flow.particles.is_fluid(i) || !flow.is_wet[i]) return;
+    double sum = 0.0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      if (!flow.particles.is_fluid(pairs.j[k])) continue;
+      sum += pairs.W[k] * (pressure[pairs.j[k]] + hydrostatic_difference(flow, k));
+    }
+    pressure[i] = std::max(0.0, sum / flow.wall_fluid_weight[i]);
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
+  std::vector<double>& pressure = flow.particles.pressure;
+  const SolveReport report = flow.pressure_system.solve(std::span(pressure).first(flow.particles.owned));
+  const Halo<Dim>& halo = flow.neighbourhood.halo();
+  if (flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed) {
+    interventions.clamped_pressures += clamp_near_surface(flow);
+    halo.exchange(pressure);
+    if (flow.walls.treatment == WallTreatment::dummies) refresh_dummies(flow);
+  }
+  halo.exchange(pressure);
+  return report;
+}
+
+template SolveReport solve<2>(Flow<2>&, Interventions&);
+template SolveReport solve<3>(Flow<3>&, Interventions&);
+
+}  // namespace tailwater

@@ -1,0 +1,55 @@
+// The verbs of a step of scheme F (Farzin et al. 2014), shared by both time integrators. Each does one thing to the
+// flow; explicit_projection.cpp and implicit_projection.cpp say in which order.
+//
+// Gravity: the paper's predictor holds dt g, here u_star does not. A uniform vector has no divergence and the wall row
+// asks for grad p . n = rho g . n, so the pressure is the same; the corrector adds dt g. It also keeps gravity from
+// being counted twice at the walls (method.md 3) and the divergence of u_star small, so less cancels.
+#pragma once
+
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+/// Neighbours, ghosts, kernel values, concentration, wet walls, tensors and surface marks at the present positions.
+/// With `keep_marks` the surface marks stay as they are (later passes of the implicit iteration freeze them).
+template <int Dim>
+void locate(Flow<Dim>& flow, bool keep_marks = false);
+
+/// Keeps r^n and u^n.
+template <int Dim>
+void remember(Flow<Dim>& flow);
+
+/// (F14), (F21): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the present
+/// positions.
+template <int Dim>
+void predict(Flow<Dim>& flow, double dt);
+
+/// (F15), (F22): lap p = rho/dt div u_star, one row per particle: fluid, surface, wall.
+template <int Dim>
+void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
+
+/// Solves for the pressure, starting from the last one.
+template <int Dim>
+SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
+
+/// (F16), (F24): u = u_star + dt (g - grad p/rho).
+template <int Dim>
+void correct(Flow<Dim>& flow, double dt);
+
+/// (F17), (F25): r = r^n + dt/2 (u^n + u); nobody passes a wall.
+template <int Dim>
+void move(Flow<Dim>& flow, double dt, Interventions& interventions);
+
+/// (F28)-(F32), or after Lind et al. (2012). Needs `locate` at the present positions.
+template <int Dim>
+void shift(Flow<Dim>& flow, double dt, Interventions& interventions);
+
+/// rms of div u over bulk fluid particles at the present positions [1/s].
+template <int Dim>
+double bulk_divergence(Flow<Dim>& flow);
+
+/// The largest allowed step [s] for the present velocities.
+template <int Dim>
+double next_time_step(const Flow<Dim>& flow);
+
+}  // namespace tailwater
