@@ -10,13 +10,28 @@
 
 namespace tailwater {
 
-/// One flat piece of a wall. `normal` has length 1 and points into the fluid.
+/// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left as one
+/// walks from corner 0 to corner 1; in 3D the corners run counter-clockwise as the fluid sees them.
 template <int Dim>
 struct WallFace {
   std::array<Vec<Dim>, Dim> corners;
   Vec<Dim> normal;
   int wall = 0;  ///< index into Boundary::walls
+
+  /// Distance from the face's plane, m; positive on the fluid side.
+  double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
+  /// Length (2D, m) or area (3D, m^2).
+  double measure() const;
 };
+
+/// Point of the face nearest to `x`.
+Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
+Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
+
+/// Does the path from `from` to `to` pass through the face? An end nearer to its plane than `tolerance` (m) does not
+/// count as having passed; a path within `tolerance` of the face's rim does.
+template <int Dim>
+bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
 
 /// What a wall does to the fluid that touches it.
 struct WallProperties {
@@ -34,15 +49,21 @@ struct NearestWall {
 
 template <int Dim>
 struct Boundary {
-  std::vector<WallFace<Dim>> faces;
+  std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
 
-  /// Nearest wall within `search_distance` of `x`. Where several faces are equally near (a shared corner), the sign is
-  /// that of the face whose plane is farthest from `x`, which is right at convex and concave corners.
+  /// Nearest wall within `search_distance` (m, may be infinite) of `x`. Where several faces are equally near (a shared
+  /// corner), the sign is that of the face whose plane is farthest from `x`, which is right at convex and concave
+  /// corners.
   NearestWall<Dim> nearest(const Vec<Dim>& x, double search_distance) const;
 };
 
-/// The walls of a case. Throws InputError for a wall with no extent, no normal, or points of the wrong dimension.
+/// Two points nearer than this share of dx are the same corner.
+inline constexpr double corner_tolerance = 1e-6;
+
+/// The walls of a case. The sides left and right of a polygon are meant as one walks along its points; a box is walked
+/// counter-clockwise, so its left is its inside. Throws InputError, which names the wall and the point, for a wall with
+/// no extent or no normal, repeated points, points of the wrong dimension, or a face to leave open that does not exist.
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec);
 

@@ -24,12 +24,18 @@ struct WallParticles {
   std::size_t size() const { return position.size(); }
 };
 
-/// Three (or `layers`) rows of dummy particles behind each wall, the first at dx/2, rows following the wall's shape
-/// and joined at mitred corners; on axis-parallel walls of whole length in dx they continue the fluid's lattice.
+/// Layers of dummy particles that fill the kernel's support behind a wall.
+int dummy_layers(const CaseSpec& spec);
+
+/// `layers` rows of dummy particles behind each wall, the first at dx/2, rows following the wall's shape and joined at
+/// mitred corners; on axis-parallel walls of whole length in dx they continue the fluid's lattice. Faces join where
+/// they share a corner and agree on the side of the fluid, whichever wall they belong to. None lies nearer than dx/2 to
+/// another, behind a second wall, or farther than 1.5 layers dx from its wall. In 3D: box walls only; nothing stands
+/// above an open face.
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers);
 
-/// One row of particles on the wall itself (F36-F39), spaced dx, corners included.
+/// One row of particles on the wall itself (F36-F39), spaced dx, with its ends and all corners sharper than 30 degrees.
 template <int Dim>
 WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing);
 
@@ -40,9 +46,15 @@ struct FluidParticles {
   std::vector<int> block;  ///< index into CaseSpec::fluid
 };
 
-/// The starting lattice. With dummy walls it is cell-centred (first particle dx/2 from the block's edge), with
-/// pressure rows on the wall it is node-centred (particles on the block's edge, except where a wall particle stands).
+/// The starting lattice, from each block's low corner with exactly dx between particles. With dummy walls it is
+/// cell-centred (first particle dx/2 from the block's edge), with pressure rows on the wall it is node-centred
+/// (particles on the block's edge, except nearer than dx/2 to a wall, where a wall particle stands) but in periodic
+/// directions. A box holds extent/dx particles per direction, rounded, at least one. A polygon holds the lattice points
+/// of its bounding box that lie inside, and every second one of those on its outline: half of their cells is inside.
+/// Along walls of polygons, and slanted walls, particles nearer than dx/4 to the wall are moved to that distance, which
+/// keeps the volume; everything else that fits badly is left for check_geometry to report.
 /// Jitter, if any, is drawn from `particles.seed` and is the same on every machine.
+/// Throws InputError, naming the block, for one without extent or with coordinates of the wrong dimension.
 template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -1,0 +1,250 @@
+#include "geometry/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+double friction_of(const WallTable& wall) {
+  switch (wall.slip) {
+    case Slip::free:
+      return 0.0;
+    case Slip::no_slip:
+      return 1.0;
+    case Slip::partial:
+      return wall.friction;
+  }
+  return 0.0;
+}
+
+/// The faces of a polyline or polygon, in the order of its points.
+void append_chain(const WallTable& table, int wall, const std::string& owner, double spacing,
+                  std::vector<WallFace<2>>& faces) {
+  const bool closed = table.shape == WallShape::polygon;
+  std::vector<Vec<2>> points;
+  for (std::size_t k = 0; k < table.points.size(); ++k) {
+    points.push_back(to_vec<2>(table.points[k], owner, fmt::format("points[{}]", k)));
+  }
+  const std::size_t least = closed ? 3 : 2;
+  if (points.size() < least) {
+    throw InputError(
+        fmt::format("{} has {} points: a {} needs at least {}", owner, points.size(), name_of(table.shape), least));
+  }
+  const std::size_t face_count = closed ? points.size() : points.size() - 1;
+  for (std::size_t k = 0; k < face_count; ++k) {
+    const std::size_t next = (k + 1) % points.size();
+    if ((points[next] - points[k]).norm() <= corner_tolerance * spacing) {
+      throw InputError(
+          fmt::format("{}: points[{}] and points[{}] are both at {}, which leaves a piece without extent "
+                      "or normal: remove one of them",
+                      owner, k, next, place(points[k])));
+    }
+  }
+
+  bool fluid_is_left = table.fluid_side == FluidSide::left;
+  if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside) {
+    if (!closed) {
+      throw InputError(
+          fmt::format("{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as one walks "
+                      "along its points",
+                      owner, name_of(table.fluid_side)));
+    }
+    const double area = signed_area(points);
+    if (std::abs(area) <= corner_tolerance * spacing * spacing) {
+      throw InputError(
+          fmt::format("{}: the polygon through {} encloses no area, so it has neither inside nor normal: "
+                      "move its points apart",
+                      owner, place(points[0])));
+    }
+    fluid_is_left = (area > 0.0) == (table.fluid_side == FluidSide::inside);
+  }
+  for (std::size_t k = 0; k < face_count; ++k) {
+    Vec<2> from = points[k];
+    Vec<2> to = points[(k + 1) % points.size()];
+    if (!fluid_is_left) {
+      std::swap(from, to);
+    }
+    const Vec<2> along = (to - from).normalized();
+    faces.push_back({{from, to}, Vec<2>(-along[1], along[0]), wall});
+  }
+}
+
+/// One face of a box: the low (`side` 0) or high (1) one across `axis`, seen from the fluid.
+template <int Dim>
+void append_box_face(const std::array<Vec<Dim>, 2>& ends, int axis, int side, bool fluid_is_inside, int wall,
+                     std::vector<WallFace<Dim>>& faces) {
+  const double sign = (side == 0) == fluid_is_inside ? 1.0 : -1.0;
+  const Vec<Dim> normal = sign * Vec<Dim>::Unit(axis);
+  const auto corner = [&](int first, int second) {
+    Vec<Dim> x = ends[side];
+    x[(axis + 1) % Dim] = ends[first][(axis + 1) % Dim];
+    if constexpr (Dim == 3) {
+      x[(axis + 2) % Dim] = ends[second][(axis + 2) % Dim];
+    }
+    return x;
+  };
+  if constexpr (Dim == 2) {
+    // Fluid on the left: walk along (n_y, -n_x).
+    const bool upwards = (axis == 0 ? -normal[0] : normal[1]) > 0.0;
+    faces.push_back({{corner(upwards ? 0 : 1, 0), corner(upwards ? 1 : 0, 0)}, normal, wall});
+  } else {
+    std::array<Vec<3>, 4> c{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+    if (sign < 0.0) {
+      std::reverse(c.begin(), c.end());
+    }
+    faces.push_back({{c[0], c[1], c[2]}, normal, wall});
+    faces.push_back({{c[0], c[2], c[3]}, normal, wall});
+  }
+}
+
+template <int Dim>
+void append_box(const WallTable& table, int wall, const std::string& owner, double spacing,
+                std::vector<WallFace<Dim>>& faces) {
+  static const std::array<std::string, 6> all_names{"-x", "+x", "-y", "+y", "-z", "+z"};
+  const std::array<Vec<Dim>, 2> ends{to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")};
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (ends[1][axis] - ends[0][axis] <= corner_tolerance * spacing) {
+      throw InputError(fmt::format("{} has no extent in {}: max = {} must lie above min = {}", owner, "xyz"[axis],
+                                   ends[1][axis], ends[0][axis]));
+    }
+  }
+  const auto names_end = all_names.begin() + 2 * Dim;
+  for (const std::string& name : table.open) {
+    if (std::find(all_names.begin(), names_end, name) == names_end) {
+      throw InputError(fmt::format("{}: open = \"{}\" is no face of a {}D box: use \"{}\"", owner, name, Dim,
+                                   fmt::join(all_names.begin(), names_end, "\", \"")));
+    }
+  }
+  const bool fluid_is_inside = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::left;
+  const std::size_t before = faces.size();
+  for (int face = 0; face < 2 * Dim; ++face) {
+    if (std::find(table.open.begin(), table.open.end(), all_names[face]) == table.open.end()) {
+      append_box_face<Dim>(ends, face / 2, face % 2, fluid_is_inside, wall, faces);
+    }
+  }
+  if (faces.size() == before) {
+    throw InputError(fmt::format("{}, the box from {} to {}, has no face left: shorten its list of open faces", owner,
+                                 place(ends[0]), place(ends[1])));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+double WallFace<Dim>::measure() const {
+  if constexpr (Dim == 2) {
+    return (corners[1] - corners[0]).norm();
+  } else {
+    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  }
+}
+
+Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
+  const Vec<2> edge = face.corners[1] - face.corners[0];
+  return face.corners[0] + std::clamp(edge.dot(x - face.corners[0]) / edge.squaredNorm(), 0.0, 1.0) * edge;
+}
+
+// The region of a triangle (corner, edge, inside) that holds the nearest point follows from the signs of the
+// barycentric coordinates of the projection: C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
+Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x) {
+  const auto& [a, b, c] = face.corners;
+  const Vec<3> ab = b - a;
+  const Vec<3> ac = c - a;
+  const double ab_a = ab.dot(x - a), ac_a = ac.dot(x - a);
+  if (ab_a <= 0.0 && ac_a <= 0.0) return a;
+  const double ab_b = ab.dot(x - b), ac_b = ac.dot(x - b);
+  if (ab_b >= 0.0 && ac_b <= ab_b) return b;
+  const double ab_c = ab.dot(x - c), ac_c = ac.dot(x - c);
+  if (ac_c >= 0.0 && ab_c <= ac_c) return c;
+
+  const double weight_c = ab_a * ac_b - ab_b * ac_a;
+  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) return a + ab_a / (ab_a - ab_b) * ab;
+  const double weight_b = ab_c * ac_a - ab_a * ac_c;
+  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) return a + ac_a / (ac_a - ac_c) * ac;
+  const double weight_a = ab_b * ac_c - ab_c * ac_b;
+  const double towards_c = ac_b - ab_b, towards_b = ab_c - ac_c;
+  if (weight_a <= 0.0 && towards_c >= 0.0 && towards_b >= 0.0) {
+    return b + towards_c / (towards_c + towards_b) * (c - b);
+  }
+  return a + (weight_b * ab + weight_c * ac) / (weight_a + weight_b + weight_c);
+}
+
+template <int Dim>
+bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance) {
+  const double before = face.height(from);
+  const double after = face.height(to);
+  if (std::min(before, after) > -tolerance || std::max(before, after) < tolerance) {
+    return false;
+  }
+  const Vec<Dim> hit = from + before / (before - after) * (to - from);
+  return (closest_point(face, hit) - hit).norm() <= tolerance;
+}
+
+template <int Dim>
+NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
+  NearestWall<Dim> best;
+  double best_distance = search_distance;
+  double best_height = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const WallFace<Dim>& face = faces[f];
+    const double tie = 1e-9 * (face.corners[1] - face.corners[0]).norm();
+    bool is_far = false;
+    for (int axis = 0; axis < Dim; ++axis) {
+      double low = face.corners[0][axis];
+      double high = low;
+      for (int c = 1; c < Dim; ++c) {
+        low = std::min(low, face.corners[c][axis]);
+        high = std::max(high, face.corners[c][axis]);
+      }
+      is_far = is_far || std::max(low - x[axis], x[axis] - high) > best_distance + tie;
+    }
+    if (is_far) {
+      continue;
+    }
+    const Vec<Dim> point = closest_point(face, x);
+    const double distance = (x - point).norm();
+    const double height = face.height(x);
+    const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;
+    if (is_tie ? std::abs(height) > std::abs(best_height) : distance <= best_distance) {
+      best = {static_cast<int>(f), point, height < 0.0 ? -distance : distance};
+      best_distance = distance;
+      best_height = height;
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+Boundary<Dim> make_boundary(const CaseSpec& spec) {
+  Boundary<Dim> boundary;
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    const WallTable& table = spec.walls[w];
+    const int wall = static_cast<int>(w);
+    const std::string name = name_or_number(table.name, "wall", w);
+    const std::string owner = fmt::format("wall '{}'", name);
+    boundary.walls.push_back({name, friction_of(table)});
+    if (table.shape == WallShape::box) {
+      append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
+    } else if constexpr (Dim == 2) {
+      append_chain(table, wall, owner, spec.particles.spacing, boundary.faces);
+    } else {
+      throw InputError(
+          fmt::format("{}: a {} exists in 2D only: in 3D use shape = \"box\"", owner, name_of(table.shape)));
+    }
+  }
+  return boundary;
+}
+
+template struct WallFace<2>;
+template struct WallFace<3>;
+template struct Boundary<2>;
+template struct Boundary<3>;
+template bool crosses(const WallFace<2>&, const Vec<2>&, const Vec<2>&, double);
+template bool crosses(const WallFace<3>&, const Vec<3>&, const Vec<3>&, double);
+template Boundary<2> make_boundary(const CaseSpec&);
+template Boundary<3> make_boundary(const CaseSpec&);
+
+}  // namespace tailwater

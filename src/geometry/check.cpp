@@ -1,0 +1,577 @@
+#include "geometry/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "geometry/from_spec.h"
+#include "geometry/point_grid.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::string fluid_name(const CaseSpec& spec, int block) {
+  return fmt::format("fluid '{}'", name_or_number(spec.fluid[block].name, "fluid", block));
+}
+
+template <int Dim>
+std::string wall_name(const Boundary<Dim>& boundary, int wall) {
+  return fmt::format("wall '{}'", boundary.walls[wall].name);
+}
+
+template <class... Arguments>
+void error(std::vector<Finding>& findings, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  findings.push_back({Severity::error, fmt::format(text, std::forward<Arguments>(arguments)...)});
+}
+
+template <class... Arguments>
+void warning(std::vector<Finding>& findings, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  findings.push_back({Severity::warning, fmt::format(text, std::forward<Arguments>(arguments)...)});
+}
+
+/// The spacing nearest to dx that divides every extent of a box; that divides the `extent` asked for, if there is none.
+double fitting_spacing(const FluidTable& block, double extent, double dx) {
+  double best = extent / std::max(1.0, std::round(extent / dx));
+  double best_change = infinite;
+  for (double cells = std::max(1.0, std::floor(0.8 * extent / dx)); cells <= 1.25 * extent / dx + 1.0; ++cells) {
+    const double candidate = extent / cells;
+    bool fits = true;
+    for (std::size_t axis = 0; axis < block.min.size(); ++axis) {
+      const double n = (block.max[axis] - block.min[axis]) / candidate;
+      fits = fits && std::abs(n - std::round(n)) < 1e-6 * n;
+    }
+    if (fits && std::abs(candidate - dx) < best_change) {
+      best = candidate;
+      best_change = std::abs(candidate - dx);
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+void check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid, std::vector<Finding>& findings) {
+  const double dx = spec.particles.spacing;
+  if (spec.fluid.empty()) {
+    error(findings, "there is no fluid: add a [[fluid]] table");
+  }
+  std::vector<std::size_t> count(spec.fluid.size(), 0);
+  for (const int block : fluid.block) {
+    ++count[block];
+  }
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    const std::string name = fluid_name(spec, static_cast<int>(b));
+    if (block.shape == BlockShape::polygon) {
+      if (count[b] == 0) {
+        error(findings,
+              "{} at {} holds no particle: its area is {:.3g} m^2 and the spacing {:.6g} m; make the spacing "
+              "smaller, or mend its points",
+              name, place(to_vec<Dim>(block.points[0], name, "points[0]")), std::abs(signed_area(block.points)), dx);
+      }
+      continue;
+    }
+    const Vec<Dim> low = to_vec<Dim>(block.min, name, "min");
+    const Vec<Dim> extent = to_vec<Dim>(block.max, name, "max") - low;
+    int smallest = 0;
+    extent.minCoeff(&smallest);
+    if (count[b] == 0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
+      error(findings,
+            "{} at {} is {:.6g} m long in {}, which holds no particle of spacing {:.6g} m: use a spacing of at "
+            "most {:.6g} m, or a larger block",
+            name, place(low), extent[smallest], "xyz"[smallest], dx, extent[smallest]);
+      continue;
+    }
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double cells = extent[axis] / dx;
+      if (std::abs(cells - std::round(cells)) > 1e-3) {
+        warning(findings,
+                "{} at {} is {:.6g} m long in {}, which is {:.2f} spacings: its particles fill {:.6g} m; a "
+                "spacing of {:.6g} m fits",
+                name, place(low), extent[axis], "xyz"[axis], cells, std::round(cells) * dx,
+                fitting_spacing(block, extent[axis], dx));
+      }
+    }
+  }
+}
+
+template <int Dim>
+void check_overlaps(const CaseSpec& spec, const FluidParticles<Dim>& fluid, std::vector<Finding>& findings) {
+  if (spec.fluid.size() < 2) {
+    return;
+  }
+  // Neighbouring blocks stand dx apart, less what the jitter takes from both sides.
+  const double least = std::min(0.5, 1.0 - 2.0 * spec.particles.jitter) * spec.particles.spacing;
+  PointGrid<Dim> grid(least * (1.0 - corner_tolerance));
+  struct Overlap {
+    std::size_t particles = 0;
+    Vec<Dim> where;
+  };
+  std::map<std::pair<int, int>, Overlap> overlaps;
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    int other = -1;
+    grid.visit_near(fluid.position[i], [&](int j) {
+      if (fluid.block[j] != fluid.block[i]) {
+        other = fluid.block[j];
+      }
+    });
+    grid.add(fluid.position[i]);
+    if (other >= 0) {
+      Overlap& overlap = overlaps[{other, fluid.block[i]}];
+      if (overlap.particles++ == 0) {
+        overlap.where = fluid.position[i];
+      }
+    }
+  }
+  for (const auto& [blocks, overlap] : overlaps) {
+    error(findings,
+          "{} and {} overlap, first at {}: {} particles of the second stand nearer than {:.6g} m to the first; "
+          "move the blocks apart, or leave the common part out of one of them",
+          fluid_name(spec, blocks.first), fluid_name(spec, blocks.second), place(overlap.where), overlap.particles,
+          least);
+  }
+}
+
+/// One block beside one wall.
+template <int Dim>
+struct Contact {
+  std::size_t in_front = 0;
+  std::size_t behind = 0;
+  std::size_t too_near = 0;
+  double deepest = 0.0;       ///< m behind the wall, positive
+  double nearest = infinite;  ///< m in front of it
+  Vec<Dim> deepest_at, nearest_at;
+};
+
+template <int Dim>
+void check_contact(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                   std::vector<Finding>& findings) {
+  const double dx = spec.particles.spacing;
+  const double jitter = spec.particles.jitter;
+  // Where the first particle belongs, and how far off it may be.
+  const double regular = spec.scheme.walls == WallTreatment::pressure_rows ? 1.0 : 0.5;
+  const double play = std::max(0.25, jitter) + corner_tolerance;
+  const double least = (0.5 - play) * dx;
+  const double gap_from = (regular + play) * dx;
+  const double gap_to = (regular + 1.5) * dx;
+
+  std::map<std::pair<int, int>, Contact<Dim>> contacts;                        // by wall and block
+  std::map<std::pair<int, int>, std::pair<double, Vec<Dim>>> nearest_to_face;  // by face and block
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    const Vec<Dim>& x = fluid.position[i];
+    const NearestWall<Dim> near = boundary.nearest(x, infinite);
+    if (near.face < 0) {
+      return;
+    }
+    const double height = boundary.faces[near.face].height(x);
+    Contact<Dim>& contact = contacts[{boundary.faces[near.face].wall, fluid.block[i]}];
+    // Beyond a free end of a wall the sign means nothing: only what stands squarely before or behind a face counts.
+    const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
+    if (near.signed_distance >= 0.0) {
+      contact.in_front += is_square ? 1 : 0;
+      contact.too_near += near.signed_distance < least ? 1 : 0;
+      if (near.signed_distance < contact.nearest) {
+        contact.nearest = near.signed_distance;
+        contact.nearest_at = x;
+      }
+      auto& [distance, at] = nearest_to_face.try_emplace({near.face, fluid.block[i]}, infinite, x).first->second;
+      if (is_square && near.signed_distance < distance) {
+        distance = near.signed_distance;
+        at = x;
+      }
+    } else if (is_square) {
+      ++contact.behind;
+      if (-near.signed_distance > contact.deepest) {
+        contact.deepest = -near.signed_distance;
+        contact.deepest_at = x;
+      }
+    }
+  }
+
+  std::vector<std::size_t> in_front(boundary.walls.size(), 0);
+  for (const auto& [key, contact] : contacts) {
+    in_front[key.first] += contact.in_front;
+  }
+  for (const auto& [key, contact] : contacts) {
+    const std::string wall = wall_name(boundary, key.first);
+    const std::string block = fluid_name(spec, key.second);
+    if (contact.behind > 0 && in_front[key.first] > 0) {
+      error(findings,
+            "{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} m deep at {}; a wall has "
+            "one wet side, so draw a wall with two faces at least {} spacings apart, or take the fluid away from one "
+            "side",
+            wall, contact.behind, block, contact.deepest, place(contact.deepest_at), 2 * dummy_layers(spec));
+    } else if (contact.behind > 0) {
+      error(findings,
+            "{} lies behind {}: {} particles, up to {:.6g} m deep at {}; turn the wall's fluid_side round, or "
+            "move the block",
+            block, wall, contact.behind, contact.deepest, place(contact.deepest_at));
+    }
+    if (contact.too_near > 0) {
+      error(findings,
+            "{} is too near to {}: {} particles nearer than {:.6g} m, the nearest {:.3g} m at {}; put the "
+            "block's edge on the wall or a whole number of spacings ({:.6g} m) from it",
+            block, wall, contact.too_near, least, contact.nearest, place(contact.nearest_at), dx);
+    }
+  }
+  std::map<std::pair<int, int>, bool> is_reported;
+  for (const auto& [key, nearest] : nearest_to_face) {
+    const int wall = boundary.faces[key.first].wall;
+    if (nearest.first > gap_from && nearest.first < gap_to && !std::exchange(is_reported[{wall, key.second}], true)) {
+      warning(findings,
+              "there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, at "
+              "{}, instead of {:.2f}; put the block's edge on the wall, or move it away by two spacings or more",
+              fluid_name(spec, key.second), wall_name(boundary, wall), nearest.first / dx, place(nearest.second),
+              regular);
+    }
+  }
+}
+
+template <int Dim>
+bool shares_corner(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolerance) {
+  for (const Vec<Dim>& p : a.corners) {
+    for (const Vec<Dim>& q : b.corners) {
+      if ((p - q).norm() <= tolerance) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void check_crossings(const CaseSpec& spec, const Boundary<2>& boundary, std::vector<Finding>& findings) {
+  const double tolerance = corner_tolerance * spec.particles.spacing;
+  for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const WallFace<2>& a = boundary.faces[i];
+      const WallFace<2>& b = boundary.faces[j];
+      if (a.wall == b.wall && crosses(a, b.corners[0], b.corners[1], tolerance) &&
+          crosses(b, a.corners[0], a.corners[1], tolerance)) {
+        const double before = a.height(b.corners[0]);
+        const double share = before / (before - a.height(b.corners[1]));
+        const Vec<2> where = b.corners[0] + share * (b.corners[1] - b.corners[0]);
+        error(findings, "{} crosses itself at {}: mend the order of its points", wall_name(boundary, a.wall),
+              place(where));
+      }
+    }
+  }
+}
+
+/// Is this a body that stands in the water? Where it rests on another wall, the two touch back to back and stay dry.
+bool is_obstacle(const WallTable& wall) {
+  return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
+}
+
+/// Looks straight through every wall, from points of its wet side spaced dx (at most 50 per edge).
+template <int Dim>
+void check_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, std::vector<Finding>& findings) {
+  const double dx = spec.particles.spacing;
+  const double tolerance = corner_tolerance * dx;
+  const double needed = dummy_layers(spec) * dx;
+  std::map<std::pair<int, int>, bool> is_reported;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    const double edge = (face.corners[1] - face.corners[0]).norm();
+    const int samples = std::clamp(static_cast<int>(std::ceil(edge / dx)), 1, 50);
+    for (const WallFace<Dim>& other : boundary.faces) {
+      const double facing = -face.normal.dot(other.normal);
+      const bool is_neighbour = facing < 0.999 && shares_corner(face, other, tolerance);
+      if (&other == &face || facing <= 0.0 || is_neighbour) {
+        continue;
+      }
+      for (int k = 0; k < samples; ++k) {
+        const double share = (k + 0.5) / samples;
+        Vec<Dim> foot = face.corners[0] + share * (face.corners[1] - face.corners[0]);
+        if constexpr (Dim == 3) {
+          foot += 0.5 * (1.0 - share) * (face.corners[2] - face.corners[0]);
+        }
+        // From just before the wall, so that a wall without thickness is passed as well.
+        if (!crosses(other, Vec<Dim>(foot + 2.0 * tolerance * face.normal), Vec<Dim>(foot - needed * face.normal),
+                     tolerance)) {
+          continue;
+        }
+        const double thickness = std::max(0.0, -other.height(foot) / facing);
+        const bool rests_on_it =
+            thickness <= 2.0 * tolerance && (is_obstacle(spec.walls[face.wall]) || is_obstacle(spec.walls[other.wall]));
+        const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
+        if (!rests_on_it && thickness < needed - tolerance && !std::exchange(is_reported[walls], true)) {
+          error(findings,
+                "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles "
+                "need {:.6g} m; make it thicker or the spacing smaller",
+                wall_name(boundary, face.wall), thickness, place(foot),
+                face.wall == other.wall ? "the water" : wall_name(boundary, other.wall), dummy_layers(spec), needed);
+        }
+        break;
+      }
+    }
+  }
+}
+
+template <int Dim>
+void check_periodic(const CaseSpec& spec, std::vector<Finding>& findings) {
+  const double support = spec.scheme.support * spec.particles.spacing;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    if (range.size() == 2 && range[1] - range[0] < (4.0 - corner_tolerance) * support) {
+      error(findings,
+            "periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so "
+            "that a particle would meet its own image: make it at least {:.6g} m wide, or the spacing at most {:.6g} m",
+            "xyz"[axis], range[0], range[1], range[1] - range[0], support, 4.0 * support,
+            (range[1] - range[0]) / (4.0 * spec.scheme.support));
+    }
+  }
+}
+
+/// Lets water run sideways and down, never up, over the cells of a grid until it is at rest or leaves the case.
+template <int Dim>
+class Flood {
+ public:
+  Flood(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid)
+      : boundary_(boundary),
+        gravity_(to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity").normalized()),
+        tolerance_(corner_tolerance * spec.particles.spacing) {
+    low_ = high_ = boundary.faces[0].corners[0];
+    const auto enclose = [&](const Vec<Dim>& x) {
+      low_ = low_.cwiseMin(x);
+      high_ = high_.cwiseMax(x);
+    };
+    for (const WallFace<Dim>& face : boundary.faces) {
+      for (const Vec<Dim>& corner : face.corners) enclose(corner);
+    }
+    for (const Vec<Dim>& x : fluid.position) enclose(x);
+    // A huge empty case gets larger cells: whether a path meets a wall does not depend on their size.
+    const Vec<Dim> extent = (high_ - low_).cwiseMax(spec.particles.spacing);
+    const double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most_cells, 1.0 / Dim));
+    std::size_t cells = 1;
+    // A path that ends exactly on a wall does not cross it, so the grid must not be in step with the lattice.
+    low_.array() -= grid_shift * cell;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::vector<double>& range = periodic_range(spec.domain, axis);
+      is_periodic_[axis] = range.size() == 2;
+      if (is_periodic_[axis]) {
+        low_[axis] = range[0];
+        high_[axis] = range[1];
+        count_[axis] = std::max(1, static_cast<int>(std::round((high_[axis] - low_[axis]) / cell)));
+        size_[axis] = (high_[axis] - low_[axis]) / count_[axis];
+      } else {
+        count_[axis] = std::max(1, static_cast<int>(std::ceil((high_[axis] - low_[axis]) / cell - corner_tolerance)));
+        size_[axis] = cell;
+      }
+      cells *= count_[axis];
+    }
+    flags_.assign(cells, 0);
+    for (const WallFace<Dim>& face : boundary.faces) {
+      mark(face);
+    }
+    for (const Vec<Dim>& x : fluid.position) {
+      const Cell c = cell_of(x);
+      if (!meets_wall(x, centre(c))) {
+        visit(c);
+      }
+    }
+  }
+
+  /// The last place inside the case of water that leaves it; empty when none does.
+  std::optional<Vec<Dim>> leak() {
+    for (std::size_t next = 0; next < front_.size(); ++next) {
+      const Cell c = front_[next];
+      for (int move = 0; move < 2 * Dim; ++move) {
+        const int axis = move / 2;
+        const int step = move % 2 == 0 ? -1 : 1;
+        if (step * gravity_[axis] < -0.5) {
+          continue;
+        }
+        const Vec<Dim> from = centre(c);
+        if ((flags_[index(c)] & near_wall) && meets_wall(from, from + step * size_[axis] * Vec<Dim>::Unit(axis))) {
+          continue;
+        }
+        Cell target = c;
+        target[axis] += step;
+        if (is_periodic_[axis]) {
+          target[axis] = (target[axis] + count_[axis]) % count_[axis];
+        }
+        if (target[axis] < 0 || target[axis] >= count_[axis]) {
+          return from;
+        }
+        visit(target);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  using Cell = std::array<int, Dim>;
+  static constexpr double most_cells = 4e6;
+  static constexpr double grid_shift = 0.0618;
+  static constexpr std::uint8_t near_wall = 1, visited = 2;
+
+  std::size_t index(const Cell& c) const {
+    std::size_t i = 0;
+    for (int axis = Dim - 1; axis >= 0; --axis) i = i * count_[axis] + c[axis];
+    return i;
+  }
+  Vec<Dim> centre(const Cell& c) const {
+    Vec<Dim> x;
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = low_[axis] + (c[axis] + 0.5) * size_[axis];
+    return x;
+  }
+  Cell cell_of(const Vec<Dim>& x) const {
+    Cell c;
+    for (int axis = 0; axis < Dim; ++axis) {
+      c[axis] = std::clamp(static_cast<int>(std::floor((x[axis] - low_[axis]) / size_[axis])), 0, count_[axis] - 1);
+    }
+    return c;
+  }
+  void visit(const Cell& c) {
+    std::uint8_t& flags = flags_[index(c)];
+    if (!(flags & visited)) {
+      flags |= visited;
+      front_.push_back(c);
+    }
+  }
+  /// Marks the cells from which one step may meet the face.
+  void mark(const WallFace<Dim>& face) {
+    Vec<Dim> low = face.corners[0];
+    Vec<Dim> high = low;
+    for (const Vec<Dim>& corner : face.corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    const Cell first = cell_of(low - size_);
+    const Cell last = cell_of(high + size_);
+    Cell c = first;
+    for (int axis = 0; axis < Dim;) {
+      flags_[index(c)] |= near_wall;
+      for (axis = 0; axis < Dim && ++c[axis] > last[axis]; ++axis) c[axis] = first[axis];
+    }
+  }
+  bool meets_wall(const Vec<Dim>& from, const Vec<Dim>& to) const {
+    return std::any_of(boundary_.faces.begin(), boundary_.faces.end(),
+                       [&](const WallFace<Dim>& face) { return crosses(face, from, to, tolerance_); });
+  }
+
+  const Boundary<Dim>& boundary_;
+  Vec<Dim> gravity_;
+  double tolerance_;
+  Vec<Dim> low_, high_, size_;
+  Cell count_;
+  std::array<bool, Dim> is_periodic_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<Cell> front_;
+};
+
+template <int Dim>
+void check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                 std::vector<Finding>& findings) {
+  const bool has_gravity =
+      std::any_of(spec.physics.gravity.begin(), spec.physics.gravity.end(), [](double g) { return g != 0.0; });
+  if (!has_gravity || boundary.faces.empty() || fluid.position.empty()) {
+    return;
+  }
+  if (const std::optional<Vec<Dim>> leak = Flood<Dim>(spec, boundary, fluid).leak()) {
+    const NearestWall<Dim> wall = boundary.nearest(*leak, infinite);
+    error(findings, "the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
+          place(*leak), wall_name(boundary, boundary.faces[wall.face].wall));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Finding> check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                    const FluidParticles<Dim>& fluid) {
+  std::vector<Finding> findings;
+  check_blocks(spec, fluid, findings);
+  check_periodic<Dim>(spec, findings);
+  if constexpr (Dim == 2) {
+    check_crossings(spec, boundary, findings);
+  }
+  check_thickness(spec, boundary, findings);
+  check_overlaps(spec, fluid, findings);
+  check_contact(spec, boundary, fluid, findings);
+  check_leaks(spec, boundary, fluid, findings);
+  return findings;
+}
+
+template <int Dim>
+ParticleCount expected_particle_count(const CaseSpec& spec) {
+  const double dx = spec.particles.spacing;
+  ParticleCount count;
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    const std::string name = fluid_name(spec, static_cast<int>(b));
+    if (block.shape == BlockShape::polygon) {
+      count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
+    } else {
+      const Vec<Dim> extent = to_vec<Dim>(block.max, name, "max") - to_vec<Dim>(block.min, name, "min");
+      count.fluid += (extent / dx).array().round().max(1.0).prod();
+    }
+  }
+  const int layers = spec.scheme.walls == WallTreatment::dummies ? dummy_layers(spec) : 1;
+  for (const WallFace<Dim>& face : make_boundary<Dim>(spec).faces) {
+    count.wall += layers * face.measure() * dx / power<Dim>(dx);
+  }
+  return count;
+}
+
+template <int Dim>
+double neighbours_in_support(double support) {
+  return std::numbers::pi * (Dim == 2 ? 1.0 : 4.0 / 3.0) * power<Dim>(support);
+}
+
+template <int Dim>
+double memory_estimate(double particles, double walls, double neighbours) {
+  constexpr double number = sizeof(double);
+  constexpr double index = 4.0;
+  // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like.
+  constexpr double fields = (6 * Dim + 10) * number;
+  // Per pair: the neighbour's index, kernel gradient and value; a row entry of the matrix and one of its factors.
+  constexpr double pair = index + (Dim + 1) * number + 2.0 * (number + index);
+  return (particles + walls) * (2.0 * fields + neighbours * pair);
+}
+
+double available_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  for (double kibibytes = 0.0; file >> key >> kibibytes;) {
+    std::getline(file, unit);
+    if (key == "MemAvailable:") {
+      return 1024.0 * kibibytes;
+    }
+  }
+  throw IoError("/proc/meminfo has no line MemAvailable: cannot tell whether the case fits into memory");
+}
+
+template <int Dim>
+std::vector<Finding> check_memory(const CaseSpec& spec, double available) {
+  const ParticleCount count = expected_particle_count<Dim>(spec);
+  const double needed = memory_estimate<Dim>(count.fluid, count.wall, neighbours_in_support<Dim>(spec.scheme.support));
+  std::vector<Finding> findings;
+  if (needed > available) {
+    // Memory grows like dx^-Dim.
+    const double fitting = spec.particles.spacing * std::pow(needed / available, 1.0 / Dim);
+    error(findings,
+          "a spacing of {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; "
+          "{:.3g} GB are free: use a spacing of at least {:.3g} m",
+          spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting);
+  }
+  return findings;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                 \
+  template std::vector<Finding> check_geometry(const CaseSpec&, const Boundary<Dim>&, const FluidParticles<Dim>&); \
+  template ParticleCount expected_particle_count<Dim>(const CaseSpec&);                                            \
+  template double neighbours_in_support<Dim>(double);                                                              \
+  template double memory_estimate<Dim>(double, double, double);                                                    \
+  template std::vector<Finding> check_memory<Dim>(const CaseSpec&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,53 @@
+// Small helpers shared by everything here that turns tables of the case file into shapes.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/vec.h"
+#include "case/spec.h"
+
+namespace tailwater {
+
+/// `name`, or "wall3" for the nameless third wall.
+inline std::string name_or_number(const std::string& name, std::string_view what, std::size_t index) {
+  return name.empty() ? fmt::format("{}{}", what, index + 1) : name;
+}
+
+/// The point as a vector. Throws InputError, which names the `owner` ("wall 'bed'") and the `key` ("points[2]"), when
+/// it does not have Dim numbers.
+template <int Dim>
+Vec<Dim> to_vec(const Coordinates& point, std::string_view owner, std::string_view key) {
+  if (point.size() != Dim) {
+    throw InputError(fmt::format("{}: {} has {} numbers but the case has {} dimensions: give one number per dimension",
+                                 owner, key, point.size(), Dim));
+  }
+  return Eigen::Map<const Vec<Dim>>(point.data());
+}
+
+/// "(0.5, 1.25)": how messages show a place.
+template <int Dim>
+std::string place(const Vec<Dim>& x) {
+  return Dim == 2 ? fmt::format("({:.6g}, {:.6g})", x[0], x[1])
+                  : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[Dim - 1]);
+}
+
+/// Low and high end of periodic direction `axis`; empty where the domain is not periodic.
+inline const std::vector<double>& periodic_range(const DomainTable& domain, int axis) {
+  return axis == 0 ? domain.periodic_x : axis == 1 ? domain.periodic_y : domain.periodic_z;
+}
+
+/// Area of a polygon, m^2; positive when its corners run counter-clockwise.
+template <class Points>
+double signed_area(const Points& corners) {
+  double twice = 0.0;
+  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
+    twice += corners[last][0] * corners[i][1] - corners[i][0] * corners[last][1];
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,78 @@
+// Points filed by place, so that those near another point are found without looking at all of them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+template <int Dim>
+class PointGrid {
+ public:
+  /// `radius`: distance (m) within which `visit_near` finds points.
+  explicit PointGrid(double radius) : radius_(radius) {}
+
+  void add(const Vec<Dim>& x) {
+    const auto [head, is_new] = first_.try_emplace(key(cell(x)), -1);
+    next_.push_back(head->second);
+    head->second = static_cast<int>(points_.size());
+    points_.push_back(x);
+  }
+
+  /// Calls `visit(index)`, in no particular order, for every point added so far that is nearer to `x` than the radius;
+  /// the first point added has index 0.
+  template <class Visit>
+  void visit_near(const Vec<Dim>& x, Visit&& visit) const {
+    const Cell centre = cell(x);
+    const int neighbours = Dim == 2 ? 9 : 27;
+    for (int n = 0; n < neighbours; ++n) {
+      Cell c = centre;
+      for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) {
+        c[axis] += rest % 3 - 1;
+      }
+      const auto found = first_.find(key(c));
+      for (int i = found == first_.end() ? -1 : found->second; i >= 0; i = next_[i]) {
+        if ((points_[i] - x).norm() < radius_) {
+          visit(i);
+        }
+      }
+    }
+  }
+
+  bool has_near(const Vec<Dim>& x) const {
+    bool found = false;
+    visit_near(x, [&](int) { found = true; });
+    return found;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, Dim>;
+
+  Cell cell(const Vec<Dim>& x) const {
+    Cell c;
+    for (int axis = 0; axis < Dim; ++axis) {
+      c[axis] = static_cast<std::int64_t>(std::floor(x[axis] / radius_));
+    }
+    return c;
+  }
+  // 21 bits per axis; cells that share a key only cost a distance test.
+  static std::uint64_t key(const Cell& c) {
+    std::uint64_t k = 0;
+    for (const std::int64_t coordinate : c) {
+      k = k << 21 ^ (static_cast<std::uint64_t>(coordinate) & 0x1fffff);
+    }
+    return k;
+  }
+
+  double radius_;
+  std::unordered_map<std::uint64_t, int> first_;
+  std::vector<int> next_;
+  std::vector<Vec<Dim>> points_;
+};
+
+}  // namespace tailwater

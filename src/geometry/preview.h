@@ -1,0 +1,19 @@
+// A picture of a case as it starts, for the eye to check what numbers cannot.
+#pragma once
+
+#include <string>
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "geometry/sampling.h"
+
+namespace tailwater {
+
+/// An SVG document: walls with the particles behind them, the fluid, probes with their names, axes in metres, title,
+/// spacing and counts. In 3D it is the projection on x and z. Above 40 000 fluid (or wall) particles the outlines of
+/// the blocks (or the wall alone) stand for them.
+template <int Dim>
+std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                        const WallParticles<Dim>& walls);
+
+}  // namespace tailwater

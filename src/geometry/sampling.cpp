@@ -1,0 +1,191 @@
+#include "geometry/sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
+
+/// Number in [-1, 1) that depends on nothing but its arguments (SplitMix64, Steele, Lea & Flood 2014). The standard
+/// library's distributions differ between machines.
+double random_number(std::uint64_t seed, std::uint64_t particle, int axis) {
+  std::uint64_t z = (seed * 0x9e3779b97f4a7c15) ^ (particle * 3 + static_cast<std::uint64_t>(axis));
+  for (int round = 0; round < 2; ++round) {
+    z += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    z ^= z >> 31;
+  }
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+enum class Place { outside, on_outline, inside };
+
+/// Where `x` is with respect to a polygon whose outline is `tolerance` thick: parity of the edges to the right of it.
+Place locate(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
+  bool is_inside = false;
+  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
+    const Vec<2>& a = corners[last];
+    const Vec<2>& b = corners[i];
+    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance) {
+      return Place::on_outline;
+    }
+    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {
+      is_inside = !is_inside;
+    }
+  }
+  return is_inside ? Place::inside : Place::outside;
+}
+
+/// One block's lattice: node (i, j, k) stands at low + (index + offset) dx.
+template <int Dim>
+struct Lattice {
+  Vec<Dim> low, high;
+  std::array<int, Dim> count;
+  Vec<Dim> offset;
+  std::vector<Vec<2>> outline;  ///< corners of a polygon; empty for a box
+};
+
+template <int Dim>
+Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const std::string& owner) {
+  const double dx = spec.particles.spacing;
+  Lattice<Dim> lattice;
+  if (block.shape == BlockShape::polygon) {
+    if constexpr (Dim == 3) {
+      throw InputError(fmt::format("{}: a polygon exists in 2D only: in 3D use shape = \"box\"", owner));
+    } else {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        lattice.outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
+      }
+      if (lattice.outline.size() < 3) {
+        throw InputError(fmt::format("{} has {} points: a polygon needs at least 3", owner, lattice.outline.size()));
+      }
+      lattice.low = lattice.high = lattice.outline[0];
+      for (const Vec<2>& corner : lattice.outline) {
+        lattice.low = lattice.low.cwiseMin(corner);
+        lattice.high = lattice.high.cwiseMax(corner);
+      }
+    }
+  } else {
+    lattice.low = to_vec<Dim>(block.min, owner, "min");
+    lattice.high = to_vec<Dim>(block.max, owner, "max");
+  }
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double extent = lattice.high[axis] - lattice.low[axis];
+    if (extent <= 0.0) {
+      throw InputError(
+          fmt::format("{} has no extent in {}: it ends at {} and starts at {}; its highest corner must lie "
+                      "above its lowest",
+                      owner, "xyz"[axis], lattice.high[axis], lattice.low[axis]));
+    }
+    const bool is_on_nodes =
+        spec.scheme.walls == WallTreatment::pressure_rows && periodic_range(spec.domain, axis).empty();
+    const double cells = extent / dx;
+    // A polygon needs every lattice point of its bounding box; a box the number that fits best.
+    const double whole = lattice.outline.empty() ? std::round(cells) : std::ceil(cells - corner_tolerance);
+    lattice.count[axis] = std::max(1, static_cast<int>(whole)) + (is_on_nodes ? 1 : 0);
+    lattice.offset[axis] = is_on_nodes ? 0.0 : 0.5;
+  }
+  return lattice;
+}
+
+/// Is the lattice of `block` fitted to this face? Elsewhere a misfit is the case file's, and check_geometry reports it.
+template <int Dim>
+bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
+  const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
+  return block.shape == BlockShape::polygon || !is_axis_parallel;
+}
+
+}  // namespace
+
+int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
+
+template <int Dim>
+FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const double dx = spec.particles.spacing;
+  const double jitter = spec.particles.jitter * dx;
+  const bool walls_are_particles = spec.scheme.walls == WallTreatment::pressure_rows;
+  FluidParticles<Dim> fluid;
+
+  const auto is_left_to_wall = [&](const FluidTable& block, const Vec<Dim>& x) {
+    const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+    if (wall.face < 0) {
+      return false;
+    }
+    if (walls_are_particles) {
+      return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
+    }
+    return std::abs(wall.signed_distance) < least_wall_distance * dx && wall.signed_distance < -corner_tolerance * dx &&
+           adapts_to_wall(block, boundary.faces[wall.face]);
+  };
+  const auto keep_off_walls = [&](const FluidTable& block, Vec<Dim>& x) {
+    // In a corner, moving away from one wall may approach the next: as many moves as walls can meet.
+    for (int move = 0; move < Dim; ++move) {
+      const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+      const double missing = least_wall_distance * dx - wall.signed_distance;
+      if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) {
+        return;
+      }
+      x += missing * boundary.faces[wall.face].normal;
+    }
+  };
+
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    const std::string owner = fmt::format("fluid '{}'", name_or_number(block.name, "fluid", b));
+    const Lattice<Dim> lattice = make_lattice<Dim>(spec, block, owner);
+    const Vec<Dim> velocity =
+        block.velocity.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(block.velocity, owner, "velocity");
+    bool takes_next_on_outline = true;
+    const auto add = [&](Vec<Dim> x) {
+      if constexpr (Dim == 2) {
+        if (!lattice.outline.empty()) {
+          const Place where = locate(lattice.outline, x, corner_tolerance * dx);
+          if (where == Place::outside) {
+            return;
+          }
+          if (where == Place::on_outline) {
+            takes_next_on_outline = !takes_next_on_outline;
+            if (takes_next_on_outline) {
+              return;
+            }
+          }
+        }
+      }
+      if (is_left_to_wall(block, x)) {
+        return;
+      }
+      for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
+        x[axis] += jitter * random_number(spec.particles.seed, fluid.position.size(), axis);
+      }
+      keep_off_walls(block, x);
+      fluid.position.push_back(x);
+      fluid.velocity.push_back(velocity);
+      fluid.block.push_back(static_cast<int>(b));
+    };
+
+    std::array<int, Dim> node{};
+    for (int axis = 0; axis < Dim;) {
+      Vec<Dim> x;
+      for (int k = 0; k < Dim; ++k) {
+        x[k] = lattice.low[k] + (node[k] + lattice.offset[k]) * dx;
+      }
+      add(x);
+      for (axis = 0; axis < Dim && ++node[axis] == lattice.count[axis]; ++axis) {
+        node[axis] = 0;
+      }
+    }
+  }
+  return fluid;
+}
+
+template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&);
+template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

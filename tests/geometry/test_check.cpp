@@ -1,0 +1,236 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cases.h"
+#include "geometry/check.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+template <int Dim = 2>
+std::vector<Finding> check(const CaseSpec& spec) {
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  return check_geometry<Dim>(spec, boundary, make_fluid_particles<Dim>(spec, boundary));
+}
+
+std::string listed(const std::vector<Finding>& findings) {
+  std::string text = "findings:";
+  for (const Finding& finding : findings) {
+    text += (finding.severity == Severity::error ? "\n  error: " : "\n  warning: ") + finding.message;
+  }
+  return text;
+}
+
+/// The findings are exactly one, of this severity, and its message has all these parts.
+void expect_only(const std::vector<Finding>& findings, Severity severity, const std::vector<std::string>& parts) {
+  ASSERT_EQ(findings.size(), 1u) << listed(findings);
+  EXPECT_EQ(findings[0].severity, severity) << listed(findings);
+  for (const std::string& part : parts) {
+    EXPECT_NE(findings[0].message.find(part), std::string::npos) << "'" << part << "' in " << listed(findings);
+  }
+}
+
+/// One of the findings is of this severity and has all these parts.
+void expect_among(const std::vector<Finding>& findings, Severity severity, const std::vector<std::string>& parts) {
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.severity == severity && std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+             return finding.message.find(part) != std::string::npos;
+           });
+  })) << listed(findings);
+}
+
+TEST(Check, AGoodCaseHasNoFindings) {
+  CaseSpec spec = tank();
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.particles.jitter = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.particles.jitter = 0.0;
+  spec.scheme.walls = WallTreatment::pressure_rows;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, AGoodCaseIn3DHasNoFindings) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
+// A dam break over a triangular sill with a pool behind it, the fluid drawn as polygons.
+TEST(Check, ASlopedBedIsGood) {
+  CaseSpec spec = empty_case(0.01);
+  spec.walls = {polyline({{0, 0.4}, {0, 0}, {1, 0}, {1.4, 0.2}, {1.8, 0}, {3, 0}, {3, 0.4}})};
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.3}), polygon_fluid({{1.8, 0}, {3, 0}, {3, 0.1}, {1.6, 0.1}})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+// A box that stands on the bed and touches it with its own bottom.
+TEST(Check, AnObstacleOnTheBedIsGood) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {3, 0}, {3, 1}}), box_wall({1.5, 0}, {1.8, 0.4}, {}, FluidSide::outside)};
+  spec.fluid = {box_fluid({0, 0}, {1.5, 0.3})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, NoFluid) {
+  CaseSpec spec = tank();
+  spec.fluid.clear();
+  expect_only(check(spec), Severity::error, {"no fluid", "[[fluid]]"});
+}
+
+TEST(Check, BlockSmallerThanTheSpacing) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {1, 0.04})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1'", "0.04 m long in y", "0.1 m"});
+  spec.fluid = {polygon_fluid({{0.1, 0.1}, {0.13, 0.1}, {0.1, 0.13}})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1'", "holds no particle", "(0.1, 0.1)"});
+}
+
+TEST(Check, ExtentNotAWholeNumberOfSpacings) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.45})};
+  // 0.6 and 0.45 have common divisors 0.15 and 0.075 (not 0.1); the latter is nearer.
+  expect_only(check(spec), Severity::warning, {"fluid 'fluid1'", "0.45 m long in y", "4.50", "0.075 m fits"});
+}
+
+TEST(Check, OverlappingBlocks) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.4}), box_fluid({0.4, 0}, {1, 0.4})};
+  spec.fluid[0].name = "west";
+  expect_only(check(spec), Severity::error, {"'west'", "'fluid2'", "(0.45, 0.05)", "4 particles"});
+  spec.fluid[1].min[0] = 0.5;
+  spec.particles.jitter = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, FluidBehindAWall) {
+  CaseSpec spec = tank();
+  spec.walls[0].fluid_side = FluidSide::right;
+  spec.walls[0].name = "tank";
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1' lies behind wall 'tank'", "40 particles", "fluid_side"});
+}
+
+TEST(Check, FluidOnBothSides) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
+  spec.walls[1].name = "gate";
+  expect_among(check(spec), Severity::error, {"wall 'gate' has fluid on both sides", "fluid 'fluid1'"});
+}
+
+TEST(Check, FluidTooNearToAWall) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({-0.03, 0}, {0.77, 0.4})};
+  expect_only(check(spec), Severity::error, {"'fluid1' is too near to wall 'wall1'", "4 particles", "0.02 m", "0.1 m"});
+}
+
+TEST(Check, GapBetweenFluidAndWall) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0.06, 0}, {0.56, 0.4})};
+  expect_only(check(spec), Severity::warning, {"gap", "'fluid1'", "'wall1'", "1.10 spacings", "(0.11, "});
+  spec.fluid = {box_fluid({0.3, 0}, {0.6, 0.4})};  // on purpose away from the wall
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WallThatCrossesItself) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{2, 0}, {3, 1}, {3, 0}, {2, 1}}));
+  expect_among(check(spec), Severity::error, {"wall 'wall2' crosses itself at (2.5, 0.5)"});
+}
+
+TEST(Check, WallThinnerThanItsLayers) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(box_wall({0.6, -0.1}, {0.8, 0.5}, {"-y"}, FluidSide::outside));
+  spec.walls[1].name = "pier";
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.4})};
+  expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick", "3 layers", "0.3 m"});
+}
+
+TEST(Check, TwoWallsBackToBackHaveNoThickness) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}, FluidSide::right));
+  expect_among(check(spec), Severity::error, {"wall 'wall2' is only 0 m thick", "'wall3' on its other side"});
+}
+
+TEST(Check, WaterThatPoursOut) {
+  CaseSpec spec = tank();
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.7, 0.0}})};
+  spec.walls[0].name = "tank";
+  spec.fluid = {box_fluid({0, 0}, {0.4, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out", "near wall 'tank'"});
+  spec.physics.gravity = {0.0, 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
+  CaseSpec spec = tank();
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.2}})};
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.6, 0.0}}), polyline({{0.8, 0.0}, {1.0, 0.0}, {1.0, 0.6}})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.walls[1].points[0] = {0.6, 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WaterThatPoursOutIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  expect_only(check<3>(spec), Severity::error, {"pour out"});
+}
+
+TEST(Check, WaterGoesRoundAPeriodicDomain) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {2, 0}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.domain.periodic_x = {0.0, 2.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, PeriodicDirectionTooNarrow) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {1, 0}})};
+  spec.fluid = {box_fluid({0, 0}, {1, 0.4})};
+  spec.domain.periodic_x = {0.0, 1.0};
+  expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
+}
+
+TEST(CheckMemory, CountsParticlesFromShapes) {
+  const ParticleCount count = expected_particle_count<2>(tank());
+  EXPECT_NEAR(count.fluid, 40.0, 1e-9);
+  EXPECT_NEAR(count.wall, 3 * (6 + 10 + 6), 1e-9);
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  EXPECT_NEAR(expected_particle_count<3>(spec).fluid, 80.0, 1e-9);
+  EXPECT_NEAR(expected_particle_count<3>(spec).wall, 3 * (50 + 2 * 60 + 2 * 30), 1e-9);
+}
+
+TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
+  CaseSpec spec = tank();
+  EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
+  spec.particles.spacing = 1e-12;
+  expect_only(check_memory<2>(spec, 1e9), Severity::error, {"spacing of 1e-12 m", "1 GB are free", "at least"});
+}
+
+TEST(CheckMemory, TheSpacingItProposesFits) {
+  CaseSpec spec = empty_case(1e-4);
+  spec.fluid = {box_fluid({0, 0}, {1, 1})};
+  const double bytes = memory_estimate<2>(1e8, 0.0, neighbours_in_support<2>(spec.scheme.support));
+  const double available = bytes / 100.0;  // a hundredth of the particles: ten times the spacing
+  expect_only(check_memory<2>(spec, available), Severity::error, {"at least 0.001 m"});
+  spec.particles.spacing = 1.001e-3;
+  EXPECT_TRUE(check_memory<2>(spec, available).empty());
+}
+
+TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "cases.h"
+#include "geometry/sampling.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+constexpr double round_off = 1e-13;
+
+FluidParticles<2> fluid_of(const CaseSpec& spec) { return make_fluid_particles<2>(spec, make_boundary<2>(spec)); }
+
+double least_distance(const std::vector<Vec<2>>& points) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (points[i] - points[j]).norm());
+  }
+  return least;
+}
+
+TEST(FluidLattice, IsCellCentred) {
+  const FluidParticles<2> fluid = fluid_of(tank());
+  ASSERT_EQ(fluid.position.size(), 10u * 4u);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 10; ++i) {
+      const Vec<2> expected((i + 0.5) * 0.1, (j + 0.5) * 0.1);
+      EXPECT_LT((fluid.position[j * 10 + i] - expected).norm(), round_off);
+    }
+  }
+}
+
+TEST(FluidLattice, StartsAtTheLowEdgeWhereTheExtentIsNotWhole) {
+  CaseSpec spec = empty_case(0.1);
+  spec.fluid = {box_fluid({0.03, 0.0}, {0.36, 0.04})};  // 3.3 and 0.4 spacings
+  const FluidParticles<2> fluid = fluid_of(spec);
+  ASSERT_EQ(fluid.position.size(), 3u);
+  EXPECT_NEAR(fluid.position[2][0], 0.03 + 0.25, round_off);
+}
+
+TEST(FluidLattice, IsNodeCentredBesidePressureRows) {
+  CaseSpec spec = tank();
+  spec.scheme.walls = WallTreatment::pressure_rows;
+  const FluidParticles<2> fluid = fluid_of(spec);
+  // Nodes 0..10 by 0..4 without those on the two side walls and on the bed.
+  ASSERT_EQ(fluid.position.size(), 9u * 4u);
+  EXPECT_LT((fluid.position[0] - Vec<2>(0.1, 0.1)).norm(), round_off);
+  EXPECT_LT((fluid.position.back() - Vec<2>(0.9, 0.4)).norm(), round_off);
+}
+
+TEST(FluidLattice, CarriesBlockAndVelocity) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.fluid = {box_fluid({0, 0, 0}, {0.2, 0.1, 0.1}), box_fluid({1, 0, 0}, {1.1, 0.1, 0.3})};
+  spec.fluid[1].velocity = {1.0, 2.0, 3.0};
+  const FluidParticles<3> fluid = make_fluid_particles<3>(spec, make_boundary<3>(spec));
+  EXPECT_EQ(fluid.block, (std::vector<int>{0, 0, 1, 1, 1}));
+  EXPECT_EQ(fluid.velocity[1], Vec<3>(0, 0, 0));
+  EXPECT_EQ(fluid.velocity[2], Vec<3>(1, 2, 3));
+}
+
+// The particles' volume differs from the polygon's by less than half a cell for each cell that the outline passes; for
+// the triangle with legs on the lattice, whose hypotenuse halves cells, by the one particle that an odd number costs.
+TEST(FluidLattice, PolygonKeepsItsVolume) {
+  const double dx = 0.05;
+  CaseSpec spec = empty_case(dx);
+  spec.fluid = {polygon_fluid({{0, 0}, {1, 0}, {0, 1}})};
+  spec.walls = {polyline({{1, 0}, {0, 1}})};
+  ASSERT_GT(make_boundary<2>(spec).nearest({0, 0}, 10.0).signed_distance, 0.0);
+  const FluidParticles<2> triangle = fluid_of(spec);
+  EXPECT_NEAR(triangle.position.size() * dx * dx, 0.5, dx * dx);
+
+  spec.walls.clear();
+  std::vector<Coordinates> circle;
+  for (int k = 0; k < 60; ++k) {
+    circle.push_back({std::cos(2 * std::numbers::pi * k / 60), std::sin(2 * std::numbers::pi * k / 60)});
+  }
+  spec.fluid = {polygon_fluid(circle)};
+  const double area = 30.0 * std::sin(2 * std::numbers::pi / 60);
+  // Gauss's circle problem: the error of the count is far below the outline's 8 r/dx cells; |E| <= 2 sqrt(2) pi r/dx.
+  EXPECT_NEAR(fluid_of(spec).position.size() * dx * dx, area, 2 * std::numbers::sqrt2 * std::numbers::pi * dx);
+}
+
+TEST(FluidLattice, PolygonStandsOffASlantedWall) {
+  const double dx = 0.05;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0.37}, {1, 1}})};
+  spec.fluid = {polygon_fluid({{0, 0}, {1, 0.37}, {1, 0.8}, {0, 0.8}})};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  for (const double jitter : {0.0, 0.2}) {
+    spec.particles.jitter = jitter;
+    const FluidParticles<2> fluid = make_fluid_particles<2>(spec, boundary);
+    for (const Vec<2>& x : fluid.position) {
+      EXPECT_GE(boundary.nearest(x, 1.0).signed_distance, (0.25 - 1e-9) * dx) << x.transpose();
+    }
+    if (jitter == 0.0) {
+      EXPECT_GE(least_distance(fluid.position), 0.75 * dx - round_off) << "moved by at most dx/4";
+      EXPECT_NEAR(fluid.position.size() * dx * dx, 0.8 - 0.5 * 0.37, 0.5 * dx) << "half a cell along the slope";
+    }
+  }
+}
+
+TEST(FluidLattice, JitterIsBoundedReproducibleAndSeeded) {
+  CaseSpec spec = tank();
+  const FluidParticles<2> regular = fluid_of(spec);
+  spec.particles.jitter = 0.2;
+  const FluidParticles<2> first = fluid_of(spec);
+  EXPECT_EQ(first.position, fluid_of(spec).position);
+  spec.particles.seed = 2;
+  const FluidParticles<2> second = fluid_of(spec);
+  ASSERT_EQ(first.position.size(), regular.position.size());
+  double largest = 0.0;
+  Vec<2> sum = Vec<2>::Zero();
+  for (std::size_t i = 0; i < first.position.size(); ++i) {
+    const Vec<2> shift = (first.position[i] - regular.position[i]) / 0.02;
+    largest = std::max(largest, shift.cwiseAbs().maxCoeff());
+    sum += shift;
+    EXPECT_NE(first.position[i], second.position[i]);
+  }
+  EXPECT_LE(largest, 1.0 + round_off);
+  EXPECT_GT(largest, 0.9) << "80 uniform numbers all below 0.9: probability 2e-4";
+  // The mean of 40 uniform numbers in [-1, 1) has standard deviation 0.091.
+  EXPECT_LT((sum / 40.0).cwiseAbs().maxCoeff(), 4 * 0.0913);
+}
+
+TEST(FluidLattice, BadBlocksAreNamed) {
+  CaseSpec spec = empty_case(0.1);
+  spec.fluid = {box_fluid({1, 0}, {0, 1})};
+  spec.fluid[0].name = "lake";
+  try {
+    fluid_of(spec);
+    FAIL() << "a block without extent";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("fluid 'lake' has no extent in x"), std::string::npos) << error.what();
+  }
+  spec.fluid = {box_fluid({0, 0, 0}, {1, 1, 1})};
+  EXPECT_THROW(fluid_of(spec), InputError);
+  spec.fluid = {polygon_fluid({{0, 0}, {1, 0}})};
+  EXPECT_THROW(fluid_of(spec), InputError);
+}
+
+}  // namespace
+}  // namespace tailwater
