@@ -179,7 +179,7 @@ bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to
   if (std::min(before, after) > -tolerance || std::max(before, after) < tolerance) {
     return false;
   }
-  const Vec<Dim> hit = from + before / (before - after) * (to - from);
+  const Vec<Dim> hit = meet(face, from, to);
   return (closest_point(face, hit) - hit).norm() <= tolerance;
 }
 

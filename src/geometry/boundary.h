@@ -28,6 +28,13 @@ struct WallFace {
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
 Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
 
+/// Where the line through two points, which must not be equally high above it, meets the face's plane.
+template <int Dim>
+Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const double before = face.height(from);
+  return from + before / (before - face.height(to)) * (to - from);
+}
+
 /// Does the path from `from` to `to` pass through the face? An end nearer to its plane than `tolerance` (m) does not
 /// count as having passed; a path within `tolerance` of the face's rim does.
 template <int Dim>

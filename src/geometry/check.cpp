@@ -254,11 +254,8 @@ void check_crossings(const CaseSpec& spec, const Boundary<2>& boundary, std::vec
       const WallFace<2>& b = boundary.faces[j];
       if (a.wall == b.wall && crosses(a, b.corners[0], b.corners[1], tolerance) &&
           crosses(b, a.corners[0], a.corners[1], tolerance)) {
-        const double before = a.height(b.corners[0]);
-        const double share = before / (before - a.height(b.corners[1]));
-        const Vec<2> where = b.corners[0] + share * (b.corners[1] - b.corners[0]);
         error(findings, "{} crosses itself at {}: mend the order of its points", wall_name(boundary, a.wall),
-              place(where));
+              place(meet(a, b.corners[0], b.corners[1])));
       }
     }
   }
@@ -349,8 +346,6 @@ class Flood {
     const Vec<Dim> extent = (high_ - low_).cwiseMax(spec.particles.spacing);
     const double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most_cells, 1.0 / Dim));
     std::size_t cells = 1;
-    // A path that ends exactly on a wall does not cross it, so the grid must not be in step with the lattice.
-    low_.array() -= grid_shift * cell;
     for (int axis = 0; axis < Dim; ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, axis);
       is_periodic_[axis] = range.size() == 2;
@@ -387,12 +382,12 @@ class Flood {
         if (step * gravity_[axis] < -0.5) {
           continue;
         }
-        const Vec<Dim> from = centre(c);
-        if ((flags_[index(c)] & near_wall) && meets_wall(from, from + step * size_[axis] * Vec<Dim>::Unit(axis))) {
-          continue;
-        }
         Cell target = c;
         target[axis] += step;
+        const Vec<Dim> from = centre(c);
+        if ((flags_[index(c)] & near_wall) && meets_wall(from, centre(target))) {
+          continue;
+        }
         if (is_periodic_[axis]) {
           target[axis] = (target[axis] + count_[axis]) % count_[axis];
         }
@@ -408,7 +403,6 @@ class Flood {
  private:
   using Cell = std::array<int, Dim>;
   static constexpr double most_cells = 4e6;
-  static constexpr double grid_shift = 0.0618;
   static constexpr std::uint8_t near_wall = 1, visited = 2;
 
   std::size_t index(const Cell& c) const {
@@ -451,9 +445,15 @@ class Flood {
       for (axis = 0; axis < Dim && ++c[axis] > last[axis]; ++axis) c[axis] = first[axis];
     }
   }
+  /// A place exactly on a face is before it, so that no path can pass a wall by resting on it.
   bool meets_wall(const Vec<Dim>& from, const Vec<Dim>& to) const {
-    return std::any_of(boundary_.faces.begin(), boundary_.faces.end(),
-                       [&](const WallFace<Dim>& face) { return crosses(face, from, to, tolerance_); });
+    return std::any_of(boundary_.faces.begin(), boundary_.faces.end(), [&](const WallFace<Dim>& face) {
+      if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) {
+        return false;
+      }
+      const Vec<Dim> hit = meet(face, from, to);
+      return (closest_point(face, hit) - hit).norm() <= tolerance_;
+    });
   }
 
   const Boundary<Dim>& boundary_;

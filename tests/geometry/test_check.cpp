@@ -178,6 +178,16 @@ TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+// Slopes of 45 degrees pass exactly through the centres of a grid that is in step with the lattice.
+TEST(Check, SlantedWallsAreTight) {
+  for (const double shift : {0.0, 0.025, 0.05, 0.075}) {
+    CaseSpec spec = empty_case(0.1);
+    spec.walls = {polyline({{0, 2}, {0, 0.5}, {0.5 + shift, shift}, {1 + shift, shift}, {2, 1}, {2, 2}})};
+    spec.fluid = {box_fluid({0.6, 0.6}, {1, 1})};
+    EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  }
+}
+
 TEST(Check, WaterThatPoursOutIn3D) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
