@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace tailwater {
@@ -111,6 +112,13 @@ struct Choices<ProbeType> {
   static constexpr std::array<std::string_view, 9> names{
       "depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume"};
 };
+
+/// Faces of an axis-parallel box, by the direction in which they look; in 2D the first four.
+inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
+
+/// Fields of the particles that can be written for ParaView.
+inline constexpr std::array<std::string_view, 5> field_names{"pressure", "velocity", "density_error", "is_free_surface",
+                                                             "id"};
 
 template <class Enumeration>
 constexpr std::string_view name_of(Enumeration value) {

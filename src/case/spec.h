@@ -7,16 +7,19 @@
 // ("2*H"); the structs hold the values.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "case/choices.h"
 
 namespace tailwater {
+
+/// Name of a block of fluid or a wall that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from 0.
+inline std::string default_name(const std::string& table, std::size_t index) {
+  return table + std::to_string(index + 1);
+}
 
 /// A point or vector as read from the file: `dimension` numbers.
 using Coordinates = std::vector<double>;
@@ -46,6 +49,8 @@ struct CaseTable {
   std::string title = "untitled";
   int dimension = 2;
 
+  bool operator==(const CaseTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("title", self.title, "One line that names the case in summaries and reports");
@@ -57,6 +62,8 @@ struct PhysicsTable {
   double density = 1000.0;
   double viscosity = 1e-6;
   Coordinates gravity = {0.0, -9.81};
+
+  bool operator==(const PhysicsTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
@@ -71,6 +78,8 @@ struct ParticlesTable {
   double spacing = 0.0;
   double jitter = 0.0;
   int seed = 1;
+
+  bool operator==(const ParticlesTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
@@ -88,6 +97,8 @@ struct DomainTable {
   std::vector<double> periodic_y;
   std::vector<double> periodic_z;
 
+  bool operator==(const DomainTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.numbers("periodic_x", self.periodic_x, "m", "[low, high]: what leaves at one end in x enters at the other");
@@ -103,6 +114,8 @@ struct FluidTable {
   Coordinates max;
   std::vector<Coordinates> points;
   Coordinates velocity;
+
+  bool operator==(const FluidTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
@@ -126,6 +139,8 @@ struct WallTable {
   Slip slip = Slip::free;
   double friction = 0.5;
 
+  bool operator==(const WallTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
@@ -134,7 +149,7 @@ struct WallTable {
     v.points("points", self.points, "m", "Corners of a polyline or polygon, in order");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
-    v.texts("open", self.open, "Faces left out of a box: any of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\"");
+    v.texts("open", self.open, box_face_names, "Faces left out of a box");
     v.choice("fluid_side", self.fluid_side,
              "Where the water is: left or right of a polyline as one walks along its points; inside or outside a "
              "polygon or box");
@@ -146,6 +161,8 @@ struct WallTable {
 
 struct TimeTable {
   double end = 0.0;
+
+  bool operator==(const TimeTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
@@ -186,6 +203,8 @@ struct SchemeTable {
   double relax_velocity = 1.0;
   double relax_position = 1.0;
 
+  bool operator==(const SchemeTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.choice("name", self.name, "The published system the run follows");
@@ -204,20 +223,23 @@ struct SchemeTable {
     v.choice("walls", self.walls,
              "Three layers of dummy particles behind the wall, or one layer on it that carries pressure rows "
              "(formulation)");
-    v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0), "alpha of the time-step rule (F40, F41)");
+    v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
+             "alpha of the time-step rule (F40, F41) (formulation)");
     v.number("length", self.length, "m", Range::at_least(0.0),
              "L of (F41), the scale of the start; 0: the height of the fluid along gravity");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
-             "c_a of nu_a = c_a |u| dx (F3)");
+             "c_a of nu_a = c_a |u| dx (F3) (formulation)");
     v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
              "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest");
     v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
              "c_s of the sub-particle stress (F4-F6); 0: no stress; the paper uses 0.10");
-    v.choice("shifting", self.shifting, "Particle shifting: none, along the concentration gradient, or (F28-F32) "
+    v.choice("shifting", self.shifting,
+             "Particle shifting: none, along the concentration gradient, or (F28-F32) "
              "(formulation)");
     v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
              "Factor of the shifting displacement; eps of (F30) for the published one (formulation)");
-    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.5), "Largest shift of one step");
+    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.5),
+             "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
              "Share of the density error corrected per step by the source of the pressure equation (formulation)");
     v.integer("max_passes", self.max_passes, "", Range::between(1, 100), "Most passes of the implicit iteration");
@@ -239,6 +261,8 @@ struct PressureSolverTable {
   int max_iterations = 500;
   std::string petsc_options;
 
+  bool operator==(const PressureSolverTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.choice("method", self.method, "Krylov method; auto chooses by size (docs/theory/linear.md)");
@@ -254,12 +278,13 @@ struct OutputTable {
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
   int compression = 1;
 
+  bool operator==(const OutputTable&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between two field files; 0: a hundredth of the end time");
-    v.texts("fields", self.fields,
-            "Fields to write: any of \"pressure\", \"velocity\", \"density_error\", \"is_free_surface\", \"id\"");
+    v.texts("fields", self.fields, field_names, "Fields to write");
     v.integer("compression", self.compression, "", Range::between(0, 9), "zlib level of the field files; 0: none");
   }
 };
@@ -273,6 +298,8 @@ struct ProbeTable {
   Coordinates direction;
   std::vector<double> times;
   double interval = 0.0;
+
+  bool operator==(const ProbeTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
@@ -292,6 +319,8 @@ struct ProbeTable {
 struct Parameter {
   std::string name;
   double value = 0.0;
+
+  bool operator==(const Parameter&) const = default;
 };
 
 /// A whole case, read and validated key by key; cross-checks of the geometry are in geometry/check.h.
@@ -309,7 +338,8 @@ struct CaseSpec {
   OutputTable output;
   std::vector<ProbeTable> probes;
 
-  /// The tables by name: [case], [physics], ..., [[fluid]], [[wall]], [[probe]].
+  bool operator==(const CaseSpec&) const = default;
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.table("case", self.general, "The case as a whole");

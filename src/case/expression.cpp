@@ -1,0 +1,110 @@
+#include "case/expression.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/fp_traps.h"
+#include "case/nearest_name.h"
+
+namespace tailwater {
+
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_name(std::string_view text) {
+  return !text.empty() && is_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
+}
+
+/// Whether the last letter before `position`, spaces apart, is a digit or a point.
+bool follows_number(std::string_view text, int position) {
+  const std::size_t last = text.substr(0, static_cast<std::size_t>(position)).find_last_not_of(' ');
+  return last != std::string_view::npos && (is_digit(text[last]) || text[last] == '.');
+}
+
+ExpressionError unknown_name_error(const std::string& name, int position, const NamedNumbers& numbers) {
+  std::vector<std::string_view> known{"pi"};
+  for (const auto& [number, value] : numbers) {
+    known.push_back(number);
+  }
+  const auto nearest = nearest_name(name, known);
+  return ExpressionError(fmt::format("unknown name \"{}\" at position {}; {}known numbers: {}; functions: {}", name,
+                                     position, nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "",
+                                     fmt::join(known, ", "), fmt::join(function_names(), ", ")),
+                         name);
+}
+
+ExpressionError as_expression_error(const mu::Parser::exception_type& error, const std::string& text,
+                                    const NamedNumbers& numbers) {
+  const int position = std::max(0, static_cast<int>(error.GetPos()));
+  const std::string& token = error.GetToken();
+  const bool is_out_of_place = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN || error.GetCode() == mu::ecUNEXPECTED_VAL;
+  if (is_out_of_place && is_name(token) && follows_number(text, position)) {
+    return ExpressionError(
+        fmt::format("\"{}\" at position {} follows a number; write numbers in SI without a unit, and "
+                    "products with *",
+                    token, position + 1));
+  }
+  if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && is_name(token)) {
+    return unknown_name_error(token, position + 1, numbers);
+  }
+  if (error.GetCode() == mu::ecMISSING_PARENS) {
+    return ExpressionError("a parenthesis is not closed; add \")\"");
+  }
+  return ExpressionError(
+      fmt::format("cannot read \"{}\" at position {}; write an expression such as \"2*H\"", token, position + 1));
+}
+
+}  // namespace
+
+double evaluate(const std::string& text, const NamedNumbers& numbers) {
+  // Division by zero is caught below, by its result.
+  const SuspendFpTraps suspended;
+  mu::Parser parser;
+  parser.ClearConst();
+  parser.DefineConst("pi", std::numbers::pi);
+  bool numbers_are_finite = true;
+  for (const auto& [name, value] : numbers) {
+    parser.DefineConst(name, value);
+    numbers_are_finite = numbers_are_finite && std::isfinite(value);
+  }
+  try {
+    parser.SetExpr(text);
+    int count = 0;
+    const double* values = parser.Eval(count);
+    if (count != 1) {
+      throw ExpressionError(
+          fmt::format("these are {} numbers, separated by commas; the decimal sign is the point", count));
+    }
+    if (!std::isfinite(values[0]) && numbers_are_finite) {
+      throw ExpressionError(
+          fmt::format("its value is {}; check divisions by zero and roots of negative numbers", values[0]));
+    }
+    return values[0];
+  } catch (const mu::Parser::exception_type& error) {
+    throw as_expression_error(error, text, numbers);
+  }
+}
+
+bool is_free_name(std::string_view name) {
+  const auto functions = function_names();
+  return is_name(name) && name != "pi" && std::find(functions.begin(), functions.end(), name) == functions.end();
+}
+
+std::vector<std::string> function_names() {
+  std::vector<std::string> names;
+  const mu::Parser parser;
+  for (const auto& [name, function] : parser.GetFunDef()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,40 @@
+// Numbers written as expressions of named numbers, such as "2*H" or "sqrt(g*H)".
+//
+// The arithmetic is muParser's: + - * / ^ (right-associative, binds tighter than the sign: -2^2 = -4), parentheses and
+// its functions (sqrt, sin, cos, tan, abs, min, max, exp, ...). The decimal sign is the point in every locale.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+/// The named numbers an expression may use, besides pi.
+using NamedNumbers = std::map<std::string, double, std::less<>>;
+
+/// An expression that has no value; what() says why, where in the text (the first letter is 1) and the remedy.
+class ExpressionError : public std::runtime_error {
+ public:
+  explicit ExpressionError(const std::string& message, std::optional<std::string> unknown_name = {})
+      : std::runtime_error(message), unknown_name_(std::move(unknown_name)) {}
+  /// The name that the expression uses and nobody defined, if that is the reason.
+  const std::optional<std::string>& unknown_name() const { return unknown_name_; }
+
+ private:
+  std::optional<std::string> unknown_name_;
+};
+
+/// The value of `text`. It is not finite only if one of the numbers in it is not. Throws ExpressionError.
+double evaluate(const std::string& text, const NamedNumbers& numbers);
+
+/// Whether `name` can be given to a number: letters, digits and _, no digit first, not pi nor a function.
+bool is_free_name(std::string_view name);
+
+/// The functions an expression may call, in alphabetical order.
+std::vector<std::string> function_names();
+
+}  // namespace tailwater

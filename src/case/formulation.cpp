@@ -1,0 +1,24 @@
+#include "case/formulation.h"
+
+namespace tailwater {
+
+void apply_formulation(SchemeTable& scheme) {
+  if (scheme.formulation == Formulation::robust) {
+    return;
+  }
+  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
+  scheme.kernel = KernelName::farzin;
+  scheme.laplacian = LaplacianKind::consistent;
+  scheme.gradient = GradientKind::consistent;
+  scheme.divergence = DivergenceKind::consistent;
+  scheme.surface = SurfaceTreatment::cone;
+  scheme.walls = WallTreatment::pressure_rows;
+  scheme.courant = is_explicit ? 0.05 : 0.12;
+  scheme.artificial_viscosity = 0.20;
+  scheme.shifting = ShiftingKind::farzin;
+  scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
+  scheme.shifting_cap = 0.05;
+  scheme.density_relaxation = 0.0;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,142 @@
+#include "case/help.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "case/expression.h"
+#include "case/formulation.h"
+#include "case/key_info.h"
+#include "case/key_use.h"
+
+namespace tailwater {
+
+namespace {
+
+/// Defaults of [scheme] with formulation = "published".
+std::vector<KeyInfo> published_keys(Integrator integrator) {
+  SchemeTable scheme{.formulation = Formulation::published, .integrator = integrator};
+  apply_formulation(scheme);
+  return keys_of(scheme);
+}
+
+/// What `row`, number `index` of its table, is if the file does not give it.
+std::string default_text(const TableInfo& table, std::size_t index) {
+  const KeyInfo& row = table.keys[index];
+  if (row.presence == Presence::required) {
+    return "required";
+  }
+  if (row.value == "[]" || row.value == "\"\"") {
+    return "";
+  }
+  static const auto published_explicit = published_keys(Integrator::explicit_projection);
+  static const auto published_implicit = published_keys(Integrator::implicit_projection);
+  if (table.name != "scheme" || row.key == "formulation" || row.key == "integrator" ||
+      published_explicit[index].value == row.value) {
+    return row.value;
+  }
+  const std::string& with_explicit = published_explicit[index].value;
+  const std::string& with_implicit = published_implicit[index].value;
+  return fmt::format("{} (published: {}{})", row.value, with_explicit,
+                     with_implicit == with_explicit ? "" : fmt::format(", implicit {}", with_implicit));
+}
+
+std::string type_text(const KeyInfo& row) {
+  if (row.type == "vector") {
+    return "list of `dimension` numbers";
+  }
+  if (row.type == "points") {
+    return "list of points";
+  }
+  if (row.type == "numbers") {
+    return "list of numbers";
+  }
+  if (row.type == "texts") {
+    return "list of names";
+  }
+  return row.type;
+}
+
+/// A cell of a Markdown table.
+std::string cell(std::string text) {
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
+    text.insert(at, "\\");
+  }
+  return text;
+}
+
+std::string functions_text() { return fmt::format("{}", fmt::join(function_names(), ", ")); }
+
+}  // namespace
+
+std::string case_help() {
+  std::string text =
+      "A case file is TOML. Numbers are SI, or expressions in quotes such as \"2*H\" of the names in [parameters],\n"
+      "of pi, dx (particles.spacing) and g (|physics.gravity|).\n"
+      "Functions: " +
+      functions_text() + "\n";
+  for (const TableInfo& table : case_tables()) {
+    text += fmt::format("\n{}  {}\n", table.heading(), table.doc);
+    for (std::size_t i = 0; i < table.keys.size(); ++i) {
+      const KeyInfo& row = table.keys[i];
+      const std::string fallback = default_text(table, i);
+      const std::string use = key_use_text(table.name, row.key);
+      text += fmt::format("  {} ({}{}{})\n", row.key, row.type, row.unit.empty() ? "" : fmt::format(", {}", row.unit),
+                          row.presence == Presence::required ? ", required"
+                          : fallback.empty()                 ? ""
+                                                             : fmt::format(", default {}", fallback));
+      text += fmt::format("      {}\n", row.doc);
+      if (!row.allowed.empty()) {
+        text += fmt::format("      allowed: {}\n", row.allowed);
+      }
+      if (!use.empty()) {
+        text += fmt::format("      goes with {}\n", use);
+      }
+    }
+  }
+  return text;
+}
+
+std::string case_reference_markdown() {
+  std::string text =
+      "# The case file\n\n"
+      "Made by `tailwater run --help-case=markdown > docs/reference/case-file.md`; change `src/case/spec.h`, not this "
+      "page.\n\n"
+      "A case file is [TOML](https://toml.io). Unknown keys are errors, and all problems of a file are reported at "
+      "once.\n\n"
+      "## Numbers\n\n"
+      "Numbers are SI, without units. Wherever a number may stand, also inside lists, an expression in quotes may "
+      "stand:\n\n"
+      "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
+      "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4\n"
+      "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
+      "`particles.spacing`, `g` = the magnitude of `physics.gravity`\n"
+      "- functions: " +
+      functions_text() +
+      "\n\n"
+      "`particles.spacing` may use parameters only, `physics.gravity` parameters and `dx`.\n\n"
+      "## Changes from the command line\n\n"
+      "`--set key=value` replaces or adds one value: `--set scheme.integrator=implicit`, `--set parameters.H=0.5`, "
+      "`--set 'fluid[0].max=[1, 2]'` (tables count from 0), `--set probe.NAME.interval=0.01`. Words and expressions "
+      "need no "
+      "quotes.\n\n"
+      "## Tables\n\n"
+      "`[name]` stands once, `[[name]]` as often as wanted. *Goes with*: the shapes or types that the key belongs to; "
+      "it is an error with the others.\n\n"
+      "`scheme.formulation = \"published\"` changes the defaults marked *published*. It detects the free surface by "
+      "the "
+      "cone; with `surface = \"farzin\"` the detection is the paper's own (F35).\n";
+  for (const TableInfo& table : case_tables()) {
+    text += fmt::format("\n### {}\n\n{}.\n\n", table.heading(), table.doc);
+    text += "| key | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+    for (std::size_t i = 0; i < table.keys.size(); ++i) {
+      const KeyInfo& row = table.keys[i];
+      const std::string use = key_use_text(table.name, row.key);
+      text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.key, type_text(row), default_text(table, i),
+                          row.unit, row.allowed, cell(std::string(row.doc)),
+                          use.empty() ? "" : fmt::format(". *Goes with* {}", use));
+    }
+  }
+  return text;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,81 @@
+// The keys of a table as rows of text: what the help, the reference page, the written effective case and the messages
+// about missing or misspelt keys are made of.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/choices.h"
+#include "case/spec.h"
+#include "case/toml_text.h"
+
+namespace tailwater {
+
+/// One key of a table.
+struct KeyInfo {
+  std::string_view key;
+  std::string type;       ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"
+  std::string value;      ///< as TOML
+  std::string_view unit;  ///< empty: none
+  std::string allowed;    ///< the range of a number, the names of a choice; empty: anything of that type
+  std::string_view doc;   ///< one line
+  Presence presence = Presence::optional;
+};
+
+/// The range in words, such as "above 0" or "2 to 5"; empty if it is the whole line.
+std::string range_text(const Range& range);
+
+/// Visitor for `describe` that makes the rows.
+class KeyCollector {
+ public:
+  void text(std::string_view key, const std::string& value, std::string_view doc,
+            Presence presence = Presence::optional);
+  void integer(std::string_view key, int value, std::string_view unit, const Range& range, std::string_view doc,
+               Presence presence = Presence::optional);
+  void number(std::string_view key, double value, std::string_view unit, const Range& range, std::string_view doc,
+              Presence presence = Presence::optional);
+  void coordinates(std::string_view key, const Coordinates& value, std::string_view unit, std::string_view doc);
+  void points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);
+  void numbers(std::string_view key, const std::vector<double>& value, std::string_view unit, std::string_view doc);
+  void texts(std::string_view key, const std::vector<std::string>& value, std::span<const std::string_view> allowed,
+             std::string_view doc);
+
+  template <class Enumeration>
+  void choice(std::string_view key, Enumeration value, std::string_view doc, Presence presence = Presence::optional) {
+    add_choice(key, name_of(value), Choices<Enumeration>::names, doc, presence);
+  }
+
+  std::vector<KeyInfo> take() { return std::move(rows_); }
+
+ private:
+  void add_choice(std::string_view key, std::string_view value, std::span<const std::string_view> names,
+                  std::string_view doc, Presence presence);
+
+  std::vector<KeyInfo> rows_;
+};
+
+/// The keys of a table, in the order of their description, with the values they have in `table`.
+template <class Table>
+std::vector<KeyInfo> keys_of(const Table& table = {}) {
+  KeyCollector collector;
+  Table::describe(table, collector);
+  return collector.take();
+}
+
+/// One table of the case file with its keys and their defaults.
+struct TableInfo {
+  std::string_view name;
+  bool is_list = false;  ///< [[name]], as often as wanted
+  std::string_view doc;
+  std::vector<KeyInfo> keys;
+
+  /// [name] or [[name]].
+  std::string heading() const;
+};
+
+/// All tables but [parameters], in the order of their description.
+std::vector<TableInfo> case_tables();
+
+}  // namespace tailwater

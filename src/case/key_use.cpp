@@ -1,0 +1,82 @@
+#include "case/key_use.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/assert.h"
+
+namespace tailwater {
+
+namespace {
+
+bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+bool mentions(const KeyUse& use, std::string_view key) {
+  return contains(use.needed, key) || contains(use.possible, key);
+}
+
+}  // namespace
+
+std::span<const KeyUse> key_uses() {
+  static const std::vector<KeyUse> uses{
+      {"fluid", "shape", "box", {"min", "max"}, {}},
+      {"fluid", "shape", "polygon", {"points"}, {}},
+      {"wall", "shape", "polyline", {"points"}, {}},
+      {"wall", "shape", "polygon", {"points"}, {}},
+      {"wall", "shape", "box", {"min", "max"}, {"open"}},
+      {"wall", "slip", "free", {}, {}},
+      {"wall", "slip", "no-slip", {}, {}},
+      {"wall", "slip", "partial", {}, {"friction"}},
+      {"probe", "type", "depth", {"at"}, {"interval"}},
+      {"probe", "type", "wall-pressure", {"at"}, {"interval"}},
+      {"probe", "type", "wall-pressure-mean", {"from", "to"}, {"interval"}},
+      {"probe", "type", "front", {}, {"direction", "interval"}},
+      {"probe", "type", "profile", {"from", "to", "times"}, {}},
+      {"probe", "type", "pressure", {"at"}, {"interval"}},
+      {"probe", "type", "velocity", {"at"}, {"interval"}},
+      {"probe", "type", "energy", {}, {"interval"}},
+      {"probe", "type", "volume", {}, {"interval"}},
+  };
+  return uses;
+}
+
+KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows) {
+  std::string_view selector;
+  for (const KeyUse& use : key_uses()) {
+    if (use.table == table && mentions(use, key)) {
+      selector = use.selector;
+    }
+  }
+  if (selector.empty()) {
+    return {};
+  }
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const KeyInfo& info) { return info.key == selector; });
+  TAILWATER_ASSERT(row != rows.end(), "a selector is a key of its table");
+  for (const KeyUse& use : key_uses()) {
+    if (use.table == table && use.selector == selector && toml_string(use.choice) == row->value) {
+      const KeyNeed need = contains(use.needed, key)     ? KeyNeed::needed
+                           : contains(use.possible, key) ? KeyNeed::possible
+                                                         : KeyNeed::unused;
+      return {need, &use};
+    }
+  }
+  TAILWATER_ASSERT(false, "every choice of a selector has its row");
+  return {};
+}
+
+std::string key_use_text(std::string_view table, std::string_view key) {
+  std::string text;
+  for (const KeyUse& use : key_uses()) {
+    if (use.table == table && mentions(use, key)) {
+      text += text.empty() ? fmt::format("{} = ", use.selector) : ", ";
+      text += fmt::format("\"{}\"{}", use.choice, contains(use.needed, key) ? " (needed)" : "");
+    }
+  }
+  return text;
+}
+
+}  // namespace tailwater

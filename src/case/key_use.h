@@ -1,0 +1,38 @@
+// Which keys of a block, wall or probe belong to which of its shapes or types: the only home of that rule.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/key_info.h"
+
+namespace tailwater {
+
+/// The keys that one choice needs or may have. A key that stands in no row of its table goes with every choice.
+struct KeyUse {
+  std::string_view table;
+  std::string_view selector;  ///< the key whose value chooses
+  std::string_view choice;
+  std::vector<std::string_view> needed;
+  std::vector<std::string_view> possible;
+};
+
+std::span<const KeyUse> key_uses();
+
+enum class KeyNeed { free, needed, possible, unused };
+
+/// What becomes of `key` under the choices made in `rows`, the keys of one table called `table`. `use` is the row that
+/// decides, null if the need is free.
+struct KeyVerdict {
+  KeyNeed need = KeyNeed::free;
+  const KeyUse* use = nullptr;
+};
+KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows);
+
+/// For the help: `shape = "box"`, or `type = "depth", "pressure"`, with "(needed)" where it is; empty if the key goes
+/// with every choice.
+std::string key_use_text(std::string_view table, std::string_view key);
+
+}  // namespace tailwater

@@ -1,0 +1,27 @@
+// The hint for a name that does not exist: the valid name it was probably meant to be.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+/// Edits that turn `a` into `b`: insertions, deletions, replacements and swaps of neighbours (optimal string alignment
+/// distance). Upper and lower case count as equal.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The valid name nearest to `given`, if so near that it can be a slip of the pen: at most one edit per three letters
+/// of `given`, and one in shorter names.
+std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid);
+
+/// The names in quotes, separated by commas.
+std::string quoted_list(std::span<const std::string_view> names);
+
+/// The remedy for an unknown name: `did you mean "implicit"? valid: "explicit", "implicit"`; the question only if a
+/// valid name is near.
+std::string unknown_name_hint(std::string_view given, std::span<const std::string_view> valid);
+
+}  // namespace tailwater

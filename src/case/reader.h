@@ -1,0 +1,22 @@
+// From a case file to a validated CaseSpec.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case/spec.h"
+
+namespace tailwater {
+
+/// The case in a TOML file, with `--set` overrides (overrides.h) applied to it. Every value lies in its range, belongs
+/// to the shape or type that was chosen, and points have `dimension` coordinates; names are given and unique.
+///
+/// Numbers may be expressions (expression.h) of [parameters], of `dx` = particles.spacing and of `g` = |gravity|.
+/// Parameters may use one another in any order; `particles.spacing` may use parameters, `physics.gravity` also dx.
+///
+/// Throws IoError if the file cannot be read, else InputError with one line per problem: place, key, value, what is
+/// allowed and the remedy.
+CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+}  // namespace tailwater

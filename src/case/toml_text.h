@@ -1,0 +1,16 @@
+// Values as TOML text. What is written reads back as the same value, bit for bit, in every locale.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tailwater {
+
+/// A basic string: in quotes, with quotes, backslashes and control characters escaped.
+std::string toml_string(std::string_view text);
+
+/// The shortest floating-point number that reads back as `value`; always with a point or an exponent, so that it is
+/// not an integer. `value` is finite.
+std::string toml_float(double value);
+
+}  // namespace tailwater

@@ -1,0 +1,59 @@
+#include "case/writer.h"
+
+#include <fmt/format.h>
+
+#include "case/key_info.h"
+#include "case/key_use.h"
+
+namespace tailwater {
+
+namespace {
+
+/// Visitor for CaseSpec::describe.
+class CaseWriter {
+ public:
+  explicit CaseWriter(std::string& text) : text_(text) {}
+
+  template <class Table>
+  void table(std::string_view name, const Table& table, std::string_view doc) {
+    text_ += fmt::format("\n# {}\n[{}]\n", doc, name);
+    write(name, keys_of(table));
+  }
+
+  template <class Table>
+  void tables(std::string_view name, const std::vector<Table>& tables, std::string_view doc) {
+    for (const Table& table : tables) {
+      text_ += fmt::format("\n# {}\n[[{}]]\n", doc, name);
+      write(name, keys_of(table));
+    }
+  }
+
+ private:
+  void write(std::string_view name, const std::vector<KeyInfo>& rows) {
+    for (const KeyInfo& row : rows) {
+      if (key_verdict(name, row.key, rows).need != KeyNeed::unused) {
+        const std::string unit = row.unit.empty() ? "" : fmt::format("{}: ", row.unit);
+        text_ += fmt::format("{} = {}  # {}{}\n", row.key, row.value, unit, row.doc);
+      }
+    }
+  }
+
+  std::string& text_;
+};
+
+}  // namespace
+
+std::string effective_case(const CaseSpec& spec) {
+  std::string text = "# The case as it was run: every key that applies, with its value in SI units.\n";
+  if (!spec.parameters.empty()) {
+    text += "\n# Named numbers for use in expressions\n[parameters]\n";
+    for (const Parameter& parameter : spec.parameters) {
+      text += fmt::format("{} = {}\n", parameter.name, toml_float(parameter.value));
+    }
+  }
+  CaseWriter writer(text);
+  CaseSpec::describe(spec, writer);
+  return text;
+}
+
+}  // namespace tailwater
