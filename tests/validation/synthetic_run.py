@@ -1,0 +1,117 @@
+"""A made-up run folder of cases/zhou1999: the shape of a run's results, with curves of which the scores are known.
+
+Not physics: a column that collapses by a formula, probes that repeat the laboratory's own curves. To look at the picture:
+PYTHONPATH=validation /usr/bin/python3 tests/validation/synthetic_run.py DIR SPACING
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from tailwater_validation import zhou1999
+
+SAMPLING = 0.001  # s
+ARRIVAL = 0.59  # s: before the window in which noise is scored
+SAWTOOTH = 0.03  # of rho g H, over four samples: -1, -1/3, 1/3, 1 times this
+
+EFFECTIVE_CASE = """\
+[particles]
+spacing = {spacing}
+[time]
+end = {end}
+[scheme]
+integrator = "explicit"
+[[wall]]
+name = "tank"
+shape = "polyline"
+points = [[0.0, 3.0], [0.0, 0.0], [3.22, 0.0], [3.22, 3.0]]
+"""
+
+SUMMARY = {
+    "status": "done",
+    "particles": {"fluid": 3200, "wall": 2000},
+    "steps": {"count": 1600, "dt_mean_s": 0.00125},
+    "cost": {"cpu_s": 60.0, "cpu_s_per_simulated_s": 30.0},
+    "energy": {"start_J": 2000.0, "end_J": 1800.0, "largest_rise_over_start": 2e-4},
+    "volume": {"density_error_mean": 0.002, "density_error_rms": 0.01, "outside_the_walls_most": 0},
+}
+
+
+def surface(x, T):
+    """Depth over x at time T: a falling column with a running front, then water that climbs the right wall."""
+    front = min(1.2 + 0.35 * T**1.5, 3.22)
+    depth = 0.6 / (1 + 0.12 * T**1.5) * np.clip(1 - x / front, 0, 1) ** 0.45 + 0.06 * (x < front)
+    return depth + max(T - 2.4, 0) * 0.28 * np.exp(-(3.22 - x) / 0.16)
+
+
+def write_frame(path, T, spacing):
+    x, z = np.meshgrid(np.arange(spacing / 2, 3.22, spacing), np.arange(spacing / 2, 3.0, spacing))
+    wet = z < surface(x, T)
+    position = np.stack([x[wet], z[wet], np.zeros(np.count_nonzero(wet))], axis=1)
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(position, deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    pressure = numpy_to_vtk(9810.0 * (surface(x, T) - z)[wet].astype(np.float32), deep=True)
+    pressure.SetName("pressure")
+    data.GetPointData().AddArray(pressure)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(data)
+    writer.Write()
+
+
+def write_probe(folder, name, columns):
+    np.savetxt(folder / "probes" / f"{name}.csv", np.stack(list(columns.values()), axis=1), delimiter=",",
+               header=",".join(columns), comments="")
+
+
+def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
+    """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error` (of H)
+    too high; P160 is a step at ARRIVAL and a sawtooth on it."""
+    folder = Path(folder)
+    (folder / "probes").mkdir(parents=True)
+    (folder / "fields").mkdir()
+    (folder / "case.effective.toml").write_text(EFFECTIVE_CASE.format(spacing=spacing, end=8 * zhou1999.TIME_SCALE))
+    (folder / "summary.json").write_text(json.dumps(SUMMARY))
+    regular = np.arange(0, end * zhou1999.TIME_SCALE + 1e-9, SAMPLING)
+
+    def measured(quantity):
+        """(time in s, value): sampled also at the laboratory's own times, so that nothing is lost between samples."""
+        curve = zhou1999.laboratory(quantity, "openmps")
+        knots = curve.time + delay
+        T = np.union1d(regular / zhou1999.TIME_SCALE, knots[(knots >= 0) & (knots <= end)])
+        return T * zhou1999.TIME_SCALE, np.interp(T - delay, curve.time, curve.value)
+
+    for gauge in ("H1", "H2"):
+        time, depth = measured(gauge)
+        level = (depth + depth_error) * zhou1999.H
+        later = time > 5 * zhou1999.TIME_SCALE
+        write_probe(folder, gauge, {"time_s": time, "connected_m": level, "highest_m": level + 0.06 * later})
+    time, pressure = measured("P2")
+    # A run's wall is dry until the jet arrives; the gauge's noise before that is its own.
+    pressure = np.where(time > zhou1999.LABORATORY_QUIET * zhou1999.TIME_SCALE, pressure, 0) * zhou1999.PRESSURE_SCALE
+    write_probe(folder, "P2", {"time_s": time, "pressure_Pa": pressure, "wet_share": pressure > 0})
+    sawtooth = SAWTOOTH * (np.arange(regular.size) % 4 - 1.5) / 1.5
+    write_probe(folder, "P160", {
+        "time_s": regular,
+        "pressure_Pa": np.where(regular >= ARRIVAL - 1e-9, 0.5 + sawtooth, 0) * zhou1999.PRESSURE_SCALE})
+
+    frames = np.arange(0, end + 1e-9, 0.2)
+    entries = []
+    for k, T in enumerate(frames):
+        write_frame(folder / "fields" / f"fields_{k:05}.vtp", T, spacing)
+        entries.append(f'<DataSet timestep="{T * zhou1999.TIME_SCALE}" file="fields_{k:05}.vtp"/>')
+    (folder / "fields" / "fields.pvd").write_text(
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0"><Collection>\n'
+        + "\n".join(entries) + "\n</Collection></VTKFile>\n")
+
+
+if __name__ == "__main__":
+    write_run(sys.argv[1], spacing=float(sys.argv[2]), delay=0.1, depth_error=0.03)

@@ -1,0 +1,188 @@
+"""The laboratory's files, and the comparison from end to end on a made-up run whose scores are known."""
+
+import contextlib
+import io
+import json
+import math
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+
+import synthetic_run
+from tailwater_validation import compare, zhou1999
+from tailwater_validation.curves import DataError, read_table
+from tailwater_validation.particles import list_frames, nearest_frames
+from tailwater_validation.picture import draw_zhou1999
+
+CASE = zhou1999.DATA.parent
+
+
+class Data(unittest.TestCase):
+    FILES = [(quantity, digitisation) for quantity in ("H1", "H2", "P2") for digitisation in zhou1999.DIGITISATIONS]
+
+    def test_every_file_says_where_it_comes_from(self):
+        self.assertEqual(len(list(zhou1999.DATA.iterdir())), len(self.FILES))
+        for path in zhou1999.DATA.iterdir():
+            text = path.read_text()
+            for word in ("# WHAT:", "# PAPER:", "# SOURCE:", "# CAVEATS:", "# ADDED:"):
+                self.assertIn(word, text, path)
+
+    def test_curves_span_what_is_scored(self):
+        for quantity, digitisation in self.FILES:
+            curve = zhou1999.laboratory(quantity, digitisation)
+            start, end = zhou1999.PRESSURE_WINDOW if quantity == "P2" else (0, 8)
+            self.assertLessEqual(curve.time[0], start)
+            self.assertGreaterEqual(curve.time[-1], end + zhou1999.TIME_UNCERTAINTY)
+            self.assertTrue((np.diff(curve.time) > 0).all())
+
+    def test_scaled_columns_follow_from_the_raw_ones(self):
+        for quantity, digitisation in self.FILES:
+            table = read_table(zhou1999.DATA / f"zhou1999_{quantity}_{digitisation}.csv")
+            seconds = table["t_rel_s" if digitisation == "openmps" else "t_s"]
+            raw = table[next(name for name in table if name.startswith(("h_raw", "p_raw", "value")))]
+            scale = zhou1999.PRESSURE_SCALE if quantity == "P2" else zhou1999.H
+            scaled = table["p_over_rhogH" if quantity == "P2" else "h_over_H"]
+            # The added columns carry six digits; the seconds they were made from as well.
+            np.testing.assert_allclose(table["tstar"], seconds / zhou1999.TIME_SCALE, rtol=1e-5, atol=1e-6)
+            np.testing.assert_allclose(scaled, raw / scale, rtol=1e-5, atol=1e-6)
+
+    def test_the_case_has_the_probes_that_are_scored(self):
+        with open(CASE / "case.toml", "rb") as file:
+            case = tomllib.load(file)
+        types = {probe["name"]: probe["type"] for probe in case["probe"]}
+        self.assertEqual({name: types.get(name) for name in ("H1", "H2", "P2", zhou1999.POINT)},
+                         {"H1": "depth", "H2": "depth", "P2": "wall-pressure-mean", zhou1999.POINT: "wall-pressure"})
+        self.assertEqual(case["parameters"]["H"], zhou1999.H)
+        self.assertNotIn("interval", [key for probe in case["probe"] for key in probe])  # noise needs every step
+
+
+class RunTest(unittest.TestCase):
+    def write_run(self, **options):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        run = Path(parent.name) / "run"
+        synthetic_run.write_run(run, **options)
+        return run
+
+    def score(self, **options):
+        return {metric["name"]: metric for metric in zhou1999.score(self.write_run(**options))["metrics"]}
+
+
+class Scores(RunTest):
+    def test_a_run_that_is_late_by_a_known_time(self):
+        metrics = self.score(delay=0.1)
+        for name in ("rms P2 T 2.4..7 openmps", "rms H1 T 0..8 openmps", "rms H2 T 0..6 openmps"):
+            with self.subTest(name):
+                self.assertAlmostEqual(metrics[name]["shift"], 0.1, places=9)
+                self.assertAlmostEqual(metrics[name]["shifted_value"], 0, places=9)
+                self.assertGreater(metrics[name]["value"], 1e-3)
+
+    def test_depths_that_are_wrong_by_a_known_height(self):
+        for error, verdict in ((0.04, "met"), (0.06, "missed")):
+            metrics = self.score(depth_error=error)
+            for gauge in ("H1", "H2"):
+                metric = metrics[f"rms {gauge} T 0..6 openmps"]
+                self.assertAlmostEqual(metric["value"], error, places=9)
+                self.assertEqual(metric["verdict"], verdict)
+
+    def test_arrival_and_noise_of_a_step_with_a_sawtooth(self):
+        metrics = self.score()
+        self.assertAlmostEqual(metrics["arrival"]["value"], synthetic_run.ARRIVAL, places=9)
+        self.assertEqual(metrics["arrival"]["verdict"], "missed")
+        # RMS of -1, -1/3, 1/3, 1 is sqrt(5)/3; the running median of such a sawtooth is at most 1/3.
+        amplitude = synthetic_run.SAWTOOTH
+        self.assertAlmostEqual(metrics["noise"]["value"], amplitude * math.sqrt(5) / 3, delta=amplitude / 3)
+
+    def test_first_peak_is_that_of_the_laboratory_when_the_run_repeats_it(self):
+        measured = zhou1999.laboratory("P2", "openmps")
+        impact = measured.window(2.4, 3.0)
+        metrics = self.score()
+        self.assertAlmostEqual(metrics["peak_P2"]["value"], impact.value.max(), places=9)
+        self.assertAlmostEqual(metrics["peak_time_P2"]["value"], impact.time[impact.value.argmax()], places=9)
+
+    def test_a_run_that_ends_early_says_so_and_scores_the_rest(self):
+        metrics = self.score(end=6.5)
+        self.assertIsNone(metrics["rms H1 T 0..8 openmps"]["value"])
+        self.assertIn("share only", metrics["rms H1 T 0..8 openmps"]["note"])
+        self.assertEqual(metrics["rms H1 T 0..8 openmps"]["verdict"], "missed")
+        self.assertAlmostEqual(metrics["rms H1 T 0..6 openmps"]["value"], 0, places=9)
+
+    def test_a_missing_probe_is_named(self):
+        run = self.write_run()
+        (run / "probes" / "P160.csv").unlink()
+        metrics = {metric["name"]: metric for metric in zhou1999.score(run)["metrics"]}
+        self.assertIn("P160.csv", metrics["noise"]["note"])
+        self.assertIsNotNone(metrics["peak_P2"]["value"])
+
+
+class Fields(RunTest):
+    def test_frames_are_read_with_their_times_and_fields(self):
+        run = self.write_run(spacing=0.1, end=1.0)
+        self.assertEqual(len(list_frames(run)), 6)
+        frame, = nearest_frames(run, [0.52 * zhou1999.TIME_SCALE])
+        self.assertAlmostEqual(frame.time, 0.6 * zhou1999.TIME_SCALE)
+        # Row by row from the floor, every particle's pressure is hydrostatic below the formula's surface.
+        x, z = frame.position[:, 0], frame.position[:, 1]
+        np.testing.assert_allclose(frame.fields["pressure"], 9810 * (synthetic_run.surface(x, 0.6) - z), rtol=1e-5,
+                                   atol=1e-2)
+
+    def test_broken_files_are_named(self):
+        run = self.write_run(spacing=0.1, end=1.0)
+        frame = run / "fields" / "fields_00000.vtp"
+        frame.write_text("not a field file")
+        with self.assertRaisesRegex(DataError, "fields_00000.vtp"):
+            nearest_frames(run, [0.0])
+        (run / "fields" / "fields.pvd").write_text("<half")
+        with self.assertRaisesRegex(DataError, "fields.pvd"):
+            list_frames(run)
+
+
+class Picture(RunTest):
+    def test_a_whole_run_and_one_that_ended_early(self):
+        for end in (8.0, 1.0):
+            run = self.write_run(spacing=0.05, end=end)
+            draw_zhou1999(run, run / "picture.png")
+            pixels = matplotlib.image.imread(run / "picture.png")
+            self.assertEqual(pixels.shape[1], 11 * 160)
+            # The computed curves' blue, #0072B2, is on the page.
+            blue = np.abs(pixels[:, :, :3] - np.array([0x00, 0x72, 0xB2]) / 255).max(axis=2) < 1e-6
+            self.assertGreater(np.count_nonzero(blue), 100)
+
+
+class Command(RunTest):
+    def run_command(self, *arguments):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = compare.main(list(map(str, arguments)))
+        return code, out.getvalue(), err.getvalue()
+
+    def test_table_scores_and_picture(self):
+        run = self.write_run(depth_error=0.06)
+        code, out, _ = self.run_command("zhou1999", run)
+        self.assertEqual(code, 0)
+        self.assertRegex(out, r"RMS of H1, T 0\.\.6 +0\.060 +H +<= 0\.05 +missed +openmps")
+        self.assertRegex(out, r"done: 3200 fluid .* CPU 60 s .* energy 0\.900 of the start")
+        self.assertEqual(json.loads((run / "comparison.json").read_text()), zhou1999.score(run))
+        self.assertTrue((run / "zhou1999.png").is_file())
+
+    def test_a_run_without_a_summary_is_told_from_a_finished_one(self):
+        run = self.write_run()
+        (run / "summary.json").unlink()
+        code, out, _ = self.run_command("zhou1999", run)
+        self.assertEqual(code, 0)
+        self.assertIn("no summary.json", out)
+
+    def test_a_folder_that_is_no_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code, out, err = self.run_command("zhou1999", folder)
+            self.assertEqual((code, out), (4, ""))
+            self.assertIn("case.effective.toml cannot be read", err)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

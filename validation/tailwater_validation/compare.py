@@ -1,0 +1,71 @@
+"""Compares a run with the laboratory: a table on standard output, comparison.json and CASE.png in the run's folder.
+
+Usage: python -m tailwater_validation.compare zhou1999 RUN_DIR
+Exit codes: 0 done (whatever the verdicts are), 2 what was asked for is wrong, 4 a file cannot be read or written.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from . import picture, zhou1999
+from .curves import DataError
+
+CASES = {"zhou1999": (zhou1999.score, picture.draw_zhou1999)}
+
+
+def cost_and_health(summary):
+    """One line on what the run cost and whether it stayed sound; scores mean little without it."""
+    if not summary:
+        return "The run left no summary.json: it was killed or still goes on."
+    particles, steps, cost = summary["particles"], summary["steps"], summary["cost"]
+    energy, volume = summary["energy"], summary["volume"]
+    return (f"{summary['status']}: {particles['fluid']} fluid and {particles['wall']} wall particles, "
+            f"{steps['count']} steps of {1000 * steps['dt_mean_s']:.2f} ms, CPU {cost['cpu_s']:.0f} s "
+            f"({cost['cpu_s_per_simulated_s']:.1f} s per simulated s); "
+            f"energy {energy['end_J'] / energy['start_J']:.3f} of the start, rise {energy['largest_rise_over_start']:.1e}; "
+            f"density error mean {volume['density_error_mean']:+.4f}, rms {volume['density_error_rms']:.4f}; "
+            f"{volume['outside_the_walls_most']} particles outside the walls")
+
+
+def table(result):
+    """The scores as lines of text."""
+    rows = [("quantity", "value", "unit", "target", "", "compared with", "best shift of it")]
+    for metric in result["metrics"]:
+        value = "-" if metric["value"] is None else f"{metric['value']:.3f}"
+        low, high = metric["low"], metric["high"]
+        target = f"{low:g}..{high:g}" if None not in (low, high) else f"<= {high:g}" if high is not None else ""
+        shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at T {metric['shift']:+.3f}"
+        rows.append((metric["what"], value, metric["unit"], target, metric["verdict"],
+                     metric["note"] or metric["against"], shift))
+    # The last two columns are long where the other is empty, so the width of the sixth is that of its short cells.
+    widths = [max(len(row[k]) for row in rows if k < 5 or row[6]) for k in range(6)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, [*widths, 0])).rstrip() for row in rows]
+    lines.insert(1, "-" * max(map(len, lines)))
+    heading = f"{result['case']}, dx = {result['spacing_m']:g} m, {result['integrator']}: {result['run']}"
+    return "\n".join([heading, cost_and_health(result["summary"]), "", *lines])
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="tailwater_validation.compare",
+                                     description="Compares a run with laboratory data.")
+    parser.add_argument("case", choices=sorted(CASES))
+    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote")
+    options = parser.parse_args(arguments)
+    score, draw = CASES[options.case]
+    scores, image = options.run / "comparison.json", options.run / f"{options.case}.png"
+    try:
+        result = score(options.run)
+        print(table(result))
+        scores.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+        draw(options.run, image)
+    except (DataError, OSError) as error:
+        print(f"compare: {error}", file=sys.stderr)
+        return 4
+    print(f"\nscores:  {scores}\npicture: {image}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,138 @@
+"""Curves over time: reading them, and the numbers that compare them.
+
+A curve is a quantity at strictly increasing times. Times and values carry the unit that their owner gave them; every
+function here keeps it. The scores are those that docs and papers of the project call "as in cases.md".
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+# Share of a window that two curves must both cover to be compared over it. Less would compare other events.
+LEAST_COVERAGE = 0.95
+# Samples inside the running median's width below which it follows the noise itself.
+LEAST_MEDIAN_SAMPLES = 5
+
+
+class DataError(Exception):
+    """A file or curve that cannot be scored; the message names it and the reason."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    time: np.ndarray
+    value: np.ndarray
+
+    @classmethod
+    def from_samples(cls, time, value, name="curve"):
+        """Sorts by time; samples at the same time become their mean (digitised curves step back and repeat)."""
+        time, value = np.asarray(time, dtype=float), np.asarray(value, dtype=float)
+        if time.size == 0:
+            raise DataError(f"{name}: has no samples")
+        if not (np.isfinite(time).all() and np.isfinite(value).all()):
+            raise DataError(f"{name}: holds a number that is not finite")
+        unique, owner = np.unique(time, return_inverse=True)
+        return cls(unique, np.bincount(owner, weights=value) / np.bincount(owner))
+
+    def scaled(self, time=1.0, value=1.0):
+        return Curve(self.time * time, self.value * value)
+
+    def shifted(self, delay):
+        """The same curve, `delay` later."""
+        return Curve(self.time + delay, self.value)
+
+    def window(self, start, end):
+        inside = (self.time >= start) & (self.time <= end)
+        return Curve(self.time[inside], self.value[inside])
+
+
+def read_table(path):
+    """Columns of a CSV with one line of names, by name; lines that start with `#` are provenance and are skipped."""
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read ({error.strerror})") from error
+    numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
+    if len(numbered) < 2:
+        raise DataError(f"{path}: has no lines of numbers")
+    names = [name.strip() for name in numbered[0][1].split(",")]
+    rows = []
+    for n, line in numbered[1:]:
+        try:
+            row = [float(cell) for cell in line.split(",")]
+        except ValueError as error:
+            raise DataError(f"{path}:{n}: {error}") from error
+        if len(row) != len(names):
+            raise DataError(f"{path}:{n}: {len(row)} numbers under {len(names)} names")
+        rows.append(row)
+    return dict(zip(names, np.array(rows).T))
+
+
+def read_curve(path, value_column, time_column="time_s"):
+    """One column of a CSV over its time column. The defaults fit a run's probes; laboratory files name both columns."""
+    table = read_table(path)
+    for column in (time_column, value_column):
+        if column not in table:
+            raise DataError(f"{path}: has no column {column}; it has {', '.join(table)}")
+    return Curve.from_samples(table[time_column], table[value_column], name=f"{path}, {value_column}")
+
+
+def differences(a, b, start, end, step):
+    """b - a on a uniform grid from `start` to `end`, where both curves have values (linear between samples)."""
+    first = max(start, a.time[0], b.time[0])
+    last = min(end, a.time[-1], b.time[-1])
+    if last - first < LEAST_COVERAGE * (end - start):
+        raise DataError(f"the curves share only {first:.3g}..{last:.3g} of the window {start:.3g}..{end:.3g}"
+                        if last > first else f"the curves share nothing of the window {start:.3g}..{end:.3g}")
+    times = np.linspace(first, last, int(np.ceil((last - first) / step)) + 1)
+    return np.interp(times, b.time, b.value) - np.interp(times, a.time, a.value)
+
+
+def rms_difference(a, b, start, end, step):
+    """Root of the mean square of b - a over the window, on a uniform grid of `step`."""
+    return float(np.sqrt(np.mean(differences(a, b, start, end, step) ** 2)))
+
+
+def best_shift(measured, computed, start, end, step, limit, trials=121):
+    """(delay, rms): how much later (at most `limit` either way) the measured curve fits best, and how well then."""
+    delays = np.linspace(-limit, limit, trials)
+    scores = [rms_difference(measured.shifted(delay), computed, start, end, step) for delay in delays]
+    best = int(np.argmin(scores))
+    return float(delays[best]), scores[best]
+
+
+def arrival_time(pressure, threshold, not_before=-np.inf):
+    """Time of the first sample above `threshold` at or after `not_before`; None if there is none."""
+    arrived = (pressure.value > threshold) & (pressure.time >= not_before)
+    return float(pressure.time[np.argmax(arrived)]) if arrived.any() else None
+
+
+def first_peak(pressure, arrival, within):
+    """(time, value) of the largest sample from `arrival` until `within` later."""
+    impact = pressure.window(arrival, arrival + within)
+    if impact.time.size == 0 or pressure.time[-1] < arrival + within:
+        raise DataError(f"the curve ends before the first peak is over, at {arrival + within:.3g}")
+    highest = int(np.argmax(impact.value))
+    return float(impact.time[highest]), float(impact.value[highest])
+
+
+def running_median(curve, width):
+    """Median of the samples within `width`/2 of each sample."""
+    first = np.searchsorted(curve.time, curve.time - width / 2, side="left")
+    last = np.searchsorted(curve.time, curve.time + width / 2, side="right")
+    return np.array([np.median(curve.value[i:j]) for i, j in zip(first, last)])
+
+
+def noise(curve, start, end, width):
+    """RMS over the samples from `start` to `end` of the distance to the running median of `width`."""
+    if curve.time[0] > start or curve.time[-1] < end:
+        raise DataError(f"the curve does not cover the window {start:.3g}..{end:.3g}")
+    margin = curve.window(start - width, end + width)
+    inside = (margin.time >= start) & (margin.time <= end)
+    if np.count_nonzero(inside) * width < LEAST_MEDIAN_SAMPLES * (end - start):
+        raise DataError(f"fewer than {LEAST_MEDIAN_SAMPLES} samples in the running median of {width:.3g}: "
+                        "write the probe at every step")
+    rest = (margin.value - running_median(margin, width))[inside]
+    return float(np.sqrt(np.mean(rest**2)))

@@ -1,0 +1,55 @@
+"""The field files of a run, read with VTK."""
+
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from .curves import DataError
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Fluid particles at one time: positions (n, 3) in m, and fields by name (n or n x 3)."""
+
+    time: float
+    position: np.ndarray
+    fields: dict
+
+
+def list_frames(run_folder):
+    """[(time in s, path)] of fields/fields.pvd, in its order. Throws DataError."""
+    series = Path(run_folder) / "fields" / "fields.pvd"
+    try:
+        entries = ElementTree.parse(series).getroot().iter("DataSet")
+        return [(float(entry.get("timestep")), series.parent / entry.get("file")) for entry in entries]
+    except OSError as error:
+        raise DataError(f"{series}: cannot be read ({error.strerror})") from error
+    except (ElementTree.ParseError, TypeError, ValueError) as error:
+        raise DataError(f"{series}: is not a ParaView series ({error})") from error
+
+
+def read_frame(time, path):
+    """Throws DataError if VTK cannot read the file."""
+    reader = vtkXMLPolyDataReader()
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise DataError(f"{path}: is not a VTK polydata file")
+    reader.SetFileName(str(path))
+    reader.Update()
+    data = reader.GetOutput()
+    arrays = data.GetPointData()
+    if data.GetNumberOfPoints() == 0:
+        raise DataError(f"{path}: holds no particles")
+    fields = {arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k)) for k in range(arrays.GetNumberOfArrays())}
+    return Frame(time, vtk_to_numpy(data.GetPoints().GetData()), fields)
+
+
+def nearest_frames(run_folder, times):
+    """The frame nearest to each of `times` (s)."""
+    frames = list_frames(run_folder)
+    if not frames:
+        raise DataError(f"{run_folder}: the run wrote no field files")
+    return [read_frame(*min(frames, key=lambda frame: abs(frame[0] - time))) for time in times]

@@ -1,0 +1,52 @@
+"""What a run left in its folder: the effective case, its summary, and curves of its probes."""
+
+import json
+import tomllib
+from pathlib import Path
+
+from .curves import DataError, read_curve
+
+
+class RunFolder:
+    def __init__(self, path):
+        self.path = Path(path)
+        effective = self.path / "case.effective.toml"
+        try:
+            self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise DataError(f"{self.path}: is not the folder of a run, {effective.name} cannot be read "
+                            f"({error.strerror})") from error
+        except tomllib.TOMLDecodeError as error:
+            raise DataError(f"{effective}: {error}") from error
+
+    def probe(self, name, column):
+        """The curve of a probe's column over time in s."""
+        return read_curve(self.path / "probes" / f"{name}.csv", column)
+
+    @property
+    def summary(self):
+        """summary.json; empty when there is none, which is how a run that was killed looks."""
+        path = self.path / "summary.json"
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return {}
+        except (OSError, ValueError) as error:
+            raise DataError(f"{path}: {error}") from error
+
+    @property
+    def spacing(self):
+        return self.case["particles"]["spacing"]
+
+    @property
+    def integrator(self):
+        return self.case["scheme"]["integrator"]
+
+    @property
+    def walls(self):
+        """Chains of wall points (m), closed ones with their first point again at the end."""
+        chains = []
+        for wall in self.case.get("wall", []):
+            points = [tuple(point) for point in wall["points"]]
+            chains.append(points + points[:1] if wall["shape"] == "polygon" else points)
+        return chains

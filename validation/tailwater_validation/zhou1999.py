@@ -1,0 +1,179 @@
+"""Scores a run of cases/zhou1999 against the laboratory data beside the case (its README says what was measured).
+
+T = t sqrt(g/H); depths over H; pressures over rho g H. Two people digitised the same curves; each is scored apart, and
+their distance from each other is scored too: it is the least uncertainty that the data can have.
+"""
+
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from .curves import DataError, arrival_time, best_shift, first_peak, noise, read_curve, rms_difference
+from .run_folder import RunFolder
+
+H = 0.6
+GRAVITY = 9.81
+DENSITY = 1000.0
+TIME_SCALE = (H / GRAVITY) ** 0.5
+PRESSURE_SCALE = DENSITY * GRAVITY * H
+
+DATA = Path(__file__).resolve().parents[2] / "cases" / "zhou1999" / "data"
+DIGITISATIONS = ("openmps", "fluidity")
+TIME_UNCERTAINTY = 0.12  # of T: the instant of release is known to 0.03 s
+LABORATORY_QUIET = 1.5  # T before which the gauge shows only the noise of the release
+
+GRID = 0.01  # of T
+PRESSURE_WINDOW = (2.4, 7.0)
+ARRIVAL_THRESHOLD = 0.05
+FIRST_PEAK_WITHIN = 0.75  # of T after the arrival: the jet has met the wall, the water above has not come down yet
+NOISE_WINDOW = (0.6, 1.4)  # s
+NOISE_MEDIAN = 0.02  # s
+
+ARRIVAL_TARGET = (0.60, 0.66)  # s, at the point z = 0.16 m
+DEPTH_TARGETS = {(0.0, 6.0): 0.05, (0.0, 8.0): 0.10}  # window of T: largest RMS over H
+
+POINT = "P160"  # the point probe at z = 0.16 m, where others' arrival and noise were read
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One number of the comparison. `value` is None where it could not be had; `note` then says why. RMS differences
+    also have the value at the best shift of the measured curve within TIME_UNCERTAINTY, and that shift (of T)."""
+
+    name: str
+    what: str
+    unit: str
+    against: str
+    low: float | None = None
+    high: float | None = None
+    value: float | None = None
+    shifted_value: float | None = None
+    shift: float | None = None
+    note: str = ""
+
+    @property
+    def verdict(self):
+        if self.low is None and self.high is None:
+            return ""
+        if self.value is None:
+            return "missed"
+        above = self.low is None or self.value >= self.low
+        below = self.high is None or self.value <= self.high
+        return "met" if above and below else "missed"
+
+
+def measure(metric, **values):
+    """The metric with its values, each given as a function; with the reason instead where one cannot be computed."""
+    try:
+        return replace(metric, **{field: compute() for field, compute in values.items()})
+    except DataError as error:
+        return replace(metric, note=str(error))
+
+
+def laboratory(quantity, digitisation):
+    """Measured H1, H2 (over H) or P2 (over rho g H), as a curve over T; digitisation is one of DIGITISATIONS."""
+    column = "p_over_rhogH" if quantity == "P2" else "h_over_H"
+    return read_curve(DATA / f"zhou1999_{quantity}_{digitisation}.csv", column, time_column="tstar")
+
+
+def depth(run, gauge, column="connected_m"):
+    """Computed depth over H at a gauge, over T."""
+    return run.probe(gauge, column).scaled(1 / TIME_SCALE, 1 / H)
+
+
+def pressure(run, probe):
+    """Computed wall pressure over rho g H, over T."""
+    return run.probe(probe, "pressure_Pa").scaled(1 / TIME_SCALE, 1 / PRESSURE_SCALE)
+
+
+def arrival_in_seconds(curve, not_before=0.0):
+    """When a pressure over rho g H, over T, first exceeds the threshold: in s."""
+    arrival = arrival_time(curve, ARRIVAL_THRESHOLD, not_before)
+    if arrival is None:
+        raise DataError(f"the pressure never exceeds {ARRIVAL_THRESHOLD} rho g H")
+    return arrival * TIME_SCALE
+
+
+def peak(curve, not_before=0.0):
+    """(T, pressure over rho g H) of the first peak."""
+    return first_peak(curve, arrival_in_seconds(curve, not_before) / TIME_SCALE, FIRST_PEAK_WITHIN)
+
+
+def measured_values(read):
+    """"openmps 0.596, fluidity 0.607": what the laboratory's P2 gives, read with the rule for the computed curve."""
+    return ", ".join(f"{name} {read(laboratory('P2', name), LABORATORY_QUIET):.3f}" for name in DIGITISATIONS)
+
+
+def score_impact(run):
+    arrivals = f"measured P2: {measured_values(arrival_in_seconds)} (+-{TIME_UNCERTAINTY * TIME_SCALE:.2f})"
+    heights = f"measured P2: {measured_values(lambda curve, after: peak(curve, after)[1])}"
+    times = f"measured P2: {measured_values(lambda curve, after: peak(curve, after)[0])} (+-{TIME_UNCERTAINTY})"
+    return [
+        measure(Metric("arrival", "arrival, point z = 0.16 m", "s", arrivals, *ARRIVAL_TARGET),
+                value=lambda: arrival_in_seconds(pressure(run, POINT))),
+        measure(Metric("arrival_P2", "arrival, P2", "s", arrivals),
+                value=lambda: arrival_in_seconds(pressure(run, "P2"))),
+        measure(Metric("peak_P2", "first peak, P2", "rho g H", heights), value=lambda: peak(pressure(run, "P2"))[1]),
+        measure(Metric("peak_time_P2", "time of first peak, P2", "T", times),
+                value=lambda: peak(pressure(run, "P2"))[0]),
+    ]
+
+
+def score_noise(run):
+    window = f"t {NOISE_WINDOW[0]}..{NOISE_WINDOW[1]} s"
+    return [measure(Metric("noise", f"pressure noise, point z = 0.16 m, {window}", "rho g H",
+                           f"its running median of {NOISE_MEDIAN} s"),
+                    value=lambda: noise(run.probe(POINT, "pressure_Pa"), *NOISE_WINDOW, NOISE_MEDIAN) / PRESSURE_SCALE)]
+
+
+def score_curve(metric, measured, compute, window):
+    """RMS difference as published, and with the shift within the data's own uncertainty that fits best. `compute`
+    makes the computed curve."""
+    scored = measure(metric, value=lambda: rms_difference(measured, compute(), *window, GRID))
+    if scored.value is None:
+        return scored
+    shift, value = best_shift(measured, compute(), *window, GRID, TIME_UNCERTAINTY)
+    return replace(scored, shift=shift, shifted_value=value)
+
+
+def score_curves(run):
+    compared = [("P2", "P2", "rho g H", PRESSURE_WINDOW, None, lambda: pressure(run, "P2"))]
+    for gauge in ("H1", "H2"):
+        for window, target in DEPTH_TARGETS.items():
+            compared.append((gauge, gauge, "H", window, target, partial(depth, run, gauge)))
+            compared.append((gauge, f"{gauge} (highest water)", "H", window, None,
+                             partial(depth, run, gauge, "highest_m")))
+    return [
+        score_curve(Metric(f"rms {what} T {window[0]:g}..{window[1]:g} {digitisation}",
+                           f"RMS of {what}, T {window[0]:g}..{window[1]:g}", unit, digitisation, high=target),
+                    laboratory(gauge, digitisation), compute, window)
+        for gauge, what, unit, window, target, compute in compared
+        for digitisation in DIGITISATIONS
+    ]
+
+
+def score_digitisations():
+    """How far the two readings of the same laboratory curves are from each other."""
+    one, other = DIGITISATIONS
+    return [
+        score_curve(Metric(f"rms {gauge} T {window[0]:g}..{window[1]:g} {one} {other}",
+                           f"RMS of {one}'s {gauge}, T {window[0]:g}..{window[1]:g}", unit, other),
+                    laboratory(gauge, other), partial(laboratory, gauge, one), window)
+        for gauge, unit, window in (("P2", "rho g H", PRESSURE_WINDOW), *(("H1", "H", w) for w in DEPTH_TARGETS),
+                                    *(("H2", "H", w) for w in DEPTH_TARGETS))
+    ]
+
+
+def score(run_folder):
+    """Scores a run; returns {case, run, spacing_m, integrator, summary (the run's own), metrics: [Metric's fields and
+    its verdict]}. Throws DataError if the folder is not that of a run."""
+    run = RunFolder(run_folder)
+    metrics = score_impact(run) + score_noise(run) + score_curves(run) + score_digitisations()
+    return {
+        "case": "zhou1999",
+        "run": str(run.path),
+        "spacing_m": run.spacing,
+        "integrator": run.integrator,
+        "summary": run.summary,
+        "metrics": [asdict(metric) | {"verdict": metric.verdict} for metric in metrics],
+    }
