@@ -151,7 +151,8 @@ void draw_axes(Svg& svg, const View& view) {
   for (int axis = 0; axis < 2; ++axis) {
     const double step = tick_step(least_apart[axis] / view.scale);
     for (double k = std::ceil(view.low[axis] / step - 1e-9); k * step <= view.high[axis] + 1e-9 * step; ++k) {
-      const std::string label = fmt::format("{:.6g}", k * step);
+      // + 0.0 turns -0 into 0.
+      const std::string label = fmt::format("{:.6g}", k * step + 0.0);
       if (axis == 0) {
         const double x = view.left + view.scale * (k * step - view.low[0]);
         svg.line({x, view.bottom()}, {x, view.bottom() + 6.0}, wall_colour, 1.0);
@@ -241,8 +242,15 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   svg.text(view.left, 28.0, "start", spec.general.title, 1.35 * font_size);
   svg.text(view.left, 50.0, "start", summary);
 
-  if (walls.size() <= most_dots) {
-    svg.dots(walls.position, view, dummy_colour, 0.85 * dx * view.scale);
+  // Seen along y, the walls before and behind the scene would hide it.
+  std::vector<Vec<Dim>> shown_walls;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) {
+      shown_walls.push_back(walls.position[i]);
+    }
+  }
+  if (shown_walls.size() <= most_dots) {
+    svg.dots(shown_walls, view, dummy_colour, 0.85 * dx * view.scale);
   }
   if (fluid.position.size() <= most_dots) {
     svg.dots(fluid.position, view, fluid_colour, 0.85 * dx * view.scale);
@@ -260,8 +268,12 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     }
   }
   for (const WallFace<Dim>& face : boundary.faces) {
-    for (int c = 0; c + 1 < Dim + (Dim == 3 ? 1 : 0); ++c) {
-      svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), wall_colour, 1.5);
+    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
+      const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
+      const bool is_diagonal_of_rectangle = Dim == 3 && edge.cwiseAbs().maxCoeff() < (1.0 - 1e-9) * edge.norm();
+      if (!is_diagonal_of_rectangle) {
+        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), wall_colour, 1.5);
+      }
     }
   }
   draw_axes(svg, view);
@@ -274,7 +286,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     for (const Vec<2>& x : markers[i].points)
       points.push_back(view(markers[i].is_vertical ? Vec<2>(x[0], view.high[1]) : x));
     const Vec<2> end = markers[i].is_vertical ? Vec<2>(points[0][0], view.bottom()) : points[0];
-    svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.8" )"
+    svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.6" )"
             R"(stroke-dasharray="4 3"/>)",
             points[0][0], baseline - 8.0, end[1], probe_colour);
     if (points.size() == 2) {
