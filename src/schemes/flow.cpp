@@ -13,8 +13,6 @@ namespace {
 /// enough that few entries are idle.
 constexpr double skin_over_spacing = 0.2;
 
-constexpr int dummy_layers = 3;
-
 template <int Dim>
 PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   PeriodicDomain<Dim> periodic;
@@ -30,7 +28,7 @@ WallModel<Dim> make_wall_model(const CaseSpec& spec, const Boundary<Dim>& bounda
   WallModel<Dim> walls;
   walls.treatment = spec.scheme.walls;
   walls.particles = walls.treatment == WallTreatment::dummies
-                        ? make_dummy_particles(boundary, spec.particles.spacing, dummy_layers)
+                        ? make_dummy_particles(boundary, spec.particles.spacing, dummy_layers(spec))
                         : make_surface_particles(boundary, spec.particles.spacing);
   for (const int wall : walls.particles.wall) walls.friction.push_back(boundary.walls[wall].friction);
   return walls;

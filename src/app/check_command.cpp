@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "case/reader.h"
+#include "geometry/preview.h"
+#include "io/write_file.h"
+#include "linear/session.h"
+#include "probes/probe_set.h"
+#include "run/estimate.h"
+#include "run/progress.h"
+#include "run/run_case.h"
+#include "schemes/flow.h"
+
+namespace tailwater {
+namespace {
+
+struct CheckOptions {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+  std::filesystem::path preview;
+};
+
+template <int Dim>
+void check_in(const CaseSpec& spec, const std::filesystem::path& preview) {
+  Flow<Dim> flow(spec);
+  make_probes<Dim>(spec, flow.boundary);
+  const std::string picture =
+      preview_svg(spec, flow.boundary, make_fluid_particles(spec, flow.boundary), flow.walls.particles);
+  write_text_file(preview, picture);
+  const RunEstimate estimate = estimate_run(spec, flow);
+  fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.fluid_particles,
+             estimate.wall_particles, spec.particles.spacing);
+  fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
+  fmt::print("time:      about {:.0f} steps, {} on this machine (violent flow takes more and smaller steps)\n",
+             estimate.steps, readable_duration(estimate.seconds));
+  fmt::print("preview:   {}\n", preview.string());
+}
+
+void check_case(const CheckOptions& options) {
+  const CaseSpec spec = read_case(options.case_file, options.overrides);
+  require_sound_geometry(spec, false);
+  fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
+  const std::filesystem::path preview = options.preview.empty()
+                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
+                                            : options.preview;
+  const LinearSession session;
+  if (spec.general.dimension == 2) {
+    check_in<2>(spec, preview);
+  } else {
+    check_in<3>(spec, preview);
+  }
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ExitCode&) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case, count its particles, estimate memory and time, draw a preview");
+  command->add_option("case", options->case_file, "The case file")->required();
+  command->add_option("--set", options->overrides, "Override a key, as in --set particles.spacing=0.01")
+      ->allow_extra_args(false);
+  command->add_option("--preview", options->preview, "Picture to write (default: CASE.preview.svg in this folder)");
+  command->callback([options] { check_case(*options); });
+}
+
+}  // namespace tailwater

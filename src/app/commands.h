@@ -1,0 +1,15 @@
+// The commands of the program. Each adds itself to the command line; its callback does the work and sets the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+
+namespace tailwater {
+
+void add_new_command(CLI::App& app, ExitCode& code);
+void add_check_command(CLI::App& app, ExitCode& code);
+void add_run_command(CLI::App& app, ExitCode& code);
+void add_info_command(CLI::App& app, ExitCode& code);
+
+}  // namespace tailwater

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "io/write_file.h"
+#include "templates.h"
+
+namespace tailwater {
+namespace {
+
+struct NewOptions {
+  std::string kind;
+  std::filesystem::path file;
+  bool force = false;
+};
+
+void write_new_case(const NewOptions& options) {
+  if (std::filesystem::exists(options.file) && !options.force) {
+    throw InputError(
+        fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
+  }
+  write_text_file(options.file, options.kind == "tank" ? templates::tank : templates::dam_break);
+  const std::string file = options.file.string();
+  fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
+             options.file.stem().string());
+}
+
+}  // namespace
+
+void add_new_command(CLI::App& app, ExitCode&) {
+  auto options = std::make_shared<NewOptions>();
+  CLI::App* command = app.add_subcommand("new", "Start a case file from a template");
+  command->add_option("template", options->kind, "dam-break or tank")
+      ->required()
+      ->check(CLI::IsMember({"dam-break", "tank"}));
+  command->add_option("file", options->file, "The case file to write")->required();
+  command->add_flag("--force", options->force, "Overwrite the file if it exists");
+  command->callback([options] { write_new_case(*options); });
+}
+
+}  // namespace tailwater

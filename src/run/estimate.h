@@ -1,0 +1,21 @@
+// What a run will take, before it is started: time steps, memory, hours.
+#pragma once
+
+#include "case/spec.h"
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+struct RunEstimate {
+  double fluid_particles = 0.0;
+  double wall_particles = 0.0;
+  double memory = 0.0;   ///< bytes
+  double steps = 0.0;    ///< to the end, if speeds stay near those of free fall through the fluid's height
+  double seconds = 0.0;  ///< of this machine, from trial steps
+};
+
+/// Runs a few trial steps of `flow`, which was made from `spec`.
+template <int Dim>
+RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow);
+
+}  // namespace tailwater

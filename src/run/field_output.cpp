@@ -1,0 +1,46 @@
+#include "run/field_output.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tailwater {
+
+template <int Dim>
+FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles,
+                              const std::vector<std::string>& names)
+    : names_(names) {
+  std::vector<std::size_t> fluid;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) fluid.push_back(i);
+  }
+  std::sort(fluid.begin(), fluid.end(),
+            [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
+  // Before the first step there are no work fields yet: the start is a lattice with no marks.
+  const bool has_work_fields = !flow.concentration.empty();
+  for (const std::size_t i : fluid) {
+    position_.push_back(particles.position[i]);
+    velocity_.push_back(particles.velocity[i]);
+    pressure_.push_back(particles.pressure[i]);
+    density_error_.push_back(has_work_fields ? flow.concentration[i] - 1.0 : 0.0);
+    is_surface_.push_back(has_work_fields ? flow.is_surface[i] : 0);
+    id_.push_back(particles.id[i]);
+  }
+}
+
+template <int Dim>
+ParticleFields<Dim> FluidFields<Dim>::view() const {
+  ParticleFields<Dim> result{.position = position_, .fields = {}};
+  for (const std::string& name : names_) {
+    if (name == "pressure") result.fields.push_back({name, pressure_});
+    if (name == "velocity") result.fields.push_back({name, velocity_});
+    if (name == "density_error") result.fields.push_back({name, density_error_});
+    if (name == "is_free_surface") result.fields.push_back({name, is_surface_});
+    if (name == "id") result.fields.push_back({name, id_});
+  }
+  return result;
+}
+
+template class FluidFields<2>;
+template class FluidFields<3>;
+
+}  // namespace tailwater

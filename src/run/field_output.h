@@ -1,0 +1,31 @@
+// The fluid's fields at one instant, in the order of the particles' ids, as the case asks for them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/vtp_writer.h"
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+/// Owns the gathered arrays that `view` borrows.
+template <int Dim>
+class FluidFields {
+ public:
+  /// Gathers the named fields (see OutputTable::fields) of `particles`; the work fields come from `flow`.
+  FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles, const std::vector<std::string>& names);
+
+  ParticleFields<Dim> view() const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<Vec<Dim>> position_;
+  std::vector<Vec<Dim>> velocity_;
+  std::vector<double> pressure_;
+  std::vector<double> density_error_;
+  std::vector<std::int64_t> is_surface_;
+  std::vector<std::int64_t> id_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,23 @@
+// Ctrl-C and SIGTERM end a run in order: the present step is finished and everything written so far stays usable.
+#pragma once
+
+#include <csignal>
+
+namespace tailwater {
+
+/// While it lives, the first SIGINT or SIGTERM only raises a flag; a second one ends the program at once.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  bool requested() const;
+
+ private:
+  struct sigaction old_interrupt_ {};
+  struct sigaction old_terminate_ {};
+};
+
+}  // namespace tailwater

@@ -1,0 +1,15 @@
+// Where a result comes from: program, commit, libraries, machine.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tailwater {
+
+/// {"version", "commit", "libraries", "machine": {"name", "processor", "cores"}}
+nlohmann::ordered_json provenance();
+
+/// "tailwater 0.1.0 (commit abc123)"
+std::string version_line();
+
+}  // namespace tailwater

@@ -1,0 +1,290 @@
+#include "run/run_case.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "case/writer.h"
+#include "geometry/check.h"
+#include "io/pvd_series.h"
+#include "io/write_file.h"
+#include "probes/probe_set.h"
+#include "run/failure.h"
+#include "run/field_output.h"
+#include "run/interrupt.h"
+#include "run/progress.h"
+#include "run/provenance.h"
+#include "run/statistics.h"
+#include "run/step_log.h"
+#include "schemes/projection.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// Particles drift away from cache order slowly: sorting this seldom keeps its cost below notice.
+constexpr std::int64_t steps_between_sorts = 20;
+
+/// A step below this share of the rule's own reference means some particle has run away: better an error now than a run
+/// that never ends.
+constexpr double collapsed_step = 1e-5;
+
+constexpr double default_field_files = 100.0;
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+template <int Dim>
+std::size_t count_fluid(const Particles<Dim>& particles) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) count += particles.is_fluid(i);
+  return count;
+}
+
+/// Fluid particles beyond the box around all walls: they are still computed, but left the case over its rim.
+template <int Dim>
+std::size_t count_outside(const Flow<Dim>& flow) {
+  if (flow.boundary.faces.empty()) return 0;
+  Vec<Dim> low = flow.boundary.faces[0].corners[0];
+  Vec<Dim> high = low;
+  for (const WallFace<Dim>& face : flow.boundary.faces) {
+    for (const Vec<Dim>& corner : face.corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = flow.particles.position[i];
+    count += ((x - low).array() < 0.0).any() || ((x - high).array() > 0.0).any();
+  }
+  return count;
+}
+
+template <int Dim>
+[[noreturn]] void throw_collapsed(const Flow<Dim>& flow, double dt) {
+  std::size_t fastest = 0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (flow.particles.velocity[i].squaredNorm() > flow.particles.velocity[fastest].squaredNorm()) fastest = i;
+  }
+  const Vec<Dim>& x = flow.particles.position[fastest];
+  throw SolverError(fmt::format(
+      "the time step collapsed to {:.3g} s at t = {:.6g} s: particle {} at ({:.4g}, {:.4g}) moves at {:.4g} m/s. The "
+      "run has "
+      "become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or scheme.formulation = "
+      "\"robust\"",
+      dt, flow.time, flow.particles.id[fastest], x[0], x[1], flow.particles.velocity[fastest].norm()));
+}
+
+template <int Dim>
+class Run {
+ public:
+  Run(const CaseSpec& spec, const RunOptions& options)
+      : spec_(spec),
+        options_(options),
+        flow_(spec),
+        fluid_at_start_(count_fluid(flow_.particles)),
+        probe_list_(make_probes<Dim>(spec, flow_.boundary)),
+        folder_(RunFolder::create(options.out, options.force)),
+        series_(folder_.fields(), "fields", spec.output.compression),
+        step_log_(folder_.steps()),
+        probes_(std::move(probe_list_), folder_),
+        progress_(spec.time.end, options.quiet),
+        statistics_(measure(flow_)) {
+    write_text_file(folder_.effective_case(), effective_case(spec));
+  }
+
+  ExitCode execute() {
+    ExitCode code = ExitCode::done;
+    try {
+      code = loop();
+    } catch (const SolverError& error) {
+      progress_.finish();
+      write_fields();
+      write_summary("failed", ExitCode::solver_failed, error.what());
+      throw;
+    }
+    progress_.finish();
+    write_fields();
+    write_summary(code == ExitCode::done ? "done" : "interrupted", code, "");
+    return code;
+  }
+
+ private:
+  ExitCode loop() {
+    const InterruptGuard interrupt;
+    const double field_interval =
+        spec_.output.fields_interval > 0.0 ? spec_.output.fields_interval : spec_.time.end / default_field_files;
+    double next_fields = 0.0;
+    const double reference_step = flow_.time_step_rule.largest(0.0, 0.0);
+
+    locate(flow_);
+    record_probes(measure(flow_));
+    while (flow_.time < spec_.time.end) {
+      if (interrupt.requested()) return ExitCode::interrupted;
+      if (flow_.time >= next_fields) {
+        write_fields();
+        next_fields = (std::floor(flow_.time / field_interval) + 1.0) * field_interval;
+      }
+      step(reference_step);
+    }
+    return ExitCode::done;
+  }
+
+  void step(double reference_step) {
+    if (flow_.step % steps_between_sorts == 0) flow_.neighbourhood.reorder(flow_.particles);
+    last_good_ = flow_.particles;
+    last_good_time_ = flow_.time;
+    StepReport report;
+    try {
+      const double dt = std::min(next_time_step(flow_), spec_.time.end);
+      if (std::isfinite(reference_step) && dt < collapsed_step * reference_step) throw_collapsed(flow_, dt);
+      report = advance(flow_, dt);
+      if (const auto culprit = find_non_finite(flow_.particles)) fail(culprit, "a value is not finite");
+    } catch (const SolverError& error) {
+      if (failure_is_written_) throw;
+      fail(std::nullopt, error.what());
+    }
+    const FlowMeasures measures = measure(flow_);
+    const std::size_t outside = count_outside(flow_);
+    warn_if_outside(outside);
+    statistics_.add(report, measures, outside);
+    step_log_.write(flow_.time, flow_.step, report, measures);
+    record_probes(measures);
+    progress_.show(flow_.time, flow_.step, report, measures);
+  }
+
+  [[noreturn]] void fail(std::optional<std::size_t> culprit, const std::string& message) {
+    failure_is_written_ = true;
+    const std::string report = write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
+    flow_.particles = last_good_;
+    flow_.time = last_good_time_;
+    throw SolverError(
+        fmt::format("{}The last good fields and this report are in {}", report, (folder_.path() / "failure").string()));
+  }
+
+  void warn_if_outside(std::size_t outside) {
+    if (outside == 0 || warned_outside_) return;
+    warned_outside_ = true;
+    progress_.finish();
+    fmt::print(stderr,
+               "warning: at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still "
+               "computed, and counted in summary.json. Remedy: higher walls\n",
+               flow_.time, outside);
+  }
+
+  void write_fields() {
+    const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
+    if (last_fields_time_ == flow_.time && series_.size() > 0) return;
+    last_fields_time_ = flow_.time;
+    series_.write(flow_.time, fields.view());
+  }
+
+  void record_probes(const FlowMeasures& measures) {
+    if (!probes_.is_due(flow_.time)) return;
+    probes_.record({.particles = flow_.particles,
+                    .grid = flow_.neighbourhood.grid(),
+                    .kernel = flow_.neighbourhood.kernel(),
+                    .boundary = flow_.boundary,
+                    .density = flow_.density,
+                    .gravity = flow_.gravity,
+                    .spacing = flow_.spacing,
+                    .time = flow_.time,
+                    .totals = {.kinetic_energy = measures.kinetic_energy,
+                               .potential_energy = measures.potential_energy,
+                               .density_error_mean = measures.density_error_mean,
+                               .density_error_rms = measures.density_error_rms}});
+  }
+
+  void write_summary(const std::string& status, ExitCode code, const std::string& message) {
+    const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double cpu = cpu_seconds() - cpu_start_;
+    const std::size_t fluid = count_fluid(flow_.particles);
+    nlohmann::ordered_json summary = {{"title", spec_.general.title},
+                                      {"case", options_.case_file.string()},
+                                      {"status", status},
+                                      {"exit_code", static_cast<int>(code)},
+                                      {"message", message},
+                                      {"spacing_m", spec_.particles.spacing},
+                                      {"particles", {{"fluid", fluid}, {"wall", flow_.particles.owned - fluid}}},
+                                      {"time_s", {{"end", spec_.time.end}, {"reached", flow_.time}}},
+                                      {"cost",
+                                       {{"wall_clock_s", wall_seconds},
+                                        {"cpu_s", cpu},
+                                        {"cpu_s_per_simulated_s", flow_.time > 0.0 ? cpu / flow_.time : 0.0},
+                                        {"peak_memory_bytes", peak_memory_bytes()}}}};
+    summary.update(statistics_.json(fluid, fluid_at_start_));
+    summary.update(provenance());
+    write_text_file(folder_.summary(), summary.dump(2) + "\n");
+  }
+
+  const CaseSpec& spec_;
+  const RunOptions& options_;
+  Flow<Dim> flow_;
+  std::size_t fluid_at_start_;
+  std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
+  RunFolder folder_;
+  PvdSeries series_;
+  StepLog step_log_;
+  ProbeSet<Dim> probes_;
+  Progress progress_;
+  RunStatistics statistics_;
+  Particles<Dim> last_good_;
+  double last_good_time_ = 0.0;
+  double last_fields_time_ = -1.0;
+  bool failure_is_written_ = false;
+  bool warned_outside_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double cpu_start_ = cpu_seconds();
+};
+
+template <int Dim>
+void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
+  std::vector<Finding> findings = check_memory<Dim>(spec, available_memory());
+  if (findings.empty()) {
+    const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+    findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
+  }
+  std::string errors;
+  for (const Finding& finding : findings) {
+    if (finding.severity == Severity::error) {
+      errors += (errors.empty() ? "" : "\n") + finding.message;
+    } else if (!quiet) {
+      fmt::print(stderr, "warning: {}\n", finding.message);
+    }
+  }
+  if (!errors.empty()) throw InputError(errors);
+}
+
+}  // namespace
+
+void require_sound_geometry(const CaseSpec& spec, bool quiet) {
+  if (spec.general.dimension == 2) {
+    require_sound_geometry_in<2>(spec, quiet);
+  } else {
+    require_sound_geometry_in<3>(spec, quiet);
+  }
+}
+
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options) {
+  require_sound_geometry(spec, options.quiet);
+  return spec.general.dimension == 2 ? Run<2>(spec, options).execute() : Run<3>(spec, options).execute();
+}
+
+}  // namespace tailwater

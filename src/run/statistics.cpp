@@ -1,0 +1,65 @@
+#include "run/statistics.h"
+
+#include <cmath>
+
+namespace tailwater {
+
+RunStatistics::RunStatistics(const FlowMeasures& start)
+    : energy_start_(total_energy(start)), energy_end_(energy_start_), energy_least_(energy_start_) {}
+
+void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped) {
+  dt_least_ = steps_ == 0 ? report.dt : std::min(dt_least_, report.dt);
+  dt_largest_ = std::max(dt_largest_, report.dt);
+  dt_sum_ += report.dt;
+  ++steps_;
+  passes_ += report.passes;
+  iterations_ += report.iterations;
+  divergence_old_squares_ += report.divergence_old * report.divergence_old;
+  divergence_new_squares_ += report.divergence_new * report.divergence_new;
+  density_error_sum_ += measures.density_error_mean;
+  density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
+  energy_end_ = total_energy(measures);
+  energy_least_ = std::min(energy_least_, energy_end_);
+  energy_rise_ = std::max(energy_rise_, energy_end_ - energy_least_);
+  escaped_ = escaped;
+  most_escaped_ = std::max(most_escaped_, escaped);
+  interventions_ += report.interventions;
+}
+
+nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(steps_, 1));
+  const double particle_steps = steps * static_cast<double>(std::max<std::size_t>(fluid_particles, 1));
+  const auto passes = static_cast<double>(std::max<std::int64_t>(passes_, 1));
+  return {
+      {"steps",
+       {{"count", steps_}, {"dt_mean_s", dt_sum_ / steps}, {"dt_least_s", dt_least_}, {"dt_largest_s", dt_largest_}}},
+      {"pressure_solver",
+       {{"solves", passes_},
+        {"passes_per_step", passes / steps},
+        {"iterations", iterations_},
+        {"iterations_per_solve", static_cast<double>(iterations_) / passes}}},
+      {"divergence",
+       {{"rms_at_old_positions_per_s", std::sqrt(divergence_old_squares_ / steps)},
+        {"rms_at_new_positions_per_s", std::sqrt(divergence_new_squares_ / steps)}}},
+      {"energy",
+       {{"start_J", energy_start_},
+        {"end_J", energy_end_},
+        {"largest_rise_J", energy_rise_},
+        {"largest_rise_over_start", energy_start_ != 0.0 ? energy_rise_ / std::abs(energy_start_) : 0.0}}},
+      {"volume",
+       {{"fluid_particles_start", fluid_particles_at_start},
+        {"fluid_particles_end", fluid_particles},
+        {"outside_the_walls_end", escaped_},
+        {"outside_the_walls_most", most_escaped_},
+        {"density_error_mean", density_error_sum_ / steps},
+        {"density_error_rms", std::sqrt(density_error_squares_ / steps)}}},
+      {"interventions",
+       {{"put_back_from_walls", interventions_.put_back},
+        {"capped_shifts", interventions_.capped_shifts},
+        {"clamped_pressures", interventions_.clamped_pressures},
+        {"fallback_rows", interventions_.fallback_rows},
+        {"put_back_and_capped_per_particle_step",
+         static_cast<double>(interventions_.put_back + interventions_.capped_shifts) / particle_steps}}}};
+}
+
+}  // namespace tailwater

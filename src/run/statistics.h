@@ -1,0 +1,44 @@
+// What a run adds up over its steps, for summary.json.
+#pragma once
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+class RunStatistics {
+ public:
+  explicit RunStatistics(const FlowMeasures& start);
+
+  void add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped);
+
+  /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
+  nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
+
+ private:
+  static double total_energy(const FlowMeasures& measures) {
+    return measures.kinetic_energy + measures.potential_energy;
+  }
+
+  std::int64_t steps_ = 0;
+  std::int64_t passes_ = 0;
+  std::int64_t iterations_ = 0;
+  double dt_sum_ = 0.0;
+  double dt_least_ = 0.0;
+  double dt_largest_ = 0.0;
+  double divergence_old_squares_ = 0.0;
+  double divergence_new_squares_ = 0.0;
+  double density_error_sum_ = 0.0;
+  double density_error_squares_ = 0.0;
+  double energy_start_;
+  double energy_end_;
+  double energy_least_;
+  double energy_rise_ = 0.0;
+  std::size_t most_escaped_ = 0;
+  std::size_t escaped_ = 0;
+  Interventions interventions_;
+};
+
+}  // namespace tailwater
