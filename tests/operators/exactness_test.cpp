@@ -1,0 +1,236 @@
+// What the operators reproduce exactly. Bounds are round-off: eps times the size of what is summed times a condition
+// number, never an observed error.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "operators/concentration.h"
+#include "operators/divergence.h"
+#include "operators/gradient_conservative.h"
+#include "operators/laplacian_morris.h"
+#include "operators/lattice.h"
+#include "support/dimensions.h"
+#include "support/tensors.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double dx = 0.05;
+constexpr double radius = 3.0 * dx;
+constexpr std::array all_kernels{KernelName::wendland_c2, KernelName::cubic_spline, KernelName::farzin};
+constexpr std::array jitters{0.0, 0.1, 0.3};
+
+template <class D>
+class ExactnessTest : public testing::Test {};
+TYPED_TEST_SUITE(ExactnessTest, Dimensions);
+
+template <int Dim>
+constexpr int cube_count = Dim == 2 ? 16 : 9;
+
+template <int Dim>
+ParticleSet<Dim> cube(KernelName kernel, double jitter) {
+  return ParticleSet<Dim>(jittered_cube<Dim>(cube_count<Dim>, dx, jitter), make_kernel<Dim>(kernel, radius), dx);
+}
+
+/// Is the whole support inside the cube?
+template <int Dim>
+bool is_interior(const Vec<Dim>& position) {
+  return position.cwiseAbs().maxCoeff() < (0.5 * cube_count<Dim> - 0.5 - 0.3) * dx - radius;
+}
+
+template <int Dim>
+Vec<Dim> some_vector() {
+  Vec<Dim> g = Vec<Dim>::Constant(0.7);
+  g[0] = -1.3;
+  return g;
+}
+
+template <int Dim>
+Mat<Dim> some_symmetric_matrix() {
+  Mat<Dim> H = Mat<Dim>::Constant(0.6);
+  for (int d = 0; d < Dim; ++d) H(d, d) = 1.5 - d;
+  return H;
+}
+
+TYPED_TEST(ExactnessTest, GradientOfLinearFieldsInteriorAndEdges) {
+  constexpr int Dim = TypeParam::value;
+  const Vec<Dim> g = some_vector<Dim>();
+  Mat<Dim> G = some_symmetric_matrix<Dim>();
+  G(0, 1) += 0.9;
+  for (const KernelName kernel : all_kernels) {
+    for (const double jitter : jitters) {
+      const ParticleSet<Dim> set = cube<Dim>(kernel, jitter);
+      const ConsistentOperators<Dim> operators(set);
+      const auto linear = sample(set, [&](const Vec<Dim>& x) { return 2.0 + g.dot(x); });
+      const auto linear_vector = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(Vec<Dim>::Ones() + G * x); });
+      const auto uniform = sample(set, [](const Vec<Dim>&) { return 5.0; });
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        const Renormalisation<Dim>& tensors = operators.tensors[i];
+        if (jitter == 0.0) {
+          // On a regular block one octant of neighbours remains at a corner, and that spans space.
+          ASSERT_TRUE(tensors.has_inverse);
+        }
+        if (!tensors.gradient_is_sound()) continue;
+        // Differences of values of size 2 carry 4 eps; their weights sum to at most tr A |B1| sqrt(Dim)/r_min.
+        double weights = 0.0;
+        for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
+          weights += consistent_gradient_weight<Dim>(tensors.B1, set.particles.volume[i], set.pairs().e[k],
+                                                     set.pairs().r[k], set.pairs().W[k])
+                         .norm();
+        }
+        const double condition = tensors.trace_A / tensors.least_eigenvalue_A;
+        const double bound = 16.0 * eps * weights + 64.0 * eps * condition * g.norm();
+        ASSERT_LT((operators.gradient(i, linear) - g).norm(), bound);
+        ASSERT_LT((operators.gradient(i, linear_vector) - G).norm(), 2.0 * bound);
+        ASSERT_EQ(operators.gradient(i, uniform), Vec<Dim>(Vec<Dim>::Zero()));
+      }
+    }
+  }
+}
+
+TYPED_TEST(ExactnessTest, TensorsAreSoundInsideAndOnFlatEdgesOfALattice) {
+  constexpr int Dim = TypeParam::value;
+  for (const KernelName kernel : all_kernels) {
+    for (const double jitter : jitters) {
+      const ParticleSet<Dim> set = cube<Dim>(kernel, jitter);
+      const ConsistentOperators<Dim> operators(set);
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        if (is_interior<Dim>(set.position(i))) {
+          EXPECT_TRUE(operators.tensors[i].laplacian_is_sound());
+        }
+      }
+    }
+    const ParticleSet<Dim> set = cube<Dim>(kernel, 0.0);
+    const ConsistentOperators<Dim> operators(set);
+    const double edge = 0.5 * (cube_count<Dim> - 1) * dx;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const auto on_edge = (set.position(i).cwiseAbs().array() > edge - 0.5 * dx).count();
+      const auto inside = (set.position(i).cwiseAbs().array() < edge - radius).count();
+      if (on_edge == 1 && inside == Dim - 1) {
+        EXPECT_TRUE(operators.tensors[i].gradient_is_sound());
+      }
+    }
+  }
+}
+
+TYPED_TEST(ExactnessTest, LaplacianOfQuadraticFieldsInteriorAndEdges) {
+  constexpr int Dim = TypeParam::value;
+  const Mat<Dim> H = some_symmetric_matrix<Dim>();
+  const auto function = [&](const Vec<Dim>& x) { return 1.0 + some_vector<Dim>().dot(x) + 0.5 * x.dot(H * x); };
+  for (const KernelName kernel : all_kernels) {
+    for (const double jitter : jitters) {
+      const ParticleSet<Dim> set = cube<Dim>(kernel, jitter);
+      const ConsistentOperators<Dim> operators(set);
+      const auto quadratic = sample(set, function);
+      const auto vector = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(function(x) * some_vector<Dim>()); });
+      std::size_t tested = 0;
+      std::size_t at_edges = 0;
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        if (!operators.tensors[i].laplacian_is_sound()) continue;
+        ++tested;
+        at_edges += !is_interior<Dim>(set.position(i));
+        double weights = 0.0;
+        for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
+          weights += std::abs(operators.laplacian_weight(i, k));
+        }
+        // Values of size up to 3 are rounded, and so are the weights; B2 comes from a system of at most 6 unknowns
+        // whose condition number soundness keeps below some 1e3.
+        const double bound = 1e3 * 16.0 * eps * weights * radius + 16.0 * eps * 3.0 * weights;
+        ASSERT_LT(std::abs(operators.laplacian(i, quadratic) - H.trace()), bound);
+        ASSERT_LT((operators.laplacian(i, vector) - H.trace() * some_vector<Dim>()).norm(), 2.0 * bound);
+      }
+      EXPECT_GT(tested, 0u);
+      EXPECT_GT(at_edges, 0u);
+    }
+  }
+}
+
+TYPED_TEST(ExactnessTest, SignOfTheSecondTermOfF23) {
+  constexpr int Dim = TypeParam::value;
+  // With v = g . x the first term of (F23) sums to -2 (C : B2) . g and the second to 2 drift . A . g, and these cancel
+  // because drift = A^-1 (C : B2). The "+" of the scan leaves -4 (A drift) . g instead, which is of order |g|/dx where
+  // the set has no symmetry.
+  const Vec<Dim> g = some_vector<Dim>();
+  const ParticleSet<Dim> set = cube<Dim>(KernelName::farzin, 0.3);
+  const ConsistentOperators<Dim> operators(set);
+  const auto linear = sample(set, [&](const Vec<Dim>& x) { return g.dot(x); });
+  double largest = 0.0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (!operators.tensors[i].laplacian_is_sound()) continue;
+    Renormalisation<Dim> printed = operators.tensors[i];
+    printed.drift = -printed.drift;
+    const Pairs<Dim>& pairs = set.pairs();
+    Mat<Dim> A = Mat<Dim>::Zero();
+    double with_plus = 0.0;
+    double weights = 0.0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      A += set.particles.volume[j] * pairs.W[k] * pairs.e[k] * pairs.e[k].transpose();
+      const double weight =
+          consistent_laplacian_weight<Dim>(printed, set.particles.volume[j], pairs.e[k], pairs.r[k], pairs.W[k]);
+      with_plus += weight * (linear[j] - linear[i]);
+      weights += std::abs(weight) + std::abs(operators.laplacian_weight(i, k));
+    }
+    const double round_off = 1e3 * 16.0 * eps * weights * radius;
+    EXPECT_NEAR(operators.laplacian(i, linear), 0.0, round_off);
+    EXPECT_NEAR(with_plus, 4.0 * printed.drift.dot(A * g), round_off);
+    largest = std::max(largest, std::abs(with_plus));
+  }
+  EXPECT_GT(largest, g.norm() / dx);
+}
+
+TYPED_TEST(ExactnessTest, NeighboursThatDoNotSpanSpaceGiveNoTensors) {
+  constexpr int Dim = TypeParam::value;
+  const auto kernel = make_kernel<Dim>(KernelName::wendland_c2, radius);
+  for (const int count : {1, 2, 3, 5}) {
+    std::vector<Vec<Dim>> line;
+    for (int n = 0; n < count; ++n) line.push_back(n * dx * Vec<Dim>::UnitX());
+    const ParticleSet<Dim> set(line, kernel, dx);
+    for (const Renormalisation<Dim>& tensors : ConsistentOperators<Dim>(set).tensors) {
+      EXPECT_FALSE(tensors.has_inverse);
+      EXPECT_FALSE(tensors.gradient_is_sound());
+      EXPECT_FALSE(tensors.laplacian_is_sound());
+    }
+  }
+}
+
+TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
+  constexpr int Dim = TypeParam::value;
+  for (const KernelName name : all_kernels) {
+    const auto kernel = make_kernel<Dim>(name, radius);
+    const LatticeSums sums = lattice_sums<Dim>(kernel, dx);
+    const ParticleSet<Dim> set = cube<Dim>(name, 0.0);
+    const Pairs<Dim>& pairs = set.pairs();
+    const auto linear = sample(set, [](const Vec<Dim>& x) { return some_vector<Dim>().dot(x); });
+    const Mat<Dim> G = some_symmetric_matrix<Dim>();
+    const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); });
+    std::size_t tested = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      if (!is_interior<Dim>(set.position(i))) continue;
+      ++tested;
+      double morris = 0.0;
+      double first_moment = 0.0;
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        morris += morris_laplacian_weight(set.particles.volume[i], pairs.r[k], pairs.dW[k], dx);
+        first_moment -= set.particles.volume[i] * pairs.dW[k] * pairs.r[k] / Dim;
+      }
+      // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.
+      const double relative = 1e4 * eps;
+      const std::vector<double>& volume = set.particles.volume;
+      EXPECT_NEAR(concentration<Dim>(pairs, i, volume, kernel_value(kernel, 0.0)), sums.concentration, relative);
+      EXPECT_NEAR(morris, sums.morris, relative * sums.morris);
+      EXPECT_LT(concentration_gradient<Dim>(pairs, i, volume).norm() * dx, relative);
+      // By symmetry the two standard forms see linear fields scaled by -sum w dW r/Dim, no other part.
+      EXPECT_LT((conservative_gradient<Dim>(pairs, i, volume, linear) - first_moment * some_vector<Dim>()).norm(),
+                relative);
+      EXPECT_NEAR(standard_divergence<Dim>(pairs, i, volume, velocity), first_moment * G.trace(), relative);
+    }
+    EXPECT_GT(tested, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
