@@ -24,26 +24,34 @@ bool is_name(std::string_view text) {
 }
 
 /// Whether the last letter before `position`, spaces apart, is a digit or a point.
-bool follows_number(std::string_view text, int position) {
-  const std::size_t last = text.substr(0, static_cast<std::size_t>(position)).find_last_not_of(' ');
+bool follows_number(std::string_view text, std::size_t position) {
+  const std::size_t last = text.substr(0, position).find_last_not_of(' ');
   return last != std::string_view::npos && (is_digit(text[last]) || text[last] == '.');
 }
 
-ExpressionError unknown_name_error(const std::string& name, int position, const NamedNumbers& numbers) {
-  std::vector<std::string_view> known{"pi"};
-  for (const auto& [number, value] : numbers) {
-    known.push_back(number);
+ExpressionError unknown_name_error(const std::string& name, std::size_t position, std::string_view text,
+                                   const NamedNumbers& numbers) {
+  const std::size_t next = text.find_first_not_of(' ', position + name.size());
+  const bool is_call = next != std::string_view::npos && text[next] == '(';
+  const std::vector<std::string> functions = function_names();
+  std::vector<std::string_view> known;
+  if (is_call) {
+    known.assign(functions.begin(), functions.end());
+  } else {
+    known.push_back("pi");
+    for (const auto& [number, value] : numbers) {
+      known.push_back(number);
+    }
   }
-  const auto nearest = nearest_name(name, known);
-  return ExpressionError(fmt::format("unknown name \"{}\" at position {}; {}known numbers: {}; functions: {}", name,
-                                     position, nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "",
-                                     fmt::join(known, ", "), fmt::join(function_names(), ", ")),
-                         name);
+  return ExpressionError(fmt::format("unknown {} \"{}\" at position {}; {}", is_call ? "function" : "name", name,
+                                     position + 1, unknown_name_hint(name, known)),
+                         is_call ? std::nullopt : std::optional(name));
 }
 
 ExpressionError as_expression_error(const mu::Parser::exception_type& error, const std::string& text,
                                     const NamedNumbers& numbers) {
-  const int position = std::max(0, static_cast<int>(error.GetPos()));
+  // Errors of the text as a whole have no position.
+  const auto position = static_cast<std::size_t>(std::max(0, static_cast<int>(error.GetPos())));
   const std::string& token = error.GetToken();
   const bool is_out_of_place = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN || error.GetCode() == mu::ecUNEXPECTED_VAL;
   if (is_out_of_place && is_name(token) && follows_number(text, position)) {
@@ -53,7 +61,13 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
                     token, position + 1));
   }
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && is_name(token)) {
-    return unknown_name_error(token, position + 1, numbers);
+    return unknown_name_error(token, position, text, numbers);
+  }
+  if (error.GetCode() == mu::ecUNEXPECTED_EOF) {
+    return ExpressionError("the expression ends too early; write one such as \"2*H\"");
+  }
+  if (error.GetCode() == mu::ecEMPTY_EXPRESSION) {
+    return ExpressionError("the text is empty; write a number or an expression such as \"2*H\"");
   }
   if (error.GetCode() == mu::ecMISSING_PARENS) {
     return ExpressionError("a parenthesis is not closed; add \")\"");

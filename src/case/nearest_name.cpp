@@ -38,7 +38,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid) {
   std::optional<std::string_view> nearest;
-  int least = std::max<int>(1, static_cast<int>(given.size()) / 3) + 1;
+  const int length = static_cast<int>(given.size());
+  int least = (length < 2 ? 0 : std::max(1, length / 3)) + 1;
   for (const std::string_view name : valid) {
     const int distance = edit_distance(given, name);
     if (distance < least) {

@@ -14,7 +14,7 @@ namespace tailwater {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The valid name nearest to `given`, if so near that it can be a slip of the pen: at most one edit per three letters
-/// of `given`, and one in shorter names.
+/// of `given`, one in shorter names, none (but upper for lower case) in single letters.
 std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid);
 
 /// The names in quotes, separated by commas.

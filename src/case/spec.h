@@ -152,7 +152,7 @@ struct WallTable {
     v.texts("open", self.open, box_face_names, "Faces left out of a box");
     v.choice("fluid_side", self.fluid_side,
              "Where the water is: left or right of a polyline as one walks along its points; inside or outside a "
-             "polygon or box");
+             "polygon or box (default: left; inside)");
     v.choice("slip", self.slip, "Friction on the wall: none at all, water sticks to it, or a share of that");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
              "With slip = \"partial\": share of the no-slip wall stress");

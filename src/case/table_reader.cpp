@@ -1,0 +1,261 @@
+#include "case/table_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "case/nearest_name.h"
+
+namespace tailwater {
+
+namespace {
+
+/// For a key in the wrong table: the tables that have it.
+std::string home_of(std::string_view key) {
+  std::vector<std::string> homes;
+  for (const TableInfo& table : case_tables()) {
+    for (const KeyInfo& info : table.keys) {
+      if (info.key == key) {
+        homes.push_back(table.heading());
+      }
+    }
+  }
+  return homes.empty() ? "" : fmt::format("it belongs to {}; ", fmt::join(homes, " or "));
+}
+
+}  // namespace
+
+std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format(" in {}", unit); }
+
+void TableReader::text(std::string_view key, std::string& value, std::string_view doc, Presence presence) {
+  if (const toml::node* node = find(key, doc, "", "", presence)) {
+    if (const auto* given = node->as_string()) {
+      value = given->get();
+    } else {
+      wrong(key, *node, "give a text in quotes");
+    }
+  }
+}
+
+void TableReader::integer(std::string_view key, int& value, std::string_view unit, const Range& range,
+                          std::string_view doc, Presence presence) {
+  const toml::node* node = find(key, doc, unit, range_text(range), presence);
+  const auto given = node == nullptr ? std::nullopt : evaluated(key, key, *node, unit);
+  if (!given) {
+    return;
+  }
+  const bool is_int = std::trunc(*given) == *given && std::abs(*given) <= std::numeric_limits<int>::max();
+  if (is_int && range.contains(*given)) {
+    value = static_cast<int>(*given);
+  } else {
+    wrong(key, *node, fmt::format("give a whole number, {}{}", range_text(range), in_unit(unit)));
+  }
+}
+
+void TableReader::number(std::string_view key, double& value, std::string_view unit, const Range& range,
+                         std::string_view doc, Presence presence) {
+  const toml::node* node = find(key, doc, unit, range_text(range), presence);
+  const auto given = node == nullptr ? std::nullopt : evaluated(key, key, *node, unit);
+  if (!given) {
+    return;
+  }
+  if (range.contains(*given)) {
+    value = *given;
+  } else {
+    const std::string result = node->is_string() ? fmt::format("its value {} is ", *given) : "";
+    wrong(key, *node, fmt::format("{}out of range; give a number {}{}", result, range_text(range), in_unit(unit)));
+  }
+}
+
+void TableReader::coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc) {
+  if (const toml::node* node = find(key, doc, unit, "", Presence::optional)) {
+    if (auto given = point(key, std::string(key), *node, unit)) {
+      value = std::move(*given);
+    }
+  }
+}
+
+void TableReader::points(std::string_view key, std::vector<Coordinates>& value, std::string_view unit,
+                         std::string_view doc) {
+  const toml::node* node = find(key, doc, unit, "", Presence::optional);
+  if (node == nullptr) {
+    return;
+  }
+  const toml::array* list = node->as_array();
+  if (list == nullptr) {
+    wrong(key, *node, fmt::format("give a list of points{}, such as [[0, 0], [1, 0]]", in_unit(unit)));
+    return;
+  }
+  std::vector<Coordinates> given;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    if (auto corner = point(key, fmt::format("{}[{}]", key, i), (*list)[i], unit)) {
+      given.push_back(std::move(*corner));
+    }
+  }
+  value = std::move(given);
+}
+
+void TableReader::numbers(std::string_view key, std::vector<double>& value, std::string_view unit,
+                          std::string_view doc) {
+  const toml::node* node = find(key, doc, unit, "", Presence::optional);
+  if (node == nullptr) {
+    return;
+  }
+  const toml::array* list = node->as_array();
+  if (list == nullptr) {
+    wrong(key, *node, fmt::format("give a list of numbers{}, such as [0.5, 1.0]", in_unit(unit)));
+    return;
+  }
+  if (auto given = elements(key, std::string(key), *list, unit)) {
+    value = std::move(*given);
+  }
+}
+
+void TableReader::texts(std::string_view key, std::vector<std::string>& value,
+                        std::span<const std::string_view> allowed, std::string_view doc) {
+  const toml::node* node = find(key, doc, "", quoted_list(allowed), Presence::optional);
+  if (node == nullptr) {
+    return;
+  }
+  const toml::array* list = node->as_array();
+  if (list == nullptr) {
+    wrong(key, *node, fmt::format("give a list of any of {}", quoted_list(allowed)));
+    return;
+  }
+  std::vector<std::string> given;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const toml::node& element = (*list)[i];
+    const std::string place = fmt::format("{}[{}]", key, i);
+    const auto* name = element.as_string();
+    if (name == nullptr) {
+      wrong(key, element, fmt::format("give any of {}", quoted_list(allowed)), place);
+    } else if (std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
+      wrong(key, element, fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
+    } else if (std::find(given.begin(), given.end(), name->get()) != given.end()) {
+      wrong(key, element, "stands in the list twice; remove one", place);
+    } else {
+      given.push_back(name->get());
+    }
+  }
+  value = std::move(given);
+}
+
+void TableReader::wrong(std::string_view key, const toml::node& node, const std::string& message,
+                        std::string_view place) {
+  context_.keys_wrong.insert(full(key));
+  context_.problems.add(&node.source(),
+                        fmt::format("{} = {}: {}", full(place.empty() ? key : place), value_text(node), message));
+}
+
+void TableReader::missing(std::string_view key, const std::string& message) {
+  context_.keys_wrong.insert(full(key));
+  context_.problems.add(source_ == nullptr ? nullptr : &source_->source(),
+                        fmt::format("{} is missing; {}", full(key), message));
+}
+
+void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
+  if (source_ == nullptr) {
+    return;
+  }
+  std::vector<std::string_view> valid;
+  for (const KeyInfo& info : keys) {
+    valid.push_back(info.key);
+  }
+  for (const auto& [key, node] : *source_) {
+    if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
+      wrong(key.str(), node, fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid)));
+    }
+  }
+}
+
+const toml::node* TableReader::find(std::string_view key, std::string_view doc, std::string_view unit,
+                                    std::string_view allowed, Presence presence) {
+  const bool is_not_now = !only_.empty() && std::find(only_.begin(), only_.end(), key) == only_.end();
+  if (is_not_now || context_.keys_done.contains(full(key))) {
+    return nullptr;
+  }
+  const toml::node* node = given(key);
+  if (node == nullptr && presence == Presence::required) {
+    missing(key,
+            fmt::format("add it to {}: {}{}{}{}", name_, doc, allowed.empty() ? "" : "; ", allowed, in_unit(unit)));
+  }
+  return node;
+}
+
+std::optional<std::size_t> TableReader::chosen(std::string_view key, std::span<const std::string_view> names,
+                                               std::string_view doc, Presence presence) {
+  const toml::node* node = find(key, doc, "", quoted_list(names), presence);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  const auto* name = node->as_string();
+  if (name == nullptr) {
+    wrong(key, *node, fmt::format("give one of {}", quoted_list(names)));
+    return std::nullopt;
+  }
+  const auto found = std::find(names.begin(), names.end(), name->get());
+  if (found == names.end()) {
+    wrong(key, *node, fmt::format("unknown choice; {}", unknown_name_hint(name->get(), names)));
+    return std::nullopt;
+  }
+  return found - names.begin();
+}
+
+std::optional<double> TableReader::evaluated(std::string_view key, std::string_view place, const toml::node& node,
+                                             std::string_view unit) {
+  std::optional<double> value = node.value<double>();
+  if (const auto* text = node.as_string()) {
+    try {
+      value = evaluate(text->get(), context_.numbers);
+    } catch (const ExpressionError& error) {
+      wrong(key, node, error.what(), place);
+      return std::nullopt;
+    }
+    if (!std::isfinite(*value)) {
+      // It uses a number that has no value itself, which is reported where that number stands.
+      context_.keys_wrong.insert(full(key));
+      return std::nullopt;
+    }
+  } else if (!node.is_number()) {
+    wrong(key, node, fmt::format("wrong type; give a number{} or an expression such as \"2*H\"", in_unit(unit)), place);
+    return std::nullopt;
+  }
+  if (!std::isfinite(*value)) {
+    wrong(key, node, fmt::format("not a finite number; give a number{}", in_unit(unit)), place);
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::vector<double>> TableReader::elements(std::string_view key, const std::string& place,
+                                                         const toml::array& list, std::string_view unit) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (const auto value = evaluated(key, fmt::format("{}[{}]", place, i), list[i], unit)) {
+      values.push_back(*value);
+    }
+  }
+  return values.size() == list.size() ? std::optional(values) : std::nullopt;
+}
+
+std::optional<Coordinates> TableReader::point(std::string_view key, const std::string& place, const toml::node& node,
+                                              std::string_view unit) {
+  const toml::array* list = node.as_array();
+  const int dimension = context_.dimension;
+  const bool is_right_size = list != nullptr && (dimension == 0 ? list->size() == 2 || list->size() == 3
+                                                                : list->size() == static_cast<std::size_t>(dimension));
+  if (!is_right_size) {
+    const std::string count = dimension == 0 ? "2 or 3" : fmt::format("{}", dimension);
+    wrong(key, node,
+          fmt::format("give {} numbers{}, one per dimension{}", count, in_unit(unit),
+                      dimension == 0 ? "" : fmt::format(" (case.dimension = {})", dimension)),
+          place);
+    return std::nullopt;
+  }
+  return elements(key, place, *list, unit);
+}
+
+}  // namespace tailwater

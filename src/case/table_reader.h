@@ -1,0 +1,115 @@
+// Reads one table of a case file, key by key, with the keys' own ranges and types.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "case/expression.h"
+#include "case/key_info.h"
+#include "case/problems.h"
+
+namespace tailwater {
+
+/// " in m", or nothing for a number without unit.
+std::string in_unit(std::string_view unit);
+
+/// What the tables of one file share while they are read.
+struct Context {
+  explicit Context(const std::string& file) : problems(file) {}
+
+  Problems problems;
+  NamedNumbers numbers;
+  int dimension = 0;                 ///< 0: not known, because the file gives a wrong one
+  std::set<std::string> keys_done;   ///< full keys that were read ahead of their table
+  std::set<std::string> keys_wrong;  ///< full keys that have no usable value
+};
+
+/// Visitor for `describe` that reads one table of the file. Keys that are absent keep their value.
+class TableReader {
+ public:
+  /// `source` is null if the file does not have the table; `name` is its name in messages and overrides, `fluid[0]`.
+  TableReader(Context& context, const toml::table* source, std::string name)
+      : context_(context), source_(source), name_(std::move(name)) {}
+
+  void text(std::string_view key, std::string& value, std::string_view doc, Presence presence = Presence::optional);
+  void integer(std::string_view key, int& value, std::string_view unit, const Range& range, std::string_view doc,
+               Presence presence = Presence::optional);
+  void number(std::string_view key, double& value, std::string_view unit, const Range& range, std::string_view doc,
+              Presence presence = Presence::optional);
+  void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc);
+  void points(std::string_view key, std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);
+  void numbers(std::string_view key, std::vector<double>& value, std::string_view unit, std::string_view doc);
+  void texts(std::string_view key, std::vector<std::string>& value, std::span<const std::string_view> allowed,
+             std::string_view doc);
+
+  template <class Enumeration>
+  void choice(std::string_view key, Enumeration& value, std::string_view doc, Presence presence = Presence::optional) {
+    if (const auto index = chosen(key, Choices<Enumeration>::names, doc, presence)) {
+      value = static_cast<Enumeration>(*index);
+    }
+  }
+
+  /// Reads just these keys now, because the others' defaults or meaning depend on them.
+  template <class Table>
+  void read_ahead(Table& table, std::initializer_list<std::string_view> keys) {
+    only_ = keys;
+    Table::describe(table, *this);
+    only_.clear();
+    for (const std::string_view key : keys) {
+      context_.keys_done.insert(full(key));
+    }
+  }
+
+  /// What the file has for a key; null if nothing.
+  const toml::node* given(std::string_view key) const { return source_ == nullptr ? nullptr : source_->get(key); }
+  /// Whether a problem of this key was reported already.
+  bool is_wrong(std::string_view key) const { return context_.keys_wrong.contains(full(key)); }
+  /// 2 or 3; 0 if the file gives a wrong one.
+  int dimension() const { return context_.dimension; }
+
+  /// A problem of the value of `key`, or of the part of it at `place`.
+  void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");
+
+  /// A key that should be there.
+  void missing(std::string_view key, const std::string& message);
+
+  /// Keys in the file that the table does not have.
+  void report_unknown_keys(std::span<const KeyInfo> keys);
+
+ private:
+  std::string full(std::string_view key) const { return name_ + "." + std::string(key); }
+
+  /// The value given for a key; null if it was read ahead or is absent. Reports it if it is required.
+  const toml::node* find(std::string_view key, std::string_view doc, std::string_view unit, std::string_view allowed,
+                         Presence presence);
+
+  /// The place in `names` of the choice given for a key.
+  std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> names, std::string_view doc,
+                                    Presence presence);
+
+  /// The number that a node of `key` stands for, if it is one.
+  std::optional<double> evaluated(std::string_view key, std::string_view place, const toml::node& node,
+                                  std::string_view unit);
+
+  /// The numbers of a list, if all of them are; `place` is the list's in the key, such as `points[2]`.
+  std::optional<std::vector<double>> elements(std::string_view key, const std::string& place, const toml::array& list,
+                                              std::string_view unit);
+
+  /// The same for a list of `dimension` numbers.
+  std::optional<Coordinates> point(std::string_view key, const std::string& place, const toml::node& node,
+                                   std::string_view unit);
+
+  Context& context_;
+  const toml::table* source_;
+  std::string name_;
+  std::vector<std::string_view> only_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,170 @@
+#include "case/table_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "case/formulation.h"
+#include "case/key_use.h"
+
+namespace tailwater {
+
+namespace {
+
+void check_shape_dimension(std::string_view shape, bool is_planar, TableReader& reader) {
+  const toml::node* node = reader.given("shape");
+  if (!is_planar || reader.dimension() != 3) {
+    return;
+  }
+  const std::string message =
+      fmt::format("\"{}\" is a shape of two dimensions, but case.dimension = 3; use \"box\"", shape);
+  if (node != nullptr) {
+    reader.wrong("shape", *node, message);
+  } else {
+    reader.missing("shape", message);
+  }
+}
+
+void check_box(const Coordinates& min, const Coordinates& max, TableReader& reader) {
+  const toml::node* node = reader.given("max");
+  if (node == nullptr || reader.given("min") == nullptr || reader.is_wrong("min") || reader.is_wrong("max")) {
+    return;
+  }
+  for (std::size_t d = 0; d < std::min(min.size(), max.size()); ++d) {
+    if (max[d] <= min[d]) {
+      reader.wrong("max", *node,
+                   fmt::format("the box has no extent in {}: {} to {}; give max above min", "xyz"[d], min[d], max[d]));
+    }
+  }
+}
+
+void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader) {
+  const toml::node* node = reader.given("points");
+  if (node != nullptr && !reader.is_wrong("points") && points.size() < least) {
+    reader.wrong("points", *node,
+                 fmt::format("{} points are too few for this shape; give at least {}", points.size(), least));
+  }
+}
+
+}  // namespace
+
+void set_defaults(SchemeTable& scheme, TableReader& reader) {
+  reader.read_ahead(scheme, {"formulation", "integrator"});
+  apply_formulation(scheme);
+}
+
+void set_defaults(FluidTable& fluid, TableReader& reader) {
+  fluid.velocity.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+}
+
+void set_defaults(WallTable& wall, TableReader& reader) {
+  reader.read_ahead(wall, {"shape"});
+  wall.fluid_side = wall.shape == WallShape::polyline ? FluidSide::left : FluidSide::inside;
+}
+
+void set_defaults(ProbeTable& probe, TableReader& reader) {
+  reader.read_ahead(probe, {"type"});
+  if (probe.type == ProbeType::front) {
+    probe.direction.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+    if (!probe.direction.empty()) {
+      probe.direction.front() = 1.0;
+    }
+  }
+}
+
+void check(const FluidTable& fluid, TableReader& reader) {
+  check_shape_dimension(name_of(fluid.shape), fluid.shape == BlockShape::polygon, reader);
+  check_box(fluid.min, fluid.max, reader);
+  check_corner_count(fluid.points, 3, reader);
+}
+
+void check(const WallTable& wall, TableReader& reader) {
+  check_shape_dimension(name_of(wall.shape), wall.shape != WallShape::box, reader);
+  check_box(wall.min, wall.max, reader);
+  check_corner_count(wall.points, wall.shape == WallShape::polyline ? 2 : 3, reader);
+  if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
+    for (const std::string& face : wall.open) {
+      if (face.ends_with('z')) {
+        reader.wrong("open", *node, fmt::format("a box of two dimensions has no face \"{}\"; remove it", face));
+      }
+    }
+  }
+  const bool is_chain = wall.shape == WallShape::polyline;
+  const bool is_side_of_chain = wall.fluid_side == FluidSide::left || wall.fluid_side == FluidSide::right;
+  if (is_chain != is_side_of_chain && !reader.is_wrong("shape") && !reader.is_wrong("fluid_side")) {
+    reader.wrong("fluid_side", *reader.given("fluid_side"),
+                 fmt::format("does not go with shape = \"{}\"; give {}", name_of(wall.shape),
+                             is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
+  }
+}
+
+void check(const ProbeTable& probe, TableReader& reader) {
+  if (const toml::node* node = reader.given("direction"); node != nullptr && !reader.is_wrong("direction")) {
+    if (std::all_of(probe.direction.begin(), probe.direction.end(), [](double c) { return c == 0.0; })) {
+      reader.wrong("direction", *node, "has length 0; give a direction such as [1, 0]");
+    }
+  }
+  if (const toml::node* node = reader.given("times"); node != nullptr && !reader.is_wrong("times")) {
+    const bool is_rising =
+        std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
+    if (probe.times.empty() || probe.times.front() < 0.0 || !is_rising) {
+      reader.wrong("times", *node, "give at least one time in s, from 0 on, in rising order");
+    }
+  }
+  const bool has_stretch = !probe.from.empty() && probe.from == probe.to;
+  if (has_stretch && !reader.is_wrong("from") && !reader.is_wrong("to")) {
+    reader.wrong("to", *reader.given("to"), "is the same point as from; give two points");
+  }
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (const toml::node* node = reader.given("name"); node != nullptr && !reader.is_wrong("name")) {
+    const bool is_file_name = std::all_of(probe.name.begin(), probe.name.end(), is_plain) && !probe.name.empty() &&
+                              probe.name.front() != '-' && probe.name.size() <= 100;
+    if (!is_file_name) {
+      reader.wrong("name", *node,
+                   "cannot name a file; use up to 100 letters, digits, _ and -, and do not begin with -");
+    }
+  }
+}
+
+void check(const DomainTable& domain, TableReader& reader) {
+  const auto check_period = [&](std::string_view key, const std::vector<double>& range, int least_dimension) {
+    const toml::node* node = reader.given(key);
+    if (node == nullptr || reader.is_wrong(key) || range.empty()) {
+      return;
+    }
+    if (range.size() != 2) {
+      reader.wrong(key, *node, "give two numbers in m, [low, high], or remove the key");
+    } else if (range[0] >= range[1]) {
+      reader.wrong(key, *node, "is empty; give [low, high] with low below high, in m");
+    } else if (reader.dimension() != 0 && reader.dimension() < least_dimension) {
+      reader.wrong(key, *node, "a case of two dimensions has no z; remove the key");
+    }
+  };
+  check_period("periodic_x", domain.periodic_x, 2);
+  check_period("periodic_y", domain.periodic_y, 2);
+  check_period("periodic_z", domain.periodic_z, 3);
+}
+
+/// Keys that the chosen shape or type needs, or has no use for.
+void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader) {
+  for (const KeyInfo& info : rows) {
+    const auto [need, use] = key_verdict(table, info.key, rows);
+    if (use == nullptr || reader.is_wrong(use->selector)) {
+      continue;
+    }
+    const std::string choice = fmt::format("{} = \"{}\"", use->selector, use->choice);
+    const toml::node* node = reader.given(info.key);
+    if (need == KeyNeed::needed && node == nullptr) {
+      reader.missing(info.key, fmt::format("{} needs it: {}{}", choice, info.doc, in_unit(info.unit)));
+    } else if (need == KeyNeed::unused && node != nullptr) {
+      reader.wrong(
+          info.key, *node,
+          fmt::format("has no use with {}; remove it (it goes with {})", choice, key_use_text(table, info.key)));
+    }
+  }
+}
+
+}  // namespace tailwater

@@ -1,0 +1,35 @@
+// What single tables need beyond the type and range of each key: defaults that depend on other keys, and checks that
+// involve several of them. Problems are reported to the reader; keys whose own value is wrong were reported before and
+// are left out.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "case/key_info.h"
+#include "case/spec.h"
+#include "case/table_reader.h"
+
+namespace tailwater {
+
+/// Sets the defaults that depend on the dimension or on other keys of the table, which are read ahead for that.
+template <class Table>
+void set_defaults(Table&, TableReader&) {}
+void set_defaults(FluidTable& fluid, TableReader& reader);
+void set_defaults(WallTable& wall, TableReader& reader);
+void set_defaults(SchemeTable& scheme, TableReader& reader);
+void set_defaults(ProbeTable& probe, TableReader& reader);
+
+/// Checks a table that has been read.
+template <class Table>
+void check(const Table&, TableReader&) {}
+void check(const DomainTable& domain, TableReader& reader);
+void check(const FluidTable& fluid, TableReader& reader);
+void check(const WallTable& wall, TableReader& reader);
+void check(const ProbeTable& probe, TableReader& reader);
+
+/// Checks that the keys the chosen shape or type needs are there, and no others (key_use.h). `rows` are the keys of the
+/// table as read, `table` its name without index.
+void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader);
+
+}  // namespace tailwater

@@ -1,0 +1,90 @@
+#include "case/writer.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "case/toml_text.h"
+#include "case_file.h"
+
+namespace tailwater {
+namespace {
+
+void expect_round_trip(const std::string& text) {
+  const CaseSpec spec = read_text(text);
+  const std::string written = effective_case(spec);
+  const CaseSpec again = read_text(written);
+  EXPECT_EQ(again, spec) << written;
+  EXPECT_EQ(effective_case(again), written);
+}
+
+TEST(EffectiveCase, OfTheShortestCaseReadsBack) { expect_round_trip(required_keys + water); }
+
+TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
+  expect_round_trip(
+      "[parameters]\nH = \"0.1 + 0.2\"\nT = \"1/3\"\n"
+      "[case]\ntitle = \"a \\\"quoted\\\" \\\\ title\\twith tab, \\u0001 and \u00e4\"\n"
+      "[physics]\ngravity = [\"-0.0\", \"-9.81/3\"]\nviscosity = 1e-300\n"
+      "[particles]\nspacing = \"H/7\"\njitter = 0.1\n[domain]\nperiodic_x = [\"-1/3\", \"1e20\"]\n"
+      "[time]\nend = \"T\"\n[scheme]\nformulation = \"published\"\nintegrator = \"implicit\"\n"
+      "[pressure_solver]\npetsc_options = \"-pressure_ksp_view\"\n"
+      "[[fluid]]\nmin = [0, 0]\nmax = [\"H\", \"H\"]\nvelocity = [0.1, \"T\"]\n"
+      "[[fluid]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, \"T\"]]\n"
+      "[[wall]]\npoints = [[0, 1], [0, 0]]\nfluid_side = \"right\"\nslip = \"partial\"\nfriction = 0.3\n"
+      "[[wall]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, 1]]\nfluid_side = \"outside\"\nslip = \"no-slip\"\n"
+      "[[wall]]\nshape = \"box\"\nmin = [0, 0]\nmax = [1, 1]\nopen = [\"+y\", \"-x\"]\n"
+      "[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [\"H\", 0]\ninterval = 0.01\n"
+      "[[probe]]\nname = \"b\"\ntype = \"wall-pressure\"\nat = [1, 1]\n"
+      "[[probe]]\nname = \"c\"\ntype = \"wall-pressure-mean\"\nfrom = [0, 0]\nto = [0, 1]\n"
+      "[[probe]]\nname = \"d\"\ntype = \"front\"\ndirection = [-1, 0]\n"
+      "[[probe]]\nname = \"e\"\ntype = \"profile\"\nfrom = [0, 0]\nto = [1, 0]\ntimes = [0, 0.1, \"T\"]\n"
+      "[[probe]]\nname = \"f\"\ntype = \"pressure\"\nat = [0, 0]\n"
+      "[[probe]]\nname = \"g\"\ntype = \"velocity\"\nat = [0, 0]\n"
+      "[[probe]]\nname = \"h\"\ntype = \"energy\"\n"
+      "[[probe]]\nname = \"i\"\ntype = \"volume\"\n");
+}
+
+TEST(EffectiveCase, InThreeDimensionsReadsBack) {
+  expect_round_trip("case.dimension = 3\n" + required_keys +
+                    "[domain]\nperiodic_z = [0, 1]\n[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"
+                    "[[wall]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [2, 1, 1]\nopen = [\"+z\"]\n"
+                    "[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [0.5, 0.5, 0]\n");
+}
+
+TEST(EffectiveCase, SaysUnitAndMeaning) {
+  const std::string written = effective_case(read_text(required_keys + water));
+  EXPECT_NE(written.find("spacing = 0.1  # m: Distance dx between"), std::string::npos) << written;
+}
+
+TEST(TomlFloat, IsNeverAnInteger) {
+  EXPECT_EQ(toml_float(1.0), "1.0");
+  EXPECT_EQ(toml_float(-0.0), "-0.0");
+  EXPECT_EQ(toml_float(1e300), "1e+300");
+  EXPECT_EQ(toml_float(0.1), "0.1");
+}
+
+/// Doubles of all sizes survive the way through a file with the same bits.
+TEST(EffectiveCase, KeepsEveryBit) {
+  std::uint64_t bits = 0x9e3779b97f4a7c15;
+  CaseSpec spec = read_text(required_keys + water);
+  while (spec.parameters.size() < 500) {
+    bits = bits * 6364136223846793005u + 1442695040888963407u;
+    const double value = std::bit_cast<double>(bits);
+    if (std::isfinite(value)) {
+      spec.parameters.push_back({fmt::format("p{}", 1000 + spec.parameters.size()), value});
+    }
+  }
+  const CaseSpec again = read_text(effective_case(spec));
+  ASSERT_EQ(again.parameters.size(), spec.parameters.size());
+  for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(again.parameters[i].value),
+              std::bit_cast<std::uint64_t>(spec.parameters[i].value))
+        << spec.parameters[i].value;
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
