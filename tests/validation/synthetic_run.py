@@ -1,6 +1,6 @@
 """A made-up run folder of cases/zhou1999: the shape of a run's results, with curves of which the scores are known.
 
-Not physics: a column that collapses by a formula, probes that repeat the laboratory's own curves. To look at the picture:
+Not physics: a column that collapses by a formula, probes that repeat the laboratory's own curves. To see the picture:
 PYTHONPATH=validation /usr/bin/python3 tests/validation/synthetic_run.py DIR SPACING
 """
 
@@ -73,8 +73,8 @@ def write_probe(folder, name, columns):
 
 
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
-    """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error` (of H)
-    too high; P160 is a step at ARRIVAL and a sawtooth on it."""
+    """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error`
+    (of H) too high; P160 is a step at ARRIVAL and a sawtooth on it."""
     folder = Path(folder)
     (folder / "probes").mkdir(parents=True)
     (folder / "fields").mkdir()

@@ -24,7 +24,8 @@ def cost_and_health(summary):
     return (f"{summary['status']}: {particles['fluid']} fluid and {particles['wall']} wall particles, "
             f"{steps['count']} steps of {1000 * steps['dt_mean_s']:.2f} ms, CPU {cost['cpu_s']:.0f} s "
             f"({cost['cpu_s_per_simulated_s']:.1f} s per simulated s); "
-            f"energy {energy['end_J'] / energy['start_J']:.3f} of the start, rise {energy['largest_rise_over_start']:.1e}; "
+            f"energy {energy['end_J'] / energy['start_J']:.3f} of the start, "
+            f"rise {energy['largest_rise_over_start']:.1e}; "
             f"density error mean {volume['density_error_mean']:+.4f}, rms {volume['density_error_rms']:.4f}; "
             f"{volume['outside_the_walls_most']} particles outside the walls")
 

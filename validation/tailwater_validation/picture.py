@@ -42,7 +42,7 @@ def view_height(frames):
 
 
 def draw_particles(axes, frame, spacing, walls, view, points_per_metre):
-    """One particle picture; each particle is a disc as wide as its share of the water. Returns what a colour bar needs."""
+    """One particle picture, each particle a disc that covers its share of the water. Returns the dots."""
     if "pressure" not in frame.fields:
         raise DataError(f"the field files hold no pressure, only {', '.join(frame.fields)}: "
                         'add "pressure" to output.fields')
