@@ -57,11 +57,15 @@ std::string type_text(const KeyInfo& row) {
 }
 
 /// A cell of a Markdown table.
-std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
-    text.insert(at, "\\");
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char letter : text) {
+    if (letter == '|') {
+      escaped += '\\';
+    }
+    escaped += letter;
   }
-  return text;
+  return escaped;
 }
 
 std::string functions_text() { return fmt::format("{}", fmt::join(function_names(), ", ")); }
@@ -131,9 +135,9 @@ std::string case_reference_markdown() {
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
       const KeyInfo& row = table.keys[i];
       const std::string use = key_use_text(table.name, row.key);
-      text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.key, type_text(row), default_text(table, i),
-                          row.unit, row.allowed, cell(std::string(row.doc)),
-                          use.empty() ? "" : fmt::format(". *Goes with* {}", use));
+      text +=
+          fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.key, type_text(row), default_text(table, i),
+                      row.unit, row.allowed, cell(row.doc), use.empty() ? "" : fmt::format(". *Goes with* {}", use));
     }
   }
   return text;
