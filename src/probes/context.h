@@ -1,0 +1,64 @@
+// What a probe sees of a flow at one moment, and what it hands back.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "geometry/boundary.h"
+#include "kernel/kernel.h"
+#include "neighbours/cell_grid.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// Sums over the whole flow, which the scheme keeps anyway. In 2D per metre of width.
+struct FlowTotals {
+  double kinetic_energy = 0.0;      ///< J
+  double potential_energy = 0.0;    ///< J; relative to the origin
+  double density_error_mean = 0.0;  ///< of C/C_0 - 1 away from the surface
+  double density_error_rms = 0.0;
+};
+
+/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them where they are now, with cells of
+/// at least the kernel's support.
+template <int Dim>
+struct ProbeContext {
+  const Particles<Dim>& particles;
+  const CellGrid<Dim>& grid;
+  const Kernel<Dim>& kernel;
+  const Boundary<Dim>& boundary;
+  double density;    ///< kg/m^3
+  Vec<Dim> gravity;  ///< m/s^2
+  double spacing;    ///< m; dx
+  double time;       ///< s
+  FlowTotals totals;
+};
+
+/// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x`.
+template <int Dim, class Body>
+void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
+  std::visit(
+      [&](const auto& kernel) {
+        context.grid.for_each_near(x, [&](std::int32_t j) {
+          const double squared = (x - context.particles.position[j]).squaredNorm();
+          if (squared < kernel.radius * kernel.radius) {
+            body(j, context.particles.volume[j] * kernel.value(std::sqrt(squared)));
+          }
+        });
+      },
+      context.kernel);
+}
+
+using Row = std::vector<double>;
+
+/// A kind of measurement, set up for one place: its columns after "time_s" and how to take it, as one or more rows.
+template <int Dim>
+struct Reading {
+  std::vector<std::string> columns;
+  std::function<std::vector<Row>(const ProbeContext<Dim>&)> take;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,61 @@
+#include "probes/front.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "probes/places.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
+  int neighbours = 0;
+  for_each_weight(context, context.particles.position[i], [&](std::int32_t j, double) {
+    if (j != i && context.particles.is_fluid(j)) ++neighbours;
+  });
+  return neighbours >= Dim + 3;
+}
+
+template <int Dim>
+Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
+  const Particles<Dim>& particles = context.particles;
+  std::vector<std::pair<double, std::int32_t>> heap;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) {
+      heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
+    }
+  }
+  if (heap.empty()) return {0.0, 0.0};
+  std::make_heap(heap.begin(), heap.end());
+  const double half = 0.5 * context.spacing;
+  const double front = heap.front().first + half;
+  // The foremost few are looked at one by one until one is connected.
+  while (!heap.empty()) {
+    if (is_connected(context, heap.front().second)) return {front, heap.front().first + half};
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+  }
+  return {front, 0.0};
+}
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> front_reading(const ProbeTable& probe) {
+  Vec<Dim> direction = Vec<Dim>::UnitX();
+  if (!probe.direction.empty()) direction = to_vec<Dim>(probe.direction, label(probe), "direction");
+  if (direction.norm() == 0.0) {
+    throw InputError(fmt::format("{}: direction = {} has no length: say where the front goes, as (1, 0)", label(probe),
+                                 place(direction)));
+  }
+  direction.normalize();
+  return {{"front_m", "front_connected_m"}, [direction](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            return {read_front(context, direction)};
+          }};
+}
+
+template Reading<2> front_reading<2>(const ProbeTable&);
+template Reading<3> front_reading<3>(const ProbeTable&);
+
+}  // namespace tailwater

@@ -1,0 +1,23 @@
+// Pressure and velocity at a fixed point: moving least squares over the fluid within the support, exact for linear
+// fields (Levin 1998), with q_j = (1, (x_j - x)/R):
+//
+//   f(x) = sum w W (a . q_j) f_j,    M a = (1, 0, ..),    M = sum w W q_j q_j^T
+//
+// Where the neighbours do not span space (M nearly singular) a = (1/M_00, 0, ..), the Shepard mean. Where there is no
+// water, c(x) <= 1/2 (water_share.h), all values are 0 and so is the column `wet`.
+#pragma once
+
+#include "case/spec.h"
+#include "probes/context.h"
+
+namespace tailwater {
+
+/// Columns pressure_Pa, wet.
+template <int Dim>
+Reading<Dim> pressure_reading(const ProbeTable& probe);
+
+/// Columns u_m_s, v_m_s (w_m_s), wet.
+template <int Dim>
+Reading<Dim> velocity_reading(const ProbeTable& probe);
+
+}  // namespace tailwater

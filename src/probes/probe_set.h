@@ -1,0 +1,52 @@
+// The probes of a case, and the files they write while the run goes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/spec.h"
+#include "io/csv_writer.h"
+#include "io/run_folder.h"
+#include "probes/context.h"
+
+namespace tailwater {
+
+/// A probe before its run: what it reads and when.
+template <int Dim>
+struct Probe {
+  std::string name;
+  Reading<Dim> reading;
+  double interval = 0.0;      ///< s; 0: at every step
+  std::vector<double> times;  ///< s, ascending; if any, they replace the interval
+};
+
+/// The case's probes, checked: throws InputError, which names the probe, for a place it cannot measure at, a name that
+/// is no file name or is used twice, and a profile without times.
+template <int Dim>
+std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+template <int Dim>
+class ProbeSet {
+ public:
+  /// Starts one file per probe, probes/NAME.csv. Throws IoError.
+  ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder);
+
+  /// Does any probe want to look at the flow at `time` [s]?
+  bool is_due(double time) const;
+
+  /// Appends to the files of all probes that are due. Throws IoError.
+  void record(const ProbeContext<Dim>& context);
+
+ private:
+  struct Instrument {
+    Probe<Dim> probe;
+    CsvWriter csv;
+    std::size_t taken = 0;  ///< intervals or times that have passed
+
+    bool is_due(double time) const;
+  };
+
+  std::vector<Instrument> instruments_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,72 @@
+#include "probes/wall_pressure.h"
+
+#include "probes/places.h"
+#include "probes/water_share.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+Vec<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const CaseSpec& spec,
+                       const Boundary<Dim>& boundary) {
+  const double support = spec.scheme.support * spec.particles.spacing;
+  const NearestWall<Dim> nearest = boundary.nearest(x, support);
+  if (nearest.face < 0) {
+    throw InputError(fmt::format("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall",
+                                 label(probe), support, place(x)));
+  }
+  return nearest.point;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w) {
+  if (water_share(context, x_w) <= surface_share) return std::nullopt;
+  const Particles<Dim>& particles = context.particles;
+  double sum = 0.0;
+  double weights = 0.0;
+  for_each_weight(context, x_w, [&](std::int32_t j, double weight) {
+    if (!particles.is_fluid(j)) return;
+    sum += weight * (particles.pressure[j] + context.density * context.gravity.dot(x_w - particles.position[j]));
+    weights += weight;
+  });
+  return sum / weights;
+}
+
+template <int Dim>
+Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const Vec<Dim> x_w = point_on_wall(probe, to_vec<Dim>(probe.at, label(probe), "at"), spec, boundary);
+  return {{"pressure_Pa"}, [x_w](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            return {{wall_pressure(context, x_w).value_or(0.0)}};
+          }};
+}
+
+template <int Dim>
+Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<Vec<Dim>> points;
+  for (const Vec<Dim>& x : places_between<Dim>(probe, 0.5 * spec.particles.spacing)) {
+    points.push_back(point_on_wall(probe, x, spec, boundary));
+  }
+  return {{"pressure_Pa", "wet_share"}, [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            double sum = 0.0;
+            double wet = 0.0;
+            for (const Vec<Dim>& x_w : points) {
+              if (const std::optional<double> pressure = wall_pressure(context, x_w)) {
+                sum += *pressure;
+                wet += 1.0;
+              }
+            }
+            const double count = static_cast<double>(points.size());
+            return {{sum / count, wet / count}};
+          }};
+}
+
+template std::optional<double> wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);
+template std::optional<double> wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&);
+template Reading<2> wall_pressure_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> wall_pressure_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+template Reading<2> wall_pressure_mean_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> wall_pressure_mean_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

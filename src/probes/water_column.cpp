@@ -1,0 +1,177 @@
+#include "probes/water_column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/from_spec.h"
+#include "probes/places.h"
+#include "probes/water_share.h"
+
+namespace tailwater {
+namespace {
+
+/// A wall face that the line passes.
+template <int Dim>
+struct Crossing {
+  double height;  ///< m above the origin
+  Vec<Dim> normal;
+};
+
+/// The faces that the line through `place` along `up` meets, highest first.
+template <int Dim>
+std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, const Vec<Dim>& up,
+                                          double spacing) {
+  std::vector<Crossing<Dim>> crossings;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    const double slope = face.normal.dot(up);
+    if (std::abs(slope) < 1e-6) continue;  // the line runs along it
+    const Vec<Dim> hit = place - face.height(place) / slope * up;
+    if ((closest_point(face, hit) - hit).norm() <= corner_tolerance * spacing) {
+      crossings.push_back({hit.dot(up), face.normal});
+    }
+  }
+  std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.height > b.height; });
+  return crossings;
+}
+
+/// A vertical line and the walls on it.
+template <int Dim>
+struct Line {
+  Vec<Dim> foot;  ///< its point at height 0
+  Vec<Dim> up;
+  std::vector<Crossing<Dim>> crossings;
+};
+
+/// Where the straight line from (0, `low`) to (`step`, `high`) passes the surface share.
+double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
+
+/// The column on the bed `bed`, of which c is known to be interesting up to the height `top`.
+template <int Dim>
+WaterColumn column_on(const ProbeContext<Dim>& context, const Line<Dim>& line, const Crossing<Dim>& bed, double top) {
+  const Vec<Dim> bed_point = line.foot + bed.height * line.up;
+  const bool bed_is_wet = water_share(context, bed_point) > surface_share;
+  const auto share_at = [&](double depth) {
+    const Vec<Dim> x = bed_point + depth * line.up;
+    return bed_is_wet ? water_share_above_wet_bed(context, x, bed_point, bed.normal) : water_share(context, x);
+  };
+
+  WaterColumn column{.bed = bed.height};
+  const double end = top - bed.height;
+  bool is_connected = bed_is_wet;
+  double depth = 0.0;
+  double share = bed_is_wet ? 1.0 : 0.0;
+  while (depth < end) {
+    const double step = std::min(0.25 * context.spacing, end - depth);
+    const double next_share = share_at(depth + step);
+    if (share > surface_share && next_share <= surface_share) {
+      column.highest = depth + passage(share, next_share, step);
+      if (is_connected) column.connected = column.highest;
+      is_connected = false;
+    }
+    depth += step;
+    share = next_share;
+  }
+  if (share > surface_share) {  // up to a ceiling
+    column.highest = depth;
+    if (is_connected) column.connected = depth;
+  }
+  return column;
+}
+
+template <int Dim>
+WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line, double top) {
+  WaterColumn column;
+  double ceiling = top;
+  bool found_bed = false;
+  for (const Crossing<Dim>& crossing : line.crossings) {
+    if (crossing.normal.dot(line.up) < 0.0) {
+      ceiling = std::min(top, crossing.height);
+      continue;
+    }
+    const WaterColumn candidate = column_on(context, line, crossing, ceiling);
+    // A dry line reads 0 above its highest bed.
+    if (!found_bed || candidate.highest > 0.0) column = candidate;
+    found_bed = true;
+    if (candidate.highest > 0.0) break;
+  }
+  return column;
+}
+
+/// A height [m] that all water lies below.
+template <int Dim>
+double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
+  double highest = -std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < context.particles.size(); ++i) {
+    if (context.particles.is_fluid(i)) highest = std::max(highest, context.particles.position[i].dot(up));
+  }
+  return highest + kernel_radius(context.kernel);
+}
+
+template <int Dim>
+Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec) {
+  const Vec<Dim> gravity = to_vec<Dim>(spec.physics.gravity, "physics", "gravity");
+  if (gravity.norm() == 0.0) {
+    throw InputError(
+        fmt::format("{} measures depths against gravity, but physics.gravity is 0: set gravity or remove "
+                    "the probe",
+                    label(probe)));
+  }
+  return -gravity.normalized();
+}
+
+template <int Dim>
+Line<Dim> make_line(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& up, const Boundary<Dim>& boundary,
+                    double spacing) {
+  Line<Dim> line{at - at.dot(up) * up, up, find_crossings(boundary, at, up, spacing)};
+  const bool has_bed = std::any_of(line.crossings.begin(), line.crossings.end(),
+                                   [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(up) > 0.0; });
+  if (!has_bed) {
+    throw InputError(fmt::format("{}: the vertical line through {} meets no wall that looks up: move it over a bed",
+                                 label(probe), place(at)));
+  }
+  return line;
+}
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
+  const Line<Dim> line = make_line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
+  return {{"connected_m", "highest_m"}, [line](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
+            return {{column.connected, column.highest}};
+          }};
+}
+
+template <int Dim>
+Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const Vec<Dim> up = upwards<Dim>(probe, spec);
+  std::vector<Vec<Dim>> places;
+  std::vector<Line<Dim>> lines;
+  for (const Vec<Dim>& at : places_between<Dim>(probe, spec.particles.spacing)) {
+    places.push_back(at);
+    lines.push_back(make_line(probe, at, up, boundary, spec.particles.spacing));
+  }
+  std::vector<std::string> columns{"x_m", "bed_m", "connected_m", "highest_m"};
+  if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
+  return {columns, [up, places, lines](const ProbeContext<Dim>& context) {
+            const double top = top_of_water(context, up);
+            std::vector<Row> rows;
+            for (std::size_t k = 0; k < lines.size(); ++k) {
+              const WaterColumn column = read_column(context, lines[k], top);
+              Row row(places[k].begin(), places[k].begin() + (Dim - 1));
+              row.insert(row.end(), {column.bed, column.connected, column.highest});
+              rows.push_back(std::move(row));
+            }
+            return rows;
+          }};
+}
+
+template Reading<2> depth_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> depth_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+template Reading<2> profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> profile_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,37 @@
+#include "probes/water_share.h"
+
+#include <algorithm>
+
+namespace tailwater {
+namespace {
+
+/// `is_water(j)` for fluid and what stands for it; every other particle is wall.
+template <int Dim, class IsWater>
+double share(const ProbeContext<Dim>& context, const Vec<Dim>& x, IsWater&& is_water) {
+  double water = 0.0;
+  double wall = 0.0;
+  for_each_weight(context, x, [&](std::int32_t j, double weight) { (is_water(j) ? water : wall) += weight; });
+  return water / std::max(1.0 - wall, power<Dim>(0.5));
+}
+
+}  // namespace
+
+template <int Dim>
+double water_share(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
+  return share(context, x, [&](std::int32_t j) { return context.particles.is_fluid(j); });
+}
+
+template <int Dim>
+double water_share_above_wet_bed(const ProbeContext<Dim>& context, const Vec<Dim>& x, const Vec<Dim>& bed,
+                                 const Vec<Dim>& bed_normal) {
+  return share(context, x, [&](std::int32_t j) {
+    return context.particles.is_fluid(j) || bed_normal.dot(context.particles.position[j] - bed) < 0.0;
+  });
+}
+
+template double water_share<2>(const ProbeContext<2>&, const Vec<2>&);
+template double water_share<3>(const ProbeContext<3>&, const Vec<3>&);
+template double water_share_above_wet_bed<2>(const ProbeContext<2>&, const Vec<2>&, const Vec<2>&, const Vec<2>&);
+template double water_share_above_wet_bed<3>(const ProbeContext<3>&, const Vec<3>&, const Vec<3>&, const Vec<3>&);
+
+}  // namespace tailwater

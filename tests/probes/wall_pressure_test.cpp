@@ -1,0 +1,97 @@
+#include "probes/wall_pressure.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "probes/tank.h"
+
+namespace tailwater {
+namespace {
+
+template <class Dimension>
+class WallPressureTest : public testing::Test {
+ public:
+  static constexpr int dimension = Dimension::value;
+  using TankOf = Tank<dimension>;
+
+  /// Every term of the sum equals the wall's own pressure up to rounding: some 1e2 operations on numbers of size
+  /// rho g H, each exact to 1.1e-16 of that.
+  static constexpr double rounding = 1e-13 * TankOf::rho * TankOf::g;
+
+  static Row pressure(const TankOf& tank, const Coordinates& at) {
+    return wall_pressure_reading<dimension>(probe_at(ProbeType::wall_pressure, at), tank.spec, tank.boundary)
+        .take(tank.context())
+        .at(0);
+  }
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(WallPressureTest, Dimensions);
+
+TYPED_TEST(WallPressureTest, StillWaterIsReadExactlyAtAnyHeightUpToTheSurface) {
+  using T = typename TestFixture::TankOf;
+  const double level = 0.8;
+  const T tank = T::filled(level);
+  // To the floor's corner, and to within the error of the depth (0.05 dx) of the surface.
+  for (const double z : {0.0, 0.01, 0.1, 0.333, 0.7, 0.79, level - 0.05 * T::dx}) {
+    EXPECT_NEAR(TestFixture::pressure(tank, T::at(1.0, z))[0], T::rho * T::g * (level - z), TestFixture::rounding) << z;
+  }
+  for (const double z : {level + 0.05 * T::dx, 0.9, 1.4}) {
+    EXPECT_EQ(TestFixture::pressure(tank, T::at(1.0, z))[0], 0.0) << z;
+  }
+}
+
+TYPED_TEST(WallPressureTest, IsReadOnTheNearestPlaceOfAWall) {
+  using T = typename TestFixture::TankOf;
+  const T tank = T::filled(0.8);
+  for (const double x : {1.0 - 2.0 * T::dx, 1.0 + T::dx}) {
+    EXPECT_NEAR(TestFixture::pressure(tank, T::at(x, 0.3))[0], T::rho * T::g * 0.5, TestFixture::rounding) << x;
+  }
+}
+
+TYPED_TEST(WallPressureTest, ALayerOneParticleThickWetsTheWallAndASingleParticleDoesNot) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  const T jet(0.8, [](const Vec<dim>& x) { return x[0] > 1.0 - T::dx && x[dim - 1] < 0.8; });
+  EXPECT_NEAR(TestFixture::pressure(jet, T::at(1.0, 0.4))[0], T::rho * T::g * 0.4, TestFixture::rounding);
+  T drop = T::filled(0.0);
+  Vec<dim> x = Vec<dim>::Constant(0.5);
+  x[0] = 1.0 - 0.5 * T::dx;
+  x[dim - 1] = 0.4;
+  drop.add(x, true, 5000.0);
+  drop.locate();
+  EXPECT_EQ(TestFixture::pressure(drop, T::at(1.0, 0.4))[0], 0.0);
+}
+
+TYPED_TEST(WallPressureTest, TheMeanOverAStretchCountsDryPlacesAsZero) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  const double level = 0.6;
+  const T tank = T::filled(level);
+  const auto mean = [&](double low, double high) {
+    return wall_pressure_mean_reading<dim>(
+               probe_along(ProbeType::wall_pressure_mean, T::at(1.0, low), T::at(1.0, high)), tank.spec, tank.boundary)
+        .take(tank.context())
+        .at(0);
+  };
+  // The middles of equal pieces average a linear pressure exactly.
+  EXPECT_NEAR(mean(0.1, 0.5)[0], T::rho * T::g * 0.3, TestFixture::rounding);
+  EXPECT_EQ(mean(0.1, 0.5)[1], 1.0);
+  // Half the stretch is above water; no place (at odd multiples of dx/4) is nearer to the surface than dx/4.
+  EXPECT_NEAR(mean(0.4, 0.8)[0], 0.5 * T::rho * T::g * 0.1, TestFixture::rounding);
+  EXPECT_EQ(mean(0.4, 0.8)[1], 0.5);
+  EXPECT_EQ(mean(0.7, 0.9), (Row{0.0, 0.0}));
+}
+
+TYPED_TEST(WallPressureTest, RefusesAPlaceFarFromWalls) {
+  using T = typename TestFixture::TankOf;
+  const T tank = T::filled(0.6);
+  try {
+    TestFixture::pressure(tank, T::at(0.5, 0.5));
+    FAIL() << "a place 0.5 m from every wall was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("probe 'test'"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
