@@ -22,8 +22,9 @@ struct FlowTotals {
   double density_error_rms = 0.0;
 };
 
-/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them where they are now, with cells of
-/// at least the kernel's support.
+/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, with cells that exceed the
+/// kernel's support by as much as any has moved since the grid was made: a neighbourhood's grid leaves room for its
+/// skin.
 template <int Dim>
 struct ProbeContext {
   const Particles<Dim>& particles;
