@@ -98,6 +98,8 @@ def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
     # A run's wall is dry until the jet arrives; the gauge's noise before that is its own.
     pressure = np.where(time > zhou1999.LABORATORY_QUIET * zhou1999.TIME_SCALE, pressure, 0) * zhou1999.PRESSURE_SCALE
     write_probe(folder, "P2", {"time_s": time, "pressure_Pa": pressure, "wet_share": pressure > 0})
+    # The front runs at 5.4 m/s until the wall stops it.
+    write_probe(folder, "front", {"time_s": regular, "front_m": np.minimum(1.2 + 5.4 * regular, 3.22)})
     sawtooth = SAWTOOTH * (np.arange(regular.size) % 4 - 1.5) / 1.5
     write_probe(folder, "P160", {
         "time_s": regular,

@@ -110,6 +110,10 @@ class Events(unittest.TestCase):
         with self.assertRaisesRegex(DataError, "ends before the first peak is over"):
             first_peak(curve, arrival=3, within=2)
 
+    def test_a_steady_rise_has_no_peak(self):
+        with self.assertRaisesRegex(DataError, "no peak"):
+            first_peak(Curve(np.arange(5.0), np.arange(5.0)), arrival=1, within=2)
+
 
 class Noise(unittest.TestCase):
     WIDTH = 0.02

@@ -97,6 +97,12 @@ class Scores(RunTest):
         amplitude = synthetic_run.SAWTOOTH
         self.assertAlmostEqual(metrics["noise"]["value"], amplitude * math.sqrt(5) / 3, delta=amplitude / 3)
 
+    def test_arrival_of_the_front(self):
+        metrics = self.score(spacing=0.05)
+        exact = (zhou1999.TANK - 0.05 - 1.2) / 5.4
+        self.assertGreaterEqual(metrics["arrival_front"]["value"], exact)
+        self.assertLessEqual(metrics["arrival_front"]["value"], exact + synthetic_run.SAMPLING)
+
     def test_first_peak_is_that_of_the_laboratory_when_the_run_repeats_it(self):
         measured = zhou1999.laboratory("P2", "openmps")
         impact = measured.window(2.4, 3.0)

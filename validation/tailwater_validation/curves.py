@@ -115,6 +115,8 @@ def first_peak(pressure, arrival, within):
     if impact.time.size == 0 or pressure.time[-1] < arrival + within:
         raise DataError(f"the curve ends before the first peak is over, at {arrival + within:.3g}")
     highest = int(np.argmax(impact.value))
+    if highest == impact.time.size - 1:
+        raise DataError(f"no peak: the pressure still rises {within:g} after the arrival")
     return float(impact.time[highest]), float(impact.value[highest])
 
 

@@ -47,7 +47,7 @@ def draw_particles(axes, frame, spacing, walls, view, points_per_metre):
         raise DataError(f"the field files hold no pressure, only {', '.join(frame.fields)}: "
                         'add "pressure" to output.fields')
     dots = axes.scatter(frame.position[:, 0], frame.position[:, 1], c=frame.fields["pressure"] / 1000,
-                        s=(1.25 * spacing * points_per_metre) ** 2, linewidths=0, cmap="viridis", vmin=0,
+                        s=(2**0.5 * spacing * points_per_metre) ** 2, linewidths=0, cmap="viridis", vmin=0,
                         vmax=zhou1999.PRESSURE_SCALE / 1000, rasterized=True, zorder=2)
     axes.add_collection(LineCollection(walls, colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
     axes.set(xlim=view[0], ylim=view[1], aspect="equal")

@@ -12,6 +12,7 @@ from .curves import DataError, arrival_time, best_shift, first_peak, noise, read
 from .run_folder import RunFolder
 
 H = 0.6
+TANK = 3.22
 GRAVITY = 9.81
 DENSITY = 1000.0
 TIME_SCALE = (H / GRAVITY) ** 0.5
@@ -94,6 +95,14 @@ def arrival_in_seconds(curve, not_before=0.0):
     return arrival * TIME_SCALE
 
 
+def front_arrival(run):
+    """When the front, which is half a spacing ahead of the first particle, is within a spacing of the wall: in s."""
+    arrival = arrival_time(run.probe("front", "front_m"), TANK - run.spacing)
+    if arrival is None:
+        raise DataError("the front never reaches the wall")
+    return arrival
+
+
 def peak(curve, not_before=0.0):
     """(T, pressure over rho g H) of the first peak."""
     return first_peak(curve, arrival_in_seconds(curve, not_before) / TIME_SCALE, FIRST_PEAK_WITHIN)
@@ -111,6 +120,7 @@ def score_impact(run):
     return [
         measure(Metric("arrival", "arrival, point z = 0.16 m", "s", arrivals, *ARRIVAL_TARGET),
                 value=lambda: arrival_in_seconds(pressure(run, POINT))),
+        measure(Metric("arrival_front", "arrival, front at the wall", "s", arrivals), value=lambda: front_arrival(run)),
         measure(Metric("arrival_P2", "arrival, P2", "s", arrivals),
                 value=lambda: arrival_in_seconds(pressure(run, "P2"))),
         measure(Metric("peak_P2", "first peak, P2", "rho g H", heights), value=lambda: peak(pressure(run, "P2"))[1]),
