@@ -1,0 +1,131 @@
+// A layer of water between two flat free surfaces, periodic along them: rows are known by their height.
+#include "closures/free_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "operators/concentration.h"
+#include "operators/lattice.h"
+#include "support/dimensions.h"
+#include "support/tensors.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = 0.1;
+constexpr int rows = 12;
+constexpr int columns = 8;
+
+template <class D>
+class FreeSurfaceTest : public testing::Test {};
+TYPED_TEST_SUITE(FreeSurfaceTest, Dimensions);
+
+template <int Dim>
+PeriodicDomain<Dim> along_the_layer() {
+  PeriodicDomain<Dim> domain;
+  for (int d = 0; d < Dim; ++d) {
+    if (d != 1) domain[d] = std::pair{0.0, columns * dx};
+  }
+  return domain;
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> layer() {
+  std::array<int, Dim> count;
+  count.fill(columns);
+  count[1] = rows;
+  return lattice_points<Dim>(Vec<Dim>::Constant(0.5 * dx), count, dx);
+}
+
+int row_of(double y) { return static_cast<int>(std::floor(y / dx)); }
+
+template <int Dim>
+struct Marks {
+  Marks(SurfaceTreatment test, const Particles<Dim>& particles, PeriodicDomain<Dim> domain)
+      : set(particles,
+            make_kernel<Dim>(test == SurfaceTreatment::farzin ? KernelName::farzin : KernelName::wendland_c2, 3.0 * dx),
+            dx, std::move(domain)),
+        is_surface(set.size()),
+        is_near(set.size()) {
+    const ConsistentOperators<Dim> operators(set);
+    const Kernel<Dim>& kernel = set.neighbourhood.kernel();
+    const double W_0 = kernel_value(kernel, 0.0);
+    const double C_0 = lattice_sums<Dim>(kernel, dx).concentration;
+    std::vector<double> filling(set.size());
+    std::vector<Vec<Dim>> gradient(set.size());
+    for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+      filling[i] = concentration<Dim>(set.pairs(), i, set.particles.volume, W_0) / C_0;
+      gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
+    }
+    find_free_surface<Dim>(test, {set.pairs(), set.particles, filling, gradient, operators.tensors, dx, C_0, W_0},
+                           is_surface);
+    set.neighbourhood.halo().exchange(is_surface);
+    find_near_surface<Dim>(set.pairs(), set.particles, dx, is_surface, is_near);
+  }
+
+  ParticleSet<Dim> set;
+  std::vector<std::uint8_t> is_surface;
+  std::vector<std::uint8_t> is_near;
+};
+
+template <int Dim>
+std::vector<SurfaceTreatment> tests_for() {
+  // The thresholds of (F35) are those of the 2D paper.
+  if (Dim == 2) return {SurfaceTreatment::air, SurfaceTreatment::cone, SurfaceTreatment::farzin};
+  return {SurfaceTreatment::air, SurfaceTreatment::cone};
+}
+
+TYPED_TEST(FreeSurfaceTest, MarksTheOutermostRowsAndNothingElse) {
+  constexpr int Dim = TypeParam::value;
+  for (const SurfaceTreatment test : tests_for<Dim>()) {
+    const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+    for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
+      const int row = row_of(marks.set.position(i)[1]);
+      EXPECT_EQ(marks.is_surface[i] != 0, row == 0 || row == rows - 1) << name_of(test) << ", row " << row;
+    }
+  }
+}
+
+TYPED_TEST(FreeSurfaceTest, NearSurfaceReachesTwoSpacings) {
+  constexpr int Dim = TypeParam::value;
+  for (const SurfaceTreatment test : tests_for<Dim>()) {
+    const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+    for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
+      const int row = row_of(marks.set.position(i)[1]);
+      const int depth = std::min(row, rows - 1 - row);
+      if (depth == 2) continue;  // exactly 2 dx away: rounding decides
+      EXPECT_EQ(marks.is_near[i] != 0, depth < 2) << name_of(test) << ", depth " << depth;
+    }
+  }
+}
+
+TYPED_TEST(FreeSurfaceTest, WallsAreNeverMarkedAndCoverTheSurface) {
+  constexpr int Dim = TypeParam::value;
+  for (const SurfaceTreatment test : tests_for<Dim>()) {
+    Particles<Dim> particles = fluid_at<Dim>(layer<Dim>(), dx);
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      if (row_of(particles.position[i][1]) < 3) particles.kind[i] = ParticleKind::wall;
+    }
+    const Marks<Dim> marks(test, particles, along_the_layer<Dim>());
+    for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
+      const int row = row_of(marks.set.position(i)[1]);
+      EXPECT_EQ(marks.is_surface[i] != 0, row == rows - 1) << name_of(test) << ", row " << row;
+    }
+  }
+}
+
+TYPED_TEST(FreeSurfaceTest, SprayIsSurface) {
+  constexpr int Dim = TypeParam::value;
+  for (const SurfaceTreatment test : tests_for<Dim>()) {
+    const std::vector<Vec<Dim>> spray{Vec<Dim>::Zero(), dx * Vec<Dim>::UnitX(), Vec<Dim>::Constant(5.0)};
+    const Marks<Dim> marks(test, fluid_at<Dim>(spray, dx), {});
+    for (std::size_t i = 0; i < spray.size(); ++i) {
+      EXPECT_TRUE(marks.is_surface[i]) << name_of(test);
+      EXPECT_TRUE(marks.is_near[i]) << name_of(test);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,148 @@
+#include "closures/shifting.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "operators/concentration.h"
+#include "support/dimensions.h"
+#include "support/particle_set.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double dx = 0.1;
+constexpr double dt = 0.01;
+/// Not 3 dx: lattice neighbours on the very rim would count or not by rounding, and (F28) has no kernel to fade them.
+constexpr double radius = 2.9 * dx;
+
+template <class D>
+class ShiftingTest : public testing::Test {};
+TYPED_TEST_SUITE(ShiftingTest, Dimensions);
+
+template <int Dim>
+struct Shifted {
+  Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, bool is_near_surface)
+      : set(moving(points, speed), make_kernel<Dim>(KernelName::wendland_c2, radius), dx),
+        gradient(set.size()),
+        shift(set.size(), Vec<Dim>::Ones()) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
+    }
+    const std::vector<std::uint8_t> near(set.size(), is_near_surface);
+    capped = compute_shift<Dim>(law, dt, set.pairs(), set.particles, near, gradient, shift);
+  }
+
+  static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {
+    Particles<Dim> particles = fluid_at<Dim>(points, dx);
+    for (Vec<Dim>& velocity : particles.velocity) velocity = speed * Vec<Dim>::UnitX();
+    particles.kind[0] = ParticleKind::wall;  // and must not move
+    return particles;
+  }
+
+  ParticleSet<Dim> set;
+  std::vector<Vec<Dim>> gradient;
+  std::vector<Vec<Dim>> shift;
+  std::size_t capped = 0;
+};
+
+template <int Dim>
+ShiftingLaw law_of(ShiftingKind kind, double cap) {
+  return {.kind = kind,
+          .strength = kind == ShiftingKind::lind ? 2.0 : 0.1,
+          .cap = cap,
+          .spacing = dx,
+          .W_spacing = kernel_value(make_kernel<Dim>(KernelName::wendland_c2, radius), dx)};
+}
+
+template <int Dim>
+constexpr int cube_count = Dim == 2 ? 13 : 9;
+
+constexpr std::array kinds{ShiftingKind::lind, ShiftingKind::farzin};
+
+TYPED_TEST(ShiftingTest, LeavesTheInteriorOfALatticeAlone) {
+  constexpr int Dim = TypeParam::value;
+  for (const ShiftingKind kind : kinds) {
+    const Shifted<Dim> shifted(law_of<Dim>(kind, dx), jittered_cube<Dim>(cube_count<Dim>, dx, 0.0), 1.0, false);
+    const double interior = (0.5 * (cube_count<Dim> - 1) - 3.0 + 1e-6) * dx;
+    std::size_t tested = 0;
+    for (std::size_t i = 0; i < shifted.set.size(); ++i) {
+      if (shifted.set.position(i).cwiseAbs().maxCoeff() > interior) continue;
+      ++tested;
+      // Opposite neighbours cancel; a particle's place is known to eps times the cube's size, ten dx.
+      EXPECT_LT(shifted.shift[i].norm(), 1e4 * eps * dt);
+    }
+    EXPECT_GT(tested, 0u);
+  }
+}
+
+TYPED_TEST(ShiftingTest, MovesAwayFromTheCrowd) {
+  constexpr int Dim = TypeParam::value;
+  for (const ShiftingKind kind : kinds) {
+    auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.0);
+    const std::size_t middle = points.size() / 2;
+    points[middle] += 0.3 * dx * Vec<Dim>::UnitX();
+    const Shifted<Dim> shifted(law_of<Dim>(kind, dx), points, 1.0, false);
+    EXPECT_LT(shifted.shift[middle][0], 0.0);
+    // What is across vanishes by symmetry.
+    EXPECT_LT((shifted.shift[middle] - shifted.shift[middle][0] * Vec<Dim>::UnitX()).norm(), 1e4 * eps * dt);
+  }
+}
+
+TYPED_TEST(ShiftingTest, HasNoPartAlongTheNormalNearTheSurface) {
+  constexpr int Dim = TypeParam::value;
+  for (const ShiftingKind kind : kinds) {
+    const Shifted<Dim> shifted(law_of<Dim>(kind, 1e6 * dx), jittered_cube<Dim>(cube_count<Dim>, dx, 0.3), 1.0, true);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < shifted.set.size(); ++i) {
+      const double steepness = shifted.gradient[i].norm();
+      if (steepness * dx < 0.01) continue;  // no normal to speak of
+      // What was taken out can be larger than what stays: for farzin some 100 x eps_F dt.
+      EXPECT_LT(std::abs(shifted.shift[i].dot(shifted.gradient[i])) / steepness, 1e3 * eps * dt);
+      largest = std::max(largest, shifted.shift[i].norm());
+    }
+    EXPECT_GT(largest, 0.0);
+  }
+}
+
+TYPED_TEST(ShiftingTest, RespectsAndCountsTheCap) {
+  constexpr int Dim = TypeParam::value;
+  for (const ShiftingKind kind : kinds) {
+    const auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.3);
+    const Shifted<Dim> uncapped(law_of<Dim>(kind, 1e6 * dx), points, 1.0, false);
+    std::vector<double> lengths;
+    for (const Vec<Dim>& shift : uncapped.shift) lengths.push_back(shift.norm());
+    std::nth_element(lengths.begin(), lengths.begin() + static_cast<long>(lengths.size() / 2), lengths.end());
+    const double cap = lengths[lengths.size() / 2] * (1.0 + 1e-9);  // half of them are longer
+
+    const Shifted<Dim> shifted(law_of<Dim>(kind, cap), points, 1.0, false);
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double length = uncapped.shift[i].norm();
+      expected += length > cap;
+      const double factor = length > cap ? cap / length : 1.0;
+      EXPECT_LE((shifted.shift[i] - factor * uncapped.shift[i]).norm(), 8.0 * eps * length);
+      EXPECT_LE(shifted.shift[i].norm(), cap * (1.0 + 8.0 * eps));
+    }
+    EXPECT_EQ(shifted.capped, expected);
+    EXPECT_GT(expected, 0u);
+    EXPECT_EQ(uncapped.capped, 0u);
+  }
+}
+
+TYPED_TEST(ShiftingTest, NothingForWallsSprayAndWaterAtRest) {
+  constexpr int Dim = TypeParam::value;
+  const Vec<Dim> zero = Vec<Dim>::Zero();
+  for (const ShiftingKind kind : kinds) {
+    const auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.3);
+    EXPECT_EQ((Shifted<Dim>(law_of<Dim>(kind, dx), points, 1.0, false).shift[0]), zero);
+    for (const Vec<Dim>& shift : Shifted<Dim>(law_of<Dim>(kind, dx), points, 0.0, false).shift) EXPECT_EQ(shift, zero);
+    const std::vector<Vec<Dim>> spray{Vec<Dim>::Constant(9.0), zero, 0.5 * dx * Vec<Dim>::UnitY()};
+    for (const Vec<Dim>& shift : Shifted<Dim>(law_of<Dim>(kind, dx), spray, 1.0, false).shift) EXPECT_EQ(shift, zero);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
