@@ -70,6 +70,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   }
   for_each(particles.owned, [&](std::size_t i) { particles.position[i] += flow.shift[i]; });
   interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);
+  flow.neighbourhood.halo().exchange_positions(particles.position);
 }
 
 template <int Dim>
