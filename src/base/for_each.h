@@ -13,4 +13,14 @@ void for_each(std::size_t count, Body&& body) {
   }
 }
 
+/// The same for bodies that return how much they count (a number or a bool); returns the sum.
+template <class Body>
+std::size_t count_each(std::size_t count, Body&& body) {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += body(i);
+  }
+  return sum;
+}
+
 }  // namespace tailwater

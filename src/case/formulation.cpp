@@ -15,10 +15,16 @@ void apply_formulation(SchemeTable& scheme) {
   scheme.walls = WallTreatment::pressure_rows;
   scheme.courant = is_explicit ? 0.05 : 0.12;
   scheme.artificial_viscosity = 0.20;
+  scheme.viscosity_floor = 0.0;
+  scheme.smagorinsky = 0.10;
   scheme.shifting = ShiftingKind::farzin;
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
   scheme.shifting_cap = 0.05;
   scheme.density_relaxation = 0.0;
+  scheme.max_passes = 30;
+  scheme.relax_pressure = 0.4;
+  scheme.relax_velocity = 0.3;
+  scheme.relax_position = 0.4;
 }
 
 }  // namespace tailwater

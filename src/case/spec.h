@@ -221,7 +221,7 @@ struct SchemeTable {
              "Free surface in the pressure equation: missing neighbours count as air, or p = 0 on detected particles "
              "(formulation)");
     v.choice("walls", self.walls,
-             "Three layers of dummy particles behind the wall, or one layer on it that carries pressure rows "
+             "Dummy particles behind the wall, as deep as the support, or one layer on it that carries pressure rows "
              "(formulation)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
              "alpha of the time-step rule (F40, F41) (formulation)");
@@ -230,27 +230,28 @@ struct SchemeTable {
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
              "c_a of nu_a = c_a |u| dx (F3) (formulation)");
     v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
-             "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest");
+             "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest (formulation)");
     v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
-             "c_s of the sub-particle stress (F4-F6); 0: no stress; the paper uses 0.10");
+             "c_s of the sub-particle stress (F4-F6); 0: no stress (formulation)");
     v.choice("shifting", self.shifting,
              "Particle shifting: none, along the concentration gradient, or (F28-F32) "
              "(formulation)");
     v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
              "Factor of the shifting displacement; eps of (F30) for the published one (formulation)");
-    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.5),
+    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.1),
              "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
              "Share of the density error corrected per step by the source of the pressure equation (formulation)");
-    v.integer("max_passes", self.max_passes, "", Range::between(1, 100), "Most passes of the implicit iteration");
+    v.integer("max_passes", self.max_passes, "", Range::between(1, 100),
+              "Most passes of the implicit iteration (formulation)");
     v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),
              "The implicit iteration ends when the pressure changes by less than this share of its rms value");
     v.number("relax_pressure", self.relax_pressure, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of p in the implicit iteration; the paper uses 0.4");
+             "Under-relaxation of p in the implicit iteration (formulation)");
     v.number("relax_velocity", self.relax_velocity, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of u; the paper uses 0.3");
+             "Under-relaxation of u (formulation)");
     v.number("relax_position", self.relax_position, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of r; the paper uses 0.4");
+             "Under-relaxation of r (formulation)");
   }
 };
 

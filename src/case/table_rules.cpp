@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "case/formulation.h"
@@ -70,6 +71,27 @@ void set_defaults(ProbeTable& probe, TableReader& reader) {
     if (!probe.direction.empty()) {
       probe.direction.front() = 1.0;
     }
+  }
+}
+
+/// Under-relaxation by a factor f leaves (1 - f)^passes of the old value: too few passes would lose part of every step.
+void check(const SchemeTable& scheme, TableReader& reader) {
+  constexpr double most_left = 0.01;
+  const double least = std::min({scheme.relax_pressure, scheme.relax_velocity, scheme.relax_position});
+  if (scheme.integrator != Integrator::implicit_projection || least >= 1.0 || reader.is_wrong("max_passes")) {
+    return;
+  }
+  const int needed = static_cast<int>(std::ceil(std::log(most_left) / std::log(1.0 - least)));
+  if (scheme.max_passes >= needed) {
+    return;
+  }
+  const std::string message = fmt::format(
+      "{} passes with an under-relaxation of {} leave part of every step undone; give at least {}, or relax less",
+      scheme.max_passes, least, needed);
+  if (const toml::node* node = reader.given("max_passes")) {
+    reader.wrong("max_passes", *node, message);
+  } else {
+    reader.missing("max_passes", message);
   }
 }
 

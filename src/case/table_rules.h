@@ -27,6 +27,7 @@ void check(const DomainTable& domain, TableReader& reader);
 void check(const FluidTable& fluid, TableReader& reader);
 void check(const WallTable& wall, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
+void check(const SchemeTable& scheme, TableReader& reader);
 
 /// Checks that the keys the chosen shape or type needs are there, and no others (key_use.h). `rows` are the keys of the
 /// table as read, `table` its name without index.

@@ -54,10 +54,9 @@ template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                           std::span<const std::uint8_t> is_near_surface,
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
-  std::size_t capped = 0;
-  for_each(pairs.owned(), [&](std::size_t i) {
+  return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return;
+    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
     const Vec<Dim> direction =
         law.kind == ShiftingKind::lind ? lind_direction(law, pairs, particles, i) : farzin_direction(pairs, i);
     shift[i] = law.strength * particles.velocity[i].norm() * dt * direction;
@@ -69,12 +68,10 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& p
       }
     }
     const double length = shift[i].norm();
-    if (length > law.cap) {
-      shift[i] *= law.cap / length;
-      ++capped;
-    }
+    if (length <= law.cap) return false;
+    shift[i] *= law.cap / length;
+    return true;
   });
-  return capped;
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                              \

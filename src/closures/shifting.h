@@ -1,11 +1,12 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -s |u_i| dt dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012)
-//   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F31)
+//   lind    dr_i = -s |u_i| dt dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012,
+//          with the coefficient of Skillen et al. 2013)
+//   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
 // Both: no part along the free surface's normal within 2 dx of it, capped at a share of dx, nothing for particles with
-// few neighbours. (F32), the correction of u and p by their gradients, belongs to the published scheme and is done
-// there.
+// few neighbours. (F31) and (F32), the correction of u and p by their gradients, belong to the published scheme and is
+// done there.
 #pragma once
 
 #include <cstdint>

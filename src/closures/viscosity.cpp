@@ -28,7 +28,10 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
       const auto row = particles.wall_row[j];
       const double lambda = walls.friction[row];
       if (lambda == 0.0) continue;
-      const Vec<Dim> difference = -wall_mean[j] - velocity[i];
+      // The no-slip velocity where the wall particle stands: of the mirror image behind the wall, or of the wall
+      // itself.
+      const bool is_image = walls.treatment == WallTreatment::dummies;
+      const Vec<Dim> difference = (is_image ? Vec<Dim>(-wall_mean[j]) : Vec<Dim>(Vec<Dim>::Zero())) - velocity[i];
       sum += lambda * weight * viscosity[i] * (difference - walls.particles.blocked[row] * difference);
     }
     acceleration[i] += sum;

@@ -27,7 +27,8 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 
 /// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, c_ij the Morris
 /// weight; conserves momentum and never adds energy. Walls add friction lambda times the no-slip stress: the tangential
-/// part of c_ij nu_i (-mean_w - u_i).
+/// part of c_ij nu_i (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror images, and 0 on
+/// the wall.
 template <int Dim>
 void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
                           double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,

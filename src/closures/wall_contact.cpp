@@ -28,16 +28,14 @@ bool put_back(const Boundary<Dim>& boundary, double spacing, Vec<Dim>& position,
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
                            Particles<Dim>& particles) {
-  std::size_t count = 0;
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
+  return count_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return false;
     bool is_near_wall = false;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i) && !is_near_wall; ++k) {
       is_near_wall = !particles.is_fluid(pairs.j[k]);
     }
-    if (is_near_wall) count += put_back(boundary, spacing, particles.position[i], particles.velocity[i]);
+    return is_near_wall && put_back(boundary, spacing, particles.position[i], particles.velocity[i]);
   });
-  return count;
 }
 
 template std::size_t keep_off_walls<2>(const Pairs<2>&, const Boundary<2>&, double, Particles<2>&);

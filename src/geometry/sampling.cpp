@@ -121,8 +121,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
     if (walls_are_particles) {
       return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
     }
-    return std::abs(wall.signed_distance) < least_wall_distance * dx && wall.signed_distance < -corner_tolerance * dx &&
-           adapts_to_wall(block, boundary.faces[wall.face]);
+    return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
   };
   const auto keep_off_walls = [&](const FluidTable& block, Vec<Dim>& x) {
     // In a corner, moving away from one wall may approach the next: as many moves as walls can meet.

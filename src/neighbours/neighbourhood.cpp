@@ -42,7 +42,7 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
 
 template <int Dim>
 void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
-  wrap_positions<Dim>(domain_, particles);
+  wrap(particles);
   particles.resize(particles.owned);
   const CellGrid<Dim> grid(particles.position, kernel_radius(kernel_) + skin_);
   permute(grid.order(), particles.position);

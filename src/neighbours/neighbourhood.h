@@ -24,8 +24,11 @@ class Neighbourhood {
   /// made from them, and the number of ghosts) are new.
   bool update(Particles<Dim>& particles);
 
-  /// Sorts the owned particles along the cell grid, wraps them into a periodic domain and forgets lists and ghosts.
-  /// Call between steps only: indices change.
+  /// Moves particles that left a periodic domain back in at its other end. Call between steps only.
+  void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }
+
+  /// Sorts the owned particles along the cell grid, wrapped, and forgets lists and ghosts. Call between steps only:
+  /// indices change.
   void reorder(Particles<Dim>& particles);
 
   const Pairs<Dim>& pairs() const { return pairs_; }

@@ -26,7 +26,7 @@ template <int Dim>
 double fallback_laplacian_weight(const Renormalisation<Dim>& tensors, double volume_j, double r, double W,
                                  double spacing) {
   const double r_used = std::max(r, 0.5 * spacing);
-  return 2.0 * volume_j * W / (r_used * r_used) * 2.0 / std::max(0.5, tensors.trace_A);
+  return 2.0 * volume_j * W / (r_used * r_used) * Dim / std::max(0.5, tensors.trace_A);
 }
 
 /// Laplacian of a scalar or vector field at particle i.

@@ -1,6 +1,6 @@
 // Two-point Laplacian of Brookshaw (1985) and Morris et al. (1997), (F11):
 //
-//   lap v_i = sum_j 2 w_j (-dW_ij/dr / r_ij) (v_i - v_j) * (-1)
+//   lap v_i = sum_j 2 w_j (-dW_ij/dr / r_ij) (v_j - v_i)
 //
 // All weights have one sign, so a matrix made of it is an M-matrix; pairs are antisymmetric, so it conserves. Exact
 // only for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.

@@ -18,12 +18,15 @@
 
 namespace tailwater {
 
-/// lambda_min(A) below which the neighbours do not span space well enough for a gradient. In the interior A is about
-/// I/Dim; on a flat regular surface lambda_min is near 0.2.
-inline constexpr double least_sound_eigenvalue = 0.1;
+/// lambda_min(A) below which the neighbours do not span space well enough for a gradient: 0.1 in 2D (method.md 2). In
+/// the interior A is about I/Dim, so the bound goes with 1/Dim.
+template <int Dim>
+inline constexpr double least_sound_eigenvalue = 0.2 / Dim;
 
-/// Largest |B2xx| + |B2yy| + |B2xy| (and so on in 3D) with which a Laplacian row is used: interior 4.9, corner 215.
-inline constexpr double largest_sound_b2_sum = 20.0;
+/// Largest |B2xx| + |B2yy| + |B2xy| (and so on in 3D) with which a Laplacian row is used: 20 in 2D, where the interior
+/// reads 4.9 and a corner 215. The interior value goes with Dim^2, and so does the bound.
+template <int Dim>
+inline constexpr double largest_sound_b2_sum = 5.0 * Dim* Dim;
 
 template <int Dim>
 struct Renormalisation {
@@ -34,8 +37,8 @@ struct Renormalisation {
   double least_eigenvalue_A = 0.0;
   double b2_sum = 0.0;       ///< S_B2 of (F35 c): sum of |entries|, each off-diagonal entry once
   bool has_inverse = false;  ///< A and the system of B2 could be inverted at all
-  bool gradient_is_sound() const { return has_inverse && least_eigenvalue_A > least_sound_eigenvalue; }
-  bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum; }
+  bool gradient_is_sound() const { return has_inverse && least_eigenvalue_A > least_sound_eigenvalue<Dim>; }
+  bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum<Dim>; }
 };
 
 /// The tensors of every owned particle from all its neighbours with `takes_part[j]` (fluid, and walls that carry their

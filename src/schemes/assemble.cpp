@@ -152,14 +152,14 @@ double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec
 
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
-  for_each(flow.particles.owned, [&](std::size_t i) {
-    if (flow.particles.is_fluid(i)) {
-      interventions.fallback_rows += assemble_fluid_row(flow, i, dt);
-    } else if (flow.walls.treatment == WallTreatment::dummies) {
+  interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
+    if (flow.particles.is_fluid(i)) return assemble_fluid_row(flow, i, dt);
+    if (flow.walls.treatment == WallTreatment::dummies) {
       assemble_dummy_row(flow, i);
     } else {
       assemble_pressure_row(flow, i);
     }
+    return false;
   });
 }
 

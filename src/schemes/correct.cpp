@@ -49,7 +49,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, flow.pairs(), particles,
                                                     flow.is_near_surface, flow.concentration_gradient, flow.shift);
   if (flow.scheme.shifting == ShiftingKind::farzin) {
-    // (F32): u and p move along with their gradients, where those are sound.
+    // (F31), (F32): u and p move along with their gradients, where those are sound.
     std::vector<Vec<Dim>>& velocity = particles.velocity;
     flow.shift_velocity.assign(particles.owned, Vec<Dim>::Zero());
     flow.shift_pressure.assign(particles.owned, 0.0);

@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// Lists reach this far beyond the support [dx]: wide enough that the two searches of a step share one list, narrow
-/// enough that few entries are idle.
+/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (capped at
+/// half of this), so at the start of the next step; a wider skin would add idle entries to every loop.
 constexpr double skin_over_spacing = 0.2;
 
 template <int Dim>

@@ -88,7 +88,7 @@ struct Flow {
   std::vector<double> viscosity;
   std::vector<Mat<Dim>> stress;
   std::vector<Vec<Dim>> shift;
-  std::vector<Vec<Dim>> shift_velocity;  ///< (F32)
+  std::vector<Vec<Dim>> shift_velocity;  ///< (F31)
   std::vector<double> shift_pressure;    ///< (F32)
 
   bool uses_tensors() const;

@@ -7,6 +7,7 @@ namespace tailwater {
 
 template <int Dim>
 void remember(Flow<Dim>& flow) {
+  flow.neighbourhood.wrap(flow.particles);
   const auto owned = static_cast<std::ptrdiff_t>(flow.particles.owned);
   flow.position_old.assign(flow.particles.position.begin(), flow.particles.position.begin() + owned);
   flow.velocity_old.assign(flow.particles.velocity.begin(), flow.particles.velocity.begin() + owned);

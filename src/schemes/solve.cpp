@@ -11,13 +11,11 @@ namespace {
 /// first impact). The bulk keeps its sign.
 template <int Dim>
 std::size_t clamp_near_surface(Flow<Dim>& flow) {
-  std::size_t clamped = 0;
-  for_each(flow.particles.owned, [&](std::size_t i) {
-    if (!flow.particles.is_fluid(i) || !flow.is_near_surface[i] || flow.particles.pressure[i] >= 0.0) return;
+  return count_each(flow.particles.owned, [&](std::size_t i) {
+    if (!flow.particles.is_fluid(i) || !flow.is_near_surface[i] || flow.particles.pressure[i] >= 0.0) return false;
     flow.particles.pressure[i] = 0.0;
-    ++clamped;
+    return true;
   });
-  return clamped;
 }
 
 /// Dummies again from the clamped fluid, and never below 0.

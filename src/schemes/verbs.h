@@ -15,7 +15,8 @@ namespace tailwater {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks = false);
 
-/// Keeps r^n and u^n.
+/// Wraps the particles into a periodic domain and keeps r^n and u^n: lists reach only a skin beyond the domain, so no
+/// particle may stay outside for more than a step.
 template <int Dim>
 void remember(Flow<Dim>& flow);
 

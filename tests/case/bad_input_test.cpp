@@ -101,6 +101,10 @@ const std::vector<BadInput> table{
      "1:16",
      {"ends too early"}},
     {"parameters_not_a_table", "parameters = 3\n" + required_keys + water, "1:14", {"[parameters]"}},
+    {"too_few_passes_for_the_relaxation",
+     required_keys + "[scheme]\nintegrator = \"implicit\"\nrelax_velocity = 0.3\nmax_passes = 12\n" + water,
+     "6:14",
+     {"scheme.max_passes = 12", "at least 13"}},
     // Texts and choices
     {"number_for_text", "case.title = 3\n" + required_keys + water, "1:14", {"case.title = 3", "text in quotes"}},
     {"unknown_choice",

@@ -95,10 +95,16 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.walls = WallTreatment::pressure_rows;
   expected.courant = 0.5;
   expected.artificial_viscosity = 0.20;
+  expected.viscosity_floor = 0.0;
+  expected.smagorinsky = 0.10;
   expected.shifting = ShiftingKind::farzin;
   expected.shifting_strength = 0.10;
   expected.shifting_cap = 0.05;
   expected.density_relaxation = 0.0;
+  expected.max_passes = 30;
+  expected.relax_pressure = 0.4;
+  expected.relax_velocity = 0.3;
+  expected.relax_position = 0.4;
   EXPECT_EQ(scheme, expected);
 }
 

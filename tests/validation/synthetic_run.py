@@ -74,7 +74,7 @@ def write_probe(folder, name, columns):
 
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
     """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error`
-    (of H) too high; P160 is a step at ARRIVAL and a sawtooth on it."""
+    (of H) too high; the pressure at every point is a step at ARRIVAL and a sawtooth on it."""
     folder = Path(folder)
     (folder / "probes").mkdir(parents=True)
     (folder / "fields").mkdir()
@@ -101,9 +101,10 @@ def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
     # The front runs at 5.4 m/s until the wall stops it.
     write_probe(folder, "front", {"time_s": regular, "front_m": np.minimum(1.2 + 5.4 * regular, 3.22)})
     sawtooth = SAWTOOTH * (np.arange(regular.size) % 4 - 1.5) / 1.5
-    write_probe(folder, "P160", {
-        "time_s": regular,
-        "pressure_Pa": np.where(regular >= ARRIVAL - 1e-9, 0.5 + sawtooth, 0) * zhou1999.PRESSURE_SCALE})
+    for point in zhou1999.POINT_HEIGHTS:
+        write_probe(folder, point, {
+            "time_s": regular,
+            "pressure_Pa": np.where(regular >= ARRIVAL - 1e-9, 0.5 + sawtooth, 0) * zhou1999.PRESSURE_SCALE})
 
     frames = np.arange(0, end + 1e-9, 0.2)
     entries = []

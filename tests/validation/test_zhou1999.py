@@ -54,8 +54,8 @@ class Data(unittest.TestCase):
         with open(CASE / "case.toml", "rb") as file:
             case = tomllib.load(file)
         types = {probe["name"]: probe["type"] for probe in case["probe"]}
-        self.assertEqual({name: types.get(name) for name in ("H1", "H2", "P2", zhou1999.POINT)},
-                         {"H1": "depth", "H2": "depth", "P2": "wall-pressure-mean", zhou1999.POINT: "wall-pressure"})
+        self.assertEqual({name: types.get(name) for name in ("H1", "H2", "P2", *zhou1999.POINT_HEIGHTS)},
+                         {"H1": "depth", "H2": "depth", "P2": "wall-pressure-mean"} | dict.fromkeys(zhou1999.POINT_HEIGHTS, "wall-pressure"))
         self.assertEqual(case["parameters"]["H"], zhou1999.H)
         self.assertNotIn("interval", [key for probe in case["probe"] for key in probe])  # noise needs every step
 
@@ -91,8 +91,8 @@ class Scores(RunTest):
 
     def test_arrival_and_noise_of_a_step_with_a_sawtooth(self):
         metrics = self.score()
-        self.assertAlmostEqual(metrics["arrival"]["value"], synthetic_run.ARRIVAL, places=9)
-        self.assertEqual(metrics["arrival"]["verdict"], "missed")
+        self.assertAlmostEqual(metrics[f"arrival_{zhou1999.READ_AT}"]["value"], synthetic_run.ARRIVAL, places=9)
+        self.assertEqual(metrics[f"arrival_{zhou1999.READ_AT}"]["verdict"], "missed")
         # RMS of -1, -1/3, 1/3, 1 is sqrt(5)/3; the running median of such a sawtooth is at most 1/3.
         amplitude = synthetic_run.SAWTOOTH
         self.assertAlmostEqual(metrics["noise"]["value"], amplitude * math.sqrt(5) / 3, delta=amplitude / 3)

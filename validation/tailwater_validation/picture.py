@@ -93,10 +93,13 @@ def draw_pressure(axes, run, end):
     # A spike of a few steps must not squeeze the curve that is compared; the legend tells of it.
     top = 1.15 * max(np.percentile(curve.value, 99.5), 0.9) * scale
     highest = curve.value.max() * scale
-    label = "computed" if highest <= top else f"computed (highest {highest:.1f} kPa)"
-    draw_gauge(axes, "P2", scale, [(curve, COMPUTED, label)], end)
+    label = "computed, mean over z = 0.115..0.205 m" + (f" (highest {highest:.1f} kPa)" if highest > top else "")
+    point = zhou1999.POINT_HEIGHTS[zhou1999.READ_AT]
+    draw_gauge(axes, "P2", scale, [(curve, COMPUTED, label),
+                                   (zhou1999.pressure(run, zhou1999.READ_AT), HIGHEST, f"computed, z = {point:g} m")],
+               end)
     draw_time_uncertainty(axes, 0.22, 0.36)
-    axes.set_title("P2: pressure on the right wall, mean over z = 0.115..0.205 m", loc="left")
+    axes.set_title("P2: pressure on the right wall", loc="left")
     axes.set_ylabel("pressure (kPa)")
     axes.set_ylim(-0.9, top)
     axes.legend(loc="upper left", frameon=False)

@@ -30,10 +30,12 @@ FIRST_PEAK_WITHIN = 0.75  # of T after the arrival: the jet has met the wall, th
 NOISE_WINDOW = (0.6, 1.4)  # s
 NOISE_MEDIAN = 0.02  # s
 
-ARRIVAL_TARGET = (0.60, 0.66)  # s, at the point z = 0.16 m
+ARRIVAL_TARGET = (0.60, 0.66)  # s, at the point READ_AT
 DEPTH_TARGETS = {(0.0, 6.0): 0.05, (0.0, 8.0): 0.10}  # window of T: largest RMS over H
 
-POINT = "P160"  # the point probe at z = 0.16 m, where others' arrival and noise were read
+POINT_HEIGHTS = {"P060": 0.06, "P115": 0.115, "P120": 0.12, "P160": 0.16}  # m, of the point probes
+READ_AT = "P120"  # the height 0.2 H that Buchner (2002) gives for the gauge; the case's README argues for it
+NOISE_AT = "P160"  # where others' noise was read
 
 
 @dataclass(frozen=True)
@@ -118,8 +120,10 @@ def score_impact(run):
     heights = f"measured P2: {measured_values(lambda curve, after: peak(curve, after)[1])}"
     times = f"measured P2: {measured_values(lambda curve, after: peak(curve, after)[0])} (+-{TIME_UNCERTAINTY})"
     return [
-        measure(Metric("arrival", "arrival, point z = 0.16 m", "s", arrivals, *ARRIVAL_TARGET),
-                value=lambda: arrival_in_seconds(pressure(run, POINT))),
+        *(measure(Metric(f"arrival_{point}", f"arrival, point z = {height:g} m", "s", arrivals,
+                         *(ARRIVAL_TARGET if point == READ_AT else (None, None))),
+                  value=lambda point=point: arrival_in_seconds(pressure(run, point)))
+          for point, height in POINT_HEIGHTS.items()),
         measure(Metric("arrival_front", "arrival, front at the wall", "s", arrivals), value=lambda: front_arrival(run)),
         measure(Metric("arrival_P2", "arrival, P2", "s", arrivals),
                 value=lambda: arrival_in_seconds(pressure(run, "P2"))),
@@ -133,7 +137,7 @@ def score_noise(run):
     window = f"t {NOISE_WINDOW[0]}..{NOISE_WINDOW[1]} s"
     return [measure(Metric("noise", f"pressure noise, point z = 0.16 m, {window}", "rho g H",
                            f"its running median of {NOISE_MEDIAN} s"),
-                    value=lambda: noise(run.probe(POINT, "pressure_Pa"), *NOISE_WINDOW, NOISE_MEDIAN) / PRESSURE_SCALE)]
+                    value=lambda: noise(run.probe(NOISE_AT, "pressure_Pa"), *NOISE_WINDOW, NOISE_MEDIAN) / PRESSURE_SCALE)]
 
 
 def score_curve(metric, measured, compute, window):
@@ -148,6 +152,9 @@ def score_curve(metric, measured, compute, window):
 
 def score_curves(run):
     compared = [("P2", "P2", "rho g H", PRESSURE_WINDOW, None, lambda: pressure(run, "P2"))]
+    for point, height in POINT_HEIGHTS.items():
+        compared.append(("P2", f"point z = {height:g} m", "rho g H", PRESSURE_WINDOW, None,
+                         partial(pressure, run, point)))
     for gauge in ("H1", "H2"):
         for window, target in DEPTH_TARGETS.items():
             compared.append((gauge, gauge, "H", window, target, partial(depth, run, gauge)))
