@@ -1,0 +1,81 @@
+#include "neighbours/cell_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "support/dimensions.h"
+#include "support/particle_set.h"
+
+namespace tailwater {
+namespace {
+
+template <class D>
+class CellGridTest : public testing::Test {};
+TYPED_TEST_SUITE(CellGridTest, Dimensions);
+
+template <int Dim>
+std::vector<Vec<Dim>> random_places(std::size_t count, std::uint64_t seed) {
+  Noise noise(seed);
+  std::vector<Vec<Dim>> places(count);
+  for (Vec<Dim>& place : places) place = noise.vector<Dim>();
+  return places;
+}
+
+/// Everything within one cell of any place, the particles' own and others, must be offered, and nothing twice.
+template <int Dim>
+void expect_complete(const CellGrid<Dim>& grid, const std::vector<Vec<Dim>>& positions,
+                     const std::vector<Vec<Dim>>& places) {
+  for (const Vec<Dim>& place : places) {
+    std::vector<int> offered(positions.size(), 0);
+    grid.for_each_near(place, [&](std::int32_t j) { ++offered[j]; });
+    for (std::size_t j = 0; j < positions.size(); ++j) {
+      ASSERT_LE(offered[j], 1);
+      if ((positions[j] - place).norm() <= grid.cell_size()) {
+        ASSERT_EQ(offered[j], 1) << "particle " << j << " missed";
+      }
+    }
+  }
+}
+
+TYPED_TEST(CellGridTest, OffersEverythingWithinACellAndOrdersAll) {
+  constexpr int Dim = TypeParam::value;
+  const auto positions = random_places<Dim>(500, 1);
+  const CellGrid<Dim> grid(positions, 0.3);
+  EXPECT_EQ(grid.cell_size(), 0.3);
+  expect_complete<Dim>(grid, positions, positions);
+  auto elsewhere = random_places<Dim>(200, 2);
+  for (Vec<Dim>& place : elsewhere) place *= 1.5;
+  expect_complete<Dim>(grid, positions, elsewhere);
+
+  std::vector<std::int32_t> order(grid.order().begin(), grid.order().end());
+  std::sort(order.begin(), order.end());
+  ASSERT_EQ(order.size(), positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], static_cast<std::int32_t>(i));
+}
+
+TYPED_TEST(CellGridTest, SurvivesAFarOutlier) {
+  constexpr int Dim = TypeParam::value;
+  auto positions = random_places<Dim>(300, 3);
+  positions.push_back(Vec<Dim>::Constant(1e6));
+  // With cells of 0.3 the grid would have 4e13 cells in 2D; that this ends at all is part of the test.
+  const CellGrid<Dim> grid(positions, 0.3);
+  EXPECT_GE(grid.cell_size(), 0.3);
+  expect_complete<Dim>(grid, positions, positions);
+}
+
+TYPED_TEST(CellGridTest, FarPlacesAndEmptySetsHaveNothingNear) {
+  constexpr int Dim = TypeParam::value;
+  int found = 0;
+  const auto count = [&](std::int32_t) { ++found; };
+  const CellGrid<Dim> grid(random_places<Dim>(50, 4), 0.3);
+  for (const double far : {-1e30, -10.0, 10.0, 1e30}) grid.for_each_near(Vec<Dim>::Constant(far), count);
+  const CellGrid<Dim> empty(std::vector<Vec<Dim>>{}, 0.3);
+  empty.for_each_near(Vec<Dim>::Zero(), count);
+  CellGrid<Dim>().for_each_near(Vec<Dim>::Zero(), count);
+  EXPECT_EQ(found, 0);
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,74 @@
+// Cases built in code, and the loop of a run.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "case/formulation.h"
+#include "schemes/projection.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+
+constexpr double g = 9.81;
+
+/// No walls, no gravity, no numerical viscosity.
+inline CaseSpec free_case(double spacing) {
+  CaseSpec spec;
+  spec.particles.spacing = spacing;
+  spec.physics.gravity = {0.0, 0.0};
+  spec.physics.viscosity = 0.0;
+  spec.scheme.artificial_viscosity = 0.0;
+  spec.scheme.viscosity_floor = 0.0;
+  return spec;
+}
+
+/// Water of width and depth in a box that is open above; 3D: as broad as wide.
+template <int Dim>
+CaseSpec tank_case(double spacing, double width, double depth) {
+  CaseSpec spec;
+  spec.general.dimension = Dim;
+  spec.particles.spacing = spacing;
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.physics.gravity[Dim - 1] = -g;
+  FluidTable water;
+  water.min = Coordinates(Dim, 0.0);
+  water.max = Coordinates(Dim, width);
+  water.max[Dim - 1] = depth;
+  WallTable box;
+  box.shape = WallShape::box;
+  box.min = water.min;
+  box.max = Coordinates(Dim, width);
+  box.max[Dim - 1] = 2.0 * depth;
+  box.open = {Dim == 2 ? "+y" : "+z"};
+  box.fluid_side = FluidSide::inside;
+  spec.fluid = {water};
+  spec.walls = {box};
+  return spec;
+}
+
+/// Dam break of Zhou et al. (1999): 1.2 m x 0.6 m of water in a tank 3.22 m long.
+inline CaseSpec zhou_case(double spacing, Integrator integrator) {
+  CaseSpec spec;
+  spec.particles.spacing = spacing;
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {1.2, 0.6};
+  WallTable wall;
+  wall.points = {{0.0, 3.0}, {0.0, 0.0}, {3.22, 0.0}, {3.22, 3.0}};
+  wall.fluid_side = FluidSide::left;
+  spec.fluid = {water};
+  spec.walls = {wall};
+  spec.scheme.integrator = integrator;
+  return spec;
+}
+
+/// Sorts now and then, as a run does, and takes the largest allowed step.
+template <int Dim>
+StepReport step(Flow<Dim>& flow) {
+  constexpr int steps_between_sorts = 10;
+  if (flow.step % steps_between_sorts == 0) flow.neighbourhood.reorder(flow.particles);
+  return advance(flow, next_time_step(flow));
+}
+
+}  // namespace tailwater

@@ -1,0 +1,76 @@
+// The dam break of Zhou et al. (1999), coarse, until shortly after it hits the far wall: T = t sqrt(g/H) = 3.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "schemes/cases.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = 0.04;
+const double end = 3.0 * std::sqrt(0.6 / g);
+
+class DamBreak : public testing::TestWithParam<Integrator> {};
+
+TEST_P(DamBreak, RunsSoundly) {
+  Flow<2> flow(zhou_case(dx, GetParam()));
+  const std::size_t count = flow.particles.owned;
+  const FlowMeasures start = measure(flow);
+  const double energy_at_start = start.kinetic_energy + start.potential_energy;
+  double least_energy = energy_at_start;
+  double front = 0.0;
+  while (flow.time < end) {
+    const StepReport report = step(flow);
+    const FlowMeasures now = measure(flow);
+    const double energy = now.kinetic_energy + now.potential_energy;
+    // Viscosity and impact only take energy; 1e-3 of the start is what two projections that are not exact may add.
+    ASSERT_LT(energy, least_energy + 1e-3 * energy_at_start) << "t = " << flow.time;
+    least_energy = std::min(least_energy, energy);
+
+    ASSERT_EQ(flow.particles.owned, count);
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      if (!flow.particles.is_fluid(i)) continue;
+      const Vec<2>& x = flow.particles.position[i];
+      ASSERT_TRUE(x[0] > 0.0 && x[0] < 3.22 && x[1] > 0.0) << "behind a wall: " << x.transpose();
+      front = std::max(front, x[0]);
+    }
+
+    const bool is_implicit = GetParam() == Integrator::implicit_projection;
+    ASSERT_GE(report.passes, is_implicit ? 2 : 1);  // the first pass cannot know that it has settled
+    ASSERT_LE(report.passes, is_implicit ? flow.scheme.max_passes : 1);
+    if (is_implicit && report.passes < flow.scheme.max_passes) {
+      ASSERT_LT(report.pressure_change, flow.scheme.pass_tolerance);
+    }
+    ASSERT_GT(report.iterations, 0);
+    ASSERT_LE(report.residual, 1e-5);  // the default tolerance
+    ASSERT_GT(report.divergence_old, 0.0);
+    ASSERT_GT(report.divergence_new, 0.0);
+  }
+  // In the laboratory and in fine runs the front arrives between 0.60 and 0.66 s (issue 2); now it is 0.74 s.
+  EXPECT_GT(front, 3.22 - dx);
+}
+
+TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
+  Flow<2> one(zhou_case(dx, GetParam()));
+  Flow<2> two(zhou_case(dx, GetParam()));
+  for (int n = 0; n < 60; ++n) {
+    step(one);
+    step(two);
+  }
+  EXPECT_EQ(one.time, two.time);
+  for (std::size_t i = 0; i < one.particles.owned; ++i) {
+    ASSERT_EQ(one.particles.id[i], two.particles.id[i]);
+    ASSERT_EQ(one.particles.position[i], two.particles.position[i]);
+    ASSERT_EQ(one.particles.velocity[i], two.particles.velocity[i]);
+    ASSERT_EQ(one.particles.pressure[i], two.particles.pressure[i]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, DamBreak,
+                         testing::Values(Integrator::explicit_projection, Integrator::implicit_projection),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,108 @@
+// A round drop that starts with u = (-A x, A y) and nothing around it: it becomes an ellipse with semi-axes a, b that
+// follow an ordinary differential equation (after Monaghan 1994). With p = rho C/2 (1 - x^2/a^2 - y^2/b^2) the two
+// momentum equations are A^2 - A' = C/a^2 and A^2 + A' = C/b^2.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "schemes/cases.h"
+
+namespace tailwater {
+namespace {
+
+struct Ellipse {
+  double a = 1.0;  ///< semi-axis along x
+  double b = 1.0;
+  double A = 1.0;
+};
+
+/// a' = -A a, b' = A b, A' = A^2 (a^2 - b^2)/(a^2 + b^2), by the classical Runge-Kutta method.
+Ellipse exact_ellipse(double time) {
+  const auto rate = [](const Ellipse& e) {
+    return Ellipse{-e.A * e.a, e.A * e.b, e.A * e.A * (e.a * e.a - e.b * e.b) / (e.a * e.a + e.b * e.b)};
+  };
+  const auto moved = [](const Ellipse& e, const Ellipse& r, double h) {
+    return Ellipse{e.a + h * r.a, e.b + h * r.b, e.A + h * r.A};
+  };
+  constexpr int steps = 1000;
+  const double h = time / steps;
+  Ellipse e;
+  for (int n = 0; n < steps; ++n) {
+    const Ellipse k1 = rate(e);
+    const Ellipse k2 = rate(moved(e, k1, 0.5 * h));
+    const Ellipse k3 = rate(moved(e, k2, 0.5 * h));
+    const Ellipse k4 = rate(moved(e, k3, h));
+    e = moved(moved(moved(moved(e, k1, h / 6.0), k2, h / 3.0), k3, h / 3.0), k4, h / 6.0);
+  }
+  return e;
+}
+
+CaseSpec round_drop(double dx, Integrator integrator) {
+  CaseSpec spec = free_case(dx);
+  spec.scheme.integrator = integrator;
+  FluidTable water;
+  water.shape = BlockShape::polygon;
+  constexpr int corners = 240;
+  for (int n = 0; n < corners; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / corners;
+    water.points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  spec.fluid = {water};
+  return spec;
+}
+
+/// Of a uniform ellipse <x^2> = a^2/4.
+Vec<2> semi_axes(const Particles<2>& particles) {
+  Vec<2> squares = Vec<2>::Zero();
+  for (std::size_t i = 0; i < particles.owned; ++i) squares += particles.position[i].cwiseAbs2();
+  return 2.0 * (squares / static_cast<double>(particles.owned)).cwiseSqrt();
+}
+
+Vec<2> momentum(const Particles<2>& particles) {
+  Vec<2> sum = Vec<2>::Zero();
+  for (std::size_t i = 0; i < particles.owned; ++i) sum += particles.velocity[i];
+  return sum;
+}
+
+class StretchingDrop : public testing::TestWithParam<Integrator> {};
+
+TEST_P(StretchingDrop, FollowsTheEllipse) {
+  double previous_error = 1.0;
+  for (const double dx : {0.1, 0.05}) {
+    Flow<2> flow(round_drop(dx, GetParam()));
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      const Vec<2>& x = flow.particles.position[i];
+      flow.particles.velocity[i] = {-x[0], x[1]};
+    }
+    const Vec<2> momentum_before = momentum(flow.particles);
+    double energy = measure(flow).kinetic_energy;
+    const double energy_at_start = energy;
+    double error = 0.0;
+    while (flow.time < 1.0) {
+      step(flow);
+      const double now = measure(flow).kinetic_energy;
+      // Nothing can add energy: what is left is round-off and the tolerance of the pressure solve, 1e-5.
+      ASSERT_LT(now, energy + 1e-5 * energy_at_start);
+      energy = now;
+      const Ellipse exact = exact_ellipse(flow.time);
+      error = std::max(error, (semi_axes(flow.particles) - Vec<2>(exact.a, exact.b)).norm());
+    }
+    // The surface is known no better than to one spacing.
+    EXPECT_LT(error, dx);
+    EXPECT_LT(error, previous_error);
+    previous_error = error;
+    // Forces act in pairs: round-off of some 30 terms of size <= 3 per particle and step.
+    const double round_off = 100.0 * std::numeric_limits<double>::epsilon() *
+                             static_cast<double>(flow.particles.owned) * static_cast<double>(flow.step);
+    EXPECT_LT((momentum(flow.particles) - momentum_before).norm(), round_off);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, StretchingDrop,
+                         testing::Values(Integrator::explicit_projection, Integrator::implicit_projection),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+}  // namespace
+}  // namespace tailwater

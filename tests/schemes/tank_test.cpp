@@ -1,0 +1,79 @@
+// Water at rest. Below the surface p is linear, which the operators differentiate exactly on a lattice up to a factor;
+// what is not exact is the place where p = 0, known no better than dx. So every pressure is within rho g dx of the
+// hydrostatic one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = 0.05;
+
+template <class D>
+class TankTest : public testing::Test {};
+TYPED_TEST_SUITE(TankTest, Dimensions);
+
+template <int Dim>
+void expect_hydrostatic(const Flow<Dim>& flow, double depth) {
+  const double unit = flow.density * g * flow.spacing;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    const double height = flow.particles.position[i][Dim - 1];
+    EXPECT_LT(std::abs(flow.particles.pressure[i] - flow.density * g * (depth - height)), unit) << "at " << height;
+  }
+}
+
+TYPED_TEST(TankTest, StaysAtRestForFiftySteps) {
+  constexpr int Dim = TypeParam::value;
+  const double width = Dim == 2 ? 1.0 : 0.4;
+  const double depth = Dim == 2 ? 0.5 : 0.3;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = tank_case<Dim>(dx, width, depth);
+    spec.scheme.integrator = integrator;
+    Flow<Dim> flow(spec);
+    const std::size_t count = flow.particles.owned;
+    // Only the rows whose support the surface cuts, 3 of them, can be out of balance, by g at most, for a quarter of
+    // the shortest wave's period, omega^2 = g pi/dx: speed g/omega.
+    const double settling = std::sqrt(g * dx / std::numbers::pi);
+    const double mass = flow.density * depth * std::pow(width, Dim - 1);
+    const double kinetic_bound = 0.5 * mass * settling * settling * 3.0 * dx / depth;
+    for (int n = 0; n < 50; ++n) {
+      EXPECT_EQ(step(flow).interventions.put_back, 0u);
+      const FlowMeasures measures = measure(flow);
+      ASSERT_LT(measures.largest_speed, settling);
+      ASSERT_LT(measures.kinetic_energy, kinetic_bound);
+      if (n == 0) expect_hydrostatic<Dim>(flow, depth);
+    }
+    EXPECT_EQ(flow.particles.owned, count);
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      if (!flow.particles.is_fluid(i)) continue;
+      EXPECT_GT(flow.boundary.nearest(flow.particles.position[i], 1.0).signed_distance, 0.0);
+    }
+    expect_hydrostatic<Dim>(flow, depth);
+  }
+}
+
+TEST(PublishedTank, StaysHydrostatic) {
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    const double depth = 0.5;
+    CaseSpec spec = tank_case<2>(dx, 1.0, depth);
+    spec.scheme.formulation = Formulation::published;
+    spec.scheme.integrator = integrator;
+    apply_formulation(spec.scheme);
+    Flow<2> flow(spec);
+    const std::size_t count = flow.particles.owned;
+    for (int n = 0; n < 10; ++n) {
+      step(flow);
+      expect_hydrostatic<2>(flow, depth);
+    }
+    EXPECT_EQ(flow.particles.owned, count);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
