@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
@@ -26,11 +27,16 @@ struct CheckOptions {
 };
 
 template <int Dim>
-void check_in(const CaseSpec& spec, const std::filesystem::path& preview) {
+void check_in(const CaseSpec& spec, const CheckOptions& options) {
   Flow<Dim> flow(spec);
   make_probes<Dim>(spec, flow.boundary);
+  require_reachable_end(spec, flow.time_step_rule);
+  fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
   const std::string picture =
       preview_svg(spec, flow.boundary, make_fluid_particles(spec, flow.boundary), flow.walls.particles);
+  const std::filesystem::path preview = options.preview.empty()
+                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
+                                            : options.preview;
   write_text_file(preview, picture);
   const RunEstimate estimate = estimate_run(spec, flow);
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.fluid_particles,
@@ -44,15 +50,16 @@ void check_in(const CaseSpec& spec, const std::filesystem::path& preview) {
 void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
   require_sound_geometry(spec, false);
-  fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
-  const std::filesystem::path preview = options.preview.empty()
-                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
-                                            : options.preview;
+  std::error_code error;  // no preview yet: nothing to protect
+  if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
+    throw InputError(
+        fmt::format("--preview {} is the case file itself; remedy: another name", options.preview.string()));
+  }
   const LinearSession session;
   if (spec.general.dimension == 2) {
-    check_in<2>(spec, preview);
+    check_in<2>(spec, options);
   } else {
-    check_in<3>(spec, preview);
+    check_in<3>(spec, options);
   }
 }
 
@@ -62,10 +69,13 @@ void add_check_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       app.add_subcommand("check", "Validate a case, count its particles, estimate memory and time, draw a preview");
-  command->add_option("case", options->case_file, "The case file")->required();
+  command->add_option("case", options->case_file, "The case file")->required()->type_name("");
   command->add_option("--set", options->overrides, "Override a key, as in --set particles.spacing=0.01")
-      ->allow_extra_args(false);
-  command->add_option("--preview", options->preview, "Picture to write (default: CASE.preview.svg in this folder)");
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  command->add_option("--preview", options->preview, "Picture to write (default: CASE.preview.svg in this folder)")
+      ->type_name("FILE");
+  command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
   command->callback([options] { check_case(*options); });
 }
 

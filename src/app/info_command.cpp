@@ -36,7 +36,8 @@ void show_run(const std::filesystem::path& run) {
 void add_info_command(CLI::App& app, ExitCode&) {
   auto run = std::make_shared<std::filesystem::path>();
   CLI::App* command = app.add_subcommand("info", "Tell about this program, or about a finished run");
-  command->add_option("run", *run, "Folder of a run; without it: version, libraries, machine");
+  command->add_option("run", *run, "Folder of a run; without it: version, libraries, machine")->type_name("");
+  command->footer("Examples: tailwater info\n          tailwater info my_run");
   command->callback([run] {
     if (run->empty()) {
       show_program();

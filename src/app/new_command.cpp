@@ -33,11 +33,13 @@ void write_new_case(const NewOptions& options) {
 void add_new_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<NewOptions>();
   CLI::App* command = app.add_subcommand("new", "Start a case file from a template");
-  command->add_option("template", options->kind, "dam-break or tank")
+  command->add_option("template", options->kind, "dam-break (a column collapses in a tank) or tank (water at rest)")
       ->required()
-      ->check(CLI::IsMember({"dam-break", "tank"}));
-  command->add_option("file", options->file, "The case file to write")->required();
+      ->check(CLI::IsMember({"dam-break", "tank"}))
+      ->type_name("");
+  command->add_option("file", options->file, "The case file to write")->required()->type_name("");
   command->add_flag("--force", options->force, "Overwrite the file if it exists");
+  command->footer("Example: tailwater new dam-break my.toml");
   command->callback([options] { write_new_case(*options); });
 }
 

@@ -1,7 +1,11 @@
 #include "run/estimate.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
+#include "base/error.h"
 #include "geometry/check.h"
 #include "schemes/projection.h"
 #include "schemes/verbs.h"
@@ -12,7 +16,21 @@ namespace {
 /// The first step is not counted: it builds lists and patterns and has no pressure to start from.
 constexpr int trial_steps = 3;
 
+/// At a millisecond per step, which is little, this many take twelve days.
+constexpr double most_steps = 1e9;
+
 }  // namespace
+
+void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
+  const double largest_step = rule.largest(0.0, 0.0);
+  // Not a quotient: for a mistyped end time it may overflow.
+  if (spec.time.end > most_steps * largest_step) {
+    throw InputError(fmt::format(
+        "time.end = {:g} s is out of reach: steps of at most {:.3g} s make more than {:g} of them; give the end in "
+        "seconds, at most {:.3g}, or a larger particles.spacing",
+        spec.time.end, largest_step, most_steps, most_steps * largest_step));
+  }
+}
 
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow) {

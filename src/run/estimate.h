@@ -14,6 +14,9 @@ struct RunEstimate {
   double seconds = 0.0;  ///< of this machine, from trial steps
 };
 
+/// Throws InputError if the end time is one that no run reaches, however quiet its flow.
+void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule);
+
 /// Runs a few trial steps of `flow`, which was made from `spec`.
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow);

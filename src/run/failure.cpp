@@ -23,11 +23,13 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-std::optional<std::size_t> find_non_finite(const Particles<Dim>& particles) {
+std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
-    if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
-        !std::isfinite(particles.pressure[i])) {
+    const bool was_predicted = i < flow.u_star.size();
+    if (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
+        !std::isfinite(particles.pressure[i]) || (was_predicted && !flow.u_star[i].array().isFinite().all())) {
       return i;
     }
   }
@@ -35,19 +37,21 @@ std::optional<std::size_t> find_non_finite(const Particles<Dim>& particles) {
 }
 
 template <int Dim>
-std::string write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
-                          double last_good_time, std::optional<std::size_t> culprit, const std::string& message) {
+void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
+                   double last_good_time, std::optional<std::size_t> culprit, const std::string& message) {
   const std::filesystem::path failure = folder.make_failure();
   // Plain positions, velocities and pressures only: the work fields are those of the failed step.
   const FluidFields<Dim> fields(flow, last_good, {"pressure", "velocity", "id"});
   const EncodedPiece piece = encode_piece(fields.view(), 1);
   write_vtp(failure / "last_good.vtp", last_good_time, std::span(&piece, 1), 1);
 
-  std::string report = fmt::format("{}\nstep {} from t = {:.9g} s\n", message, flow.step, last_good_time);
+  std::string report = message + "\n";
   if (culprit) {
     const std::size_t i = *culprit;
     auto out = std::back_inserter(report);
-    fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.particles, i));
+    if (flow.time > last_good_time) {
+      fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.particles, i));
+    }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
     fmt::format_to(out, "its neighbours before the step:\n");
     const Pairs<Dim>& pairs = flow.pairs();
@@ -57,13 +61,12 @@ std::string write_failure(const RunFolder& folder, const Flow<Dim>& flow, const 
     }
   }
   write_text_file(failure / "report.txt", report);
-  return report;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                           \
-  template std::optional<std::size_t> find_non_finite<Dim>(const Particles<Dim>&);                           \
-  template std::string write_failure<Dim>(const RunFolder&, const Flow<Dim>&, const Particles<Dim>&, double, \
-                                          std::optional<std::size_t>, const std::string&);
+#define TAILWATER_INSTANTIATE(Dim)                                                                    \
+  template std::optional<std::size_t> find_non_finite<Dim>(const Flow<Dim>&);                         \
+  template void write_failure<Dim>(const RunFolder&, const Flow<Dim>&, const Particles<Dim>&, double, \
+                                   std::optional<std::size_t>, const std::string&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

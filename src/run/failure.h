@@ -9,14 +9,15 @@
 
 namespace tailwater {
 
-/// The first owned fluid particle whose position, velocity or pressure is not finite.
+/// The first owned fluid particle whose position, velocity, predicted velocity or pressure is not finite.
 template <int Dim>
-std::optional<std::size_t> find_non_finite(const Particles<Dim>& particles);
+std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow);
 
-/// Writes failure/last_good.vtp (the state before the failed step) and failure/report.txt. `culprit` is a particle of
-/// `flow` after the step, if one is known. Returns the text of the report.
+/// Writes failure/last_good.vtp (the state before the failed step) and failure/report.txt: `message`, and if it is
+/// known the `culprit` with its neighbours. `flow` is the state after the step, or, if the step was not taken, before
+/// it; its particles are in the order of those in `last_good`. Throws IoError.
 template <int Dim>
-std::string write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
-                          double last_good_time, std::optional<std::size_t> culprit, const std::string& message);
+void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
+                   double last_good_time, std::optional<std::size_t> culprit, const std::string& message);
 
 }  // namespace tailwater

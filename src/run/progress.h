@@ -31,7 +31,11 @@ class Progress {
   double last_share_ = -1.0;
 };
 
-/// "1 h 02 min", "3 min 20 s", "12 s".
+/// What the line says after `elapsed` seconds of work; the most wanted first, since a narrow terminal cuts its end off.
+std::string progress_line(double time, double end_time, double elapsed, std::int64_t step, const StepReport& report,
+                          const FlowMeasures& measures);
+
+/// "4.17 days", "1 h 02 min", "3 min 20 s", "12 s", "under 1 s"; `seconds` is not negative.
 std::string readable_duration(double seconds);
 
 }  // namespace tailwater

@@ -9,9 +9,11 @@
 
 #include "case/writer.h"
 #include "geometry/check.h"
+#include "geometry/from_spec.h"
 #include "io/pvd_series.h"
 #include "io/write_file.h"
 #include "probes/probe_set.h"
+#include "run/estimate.h"
 #include "run/failure.h"
 #include "run/field_output.h"
 #include "run/interrupt.h"
@@ -78,18 +80,12 @@ std::size_t count_outside(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-[[noreturn]] void throw_collapsed(const Flow<Dim>& flow, double dt) {
+std::size_t fastest_particle(const Particles<Dim>& particles) {
   std::size_t fastest = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.velocity[i].squaredNorm() > flow.particles.velocity[fastest].squaredNorm()) fastest = i;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.velocity[i].squaredNorm() > particles.velocity[fastest].squaredNorm()) fastest = i;
   }
-  const Vec<Dim>& x = flow.particles.position[fastest];
-  throw SolverError(fmt::format(
-      "the time step collapsed to {:.3g} s at t = {:.6g} s: particle {} at ({:.4g}, {:.4g}) moves at {:.4g} m/s. The "
-      "run has "
-      "become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or scheme.formulation = "
-      "\"robust\"",
-      dt, flow.time, flow.particles.id[fastest], x[0], x[1], flow.particles.velocity[fastest].norm()));
+  return fastest;
 }
 
 template <int Dim>
@@ -101,7 +97,7 @@ class Run {
         flow_(spec),
         fluid_at_start_(count_fluid(flow_.particles)),
         probe_list_(make_probes<Dim>(spec, flow_.boundary)),
-        folder_(RunFolder::create(options.out, options.force)),
+        folder_(make_folder(flow_, spec, options)),
         series_(folder_.fields(), "fields", spec.output.compression),
         step_log_(folder_.steps()),
         probes_(std::move(probe_list_), folder_),
@@ -116,7 +112,6 @@ class Run {
       code = loop();
     } catch (const SolverError& error) {
       progress_.finish();
-      write_fields();
       write_summary("failed", ExitCode::solver_failed, error.what());
       throw;
     }
@@ -127,14 +122,22 @@ class Run {
   }
 
  private:
+  /// Last in the row of checks: from here on there are traces.
+  static RunFolder make_folder(const Flow<Dim>& flow, const CaseSpec& spec, const RunOptions& options) {
+    require_reachable_end(spec, flow.time_step_rule);
+    return RunFolder::create(options.out, options.force);
+  }
+
   ExitCode loop() {
     const InterruptGuard interrupt;
     const double field_interval =
         spec_.output.fields_interval > 0.0 ? spec_.output.fields_interval : spec_.time.end / default_field_files;
     double next_fields = 0.0;
-    const double reference_step = flow_.time_step_rule.largest(0.0, 0.0);
 
+    remember_good();
     locate(flow_);
+    require_sound_step(next_time_step(flow_));
+    attempt([&] { start(flow_); });
     record_probes(measure(flow_));
     while (flow_.time < spec_.time.end) {
       if (interrupt.requested()) return ExitCode::interrupted;
@@ -142,25 +145,21 @@ class Run {
         write_fields();
         next_fields = (std::floor(flow_.time / field_interval) + 1.0) * field_interval;
       }
-      step(reference_step);
+      step();
     }
     return ExitCode::done;
   }
 
-  void step(double reference_step) {
-    if (flow_.step % steps_between_sorts == 0) flow_.neighbourhood.reorder(flow_.particles);
-    last_good_ = flow_.particles;
-    last_good_time_ = flow_.time;
-    StepReport report;
-    try {
-      const double dt = std::min(next_time_step(flow_), spec_.time.end);
-      if (std::isfinite(reference_step) && dt < collapsed_step * reference_step) throw_collapsed(flow_, dt);
-      report = advance(flow_, dt);
-      if (const auto culprit = find_non_finite(flow_.particles)) fail(culprit, "a value is not finite");
-    } catch (const SolverError& error) {
-      if (failure_is_written_) throw;
-      fail(std::nullopt, error.what());
+  void step() {
+    remember_good();
+    const double dt = next_time_step(flow_);
+    require_sound_step(dt);
+    if (flow_.step % steps_between_sorts == 0) {
+      flow_.neighbourhood.reorder(flow_.particles);
+      remember_good();  // in the new order: an index must mean the same particle before and after the step
     }
+    StepReport report;
+    attempt([&] { report = advance(flow_, std::min(dt, spec_.time.end)); });
     const FlowMeasures measures = measure(flow_);
     const std::size_t outside = count_outside(flow_);
     warn_if_outside(outside);
@@ -170,17 +169,53 @@ class Run {
     progress_.show(flow_.time, flow_.step, report, measures);
   }
 
-  [[noreturn]] void fail(std::optional<std::size_t> culprit, const std::string& message) {
-    failure_is_written_ = true;
-    const std::string report = write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
+  void remember_good() {
+    last_good_ = flow_.particles;
+    last_good_time_ = flow_.time;
+  }
+
+  void require_sound_step(double dt) {
+    const double reference_step = flow_.time_step_rule.largest(0.0, 0.0);
+    if (!std::isfinite(reference_step) || dt >= collapsed_step * reference_step) return;
+    const std::size_t i = fastest_particle(flow_.particles);
+    fail(i, fmt::format("the time step collapsed to {:.3g} s: particle {} at {} moves at {:.4g} m/s", dt,
+                        flow_.particles.id[i], place<Dim>(flow_.particles.position[i]),
+                        flow_.particles.velocity[i].norm()));
+  }
+
+  /// Does a part of the solution. A particle that is not finite is told before what followed from it.
+  template <class Work>
+  void attempt(const Work& work) {
+    std::string failure;
+    try {
+      work();
+    } catch (const SolverError& error) {
+      failure = error.what();
+    }
+    if (const auto i = find_non_finite(flow_)) {
+      fail(i, fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.particles.id[*i],
+                          place<Dim>(last_good_.position[*i])));
+    }
+    if (!failure.empty()) fail(std::nullopt, failure);
+  }
+
+  /// `culprit`: the particle that went wrong, if one is known; the run's instability is then named as the cause.
+  [[noreturn]] void fail(std::optional<std::size_t> culprit, const std::string& reason) {
+    std::string message = fmt::format("step {} from t = {:.6g} s failed: {}", flow_.step, last_good_time_, reason);
+    if (culprit) {
+      message +=
+          ". The run has become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or "
+          "scheme.formulation = \"robust\"";
+    }
+    write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
     flow_.particles = last_good_;
     flow_.time = last_good_time_;
     throw SolverError(
-        fmt::format("{}The last good fields and this report are in {}", report, (folder_.path() / "failure").string()));
+        fmt::format("{}. The last good fields and a report are in {}", message, (folder_.path() / "failure").string()));
   }
 
   void warn_if_outside(std::size_t outside) {
-    if (outside == 0 || warned_outside_) return;
+    if (outside == 0 || warned_outside_ || options_.quiet) return;
     warned_outside_ = true;
     progress_.finish();
     fmt::print(stderr,
@@ -248,7 +283,6 @@ class Run {
   Particles<Dim> last_good_;
   double last_good_time_ = 0.0;
   double last_fields_time_ = -1.0;
-  bool failure_is_written_ = false;
   bool warned_outside_ = false;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double cpu_start_ = cpu_seconds();

@@ -1,0 +1,136 @@
+"""A table of everything a user can get wrong in a case: one clear answer each, at once, and no trace."""
+
+import resource
+import unittest
+from typing import NamedTuple
+
+from program import SMALL_CASE, ProgramTest
+
+
+class BadInput(NamedTuple):
+    name: str
+    parts: tuple  # what the message must contain: the place, the key, the value, the remedy
+    replace: tuple = ("", "")  # what is replaced in the small case, and by what
+    arguments: tuple = ()  # more arguments
+    code: int = 2  # expected exit code
+
+
+FLOOR = 'points = [[0, 2], [0, 0], [3, 0], [3, 2]]'
+COLUMN = "max = [1, 0.5]"
+SECOND_COLUMN = '\n[[fluid]]\nname = "second"\n'
+TABLE = (
+    BadInput("misspelt key", ("case.toml:4:11", "particles.spcing", 'did you mean "spacing"?'),
+             ("spacing =", "spcing  =")),
+    BadInput("misspelt table", ("case.toml:3:1", "particels", 'did you mean "particles"?'),
+             ("[particles]", "[particels]")),
+    BadInput("wrong type", ("case.toml:4:11", "particles.spacing = true", "number in m"), ("= 0.1\n[[", "= true\n[[")),
+    BadInput("unit in a number", ("case.toml:4:11", '"0.1 m"', "without a unit"), ("= 0.1\n[[", '= "0.1 m"\n[[')),
+    BadInput("bare unit", ("case.toml:4:", "not valid TOML"), ("= 0.1\n[[", "= 0.1 m\n[[")),
+    BadInput("negative spacing", ("case.toml:4:11", "particles.spacing = -0.1", "above 0"),
+             ("= 0.1\n[[", "= -0.1\n[[")),
+    BadInput("not a number", ("case.toml:4:11", "particles.spacing = nan", "not a finite number"),
+             ("= 0.1\n[[", "= nan\n[[")),
+    BadInput("infinite", ("time.end = inf", "not a finite number"), ("end = 0.1", "end = inf")),
+    BadInput("unknown parameter", ('unknown name "H"', "time.end"), ("end = 0.1", 'end = "2*H"')),
+    BadInput("unknown scheme", ("scheme.name", '"farzin2014"', 'did you mean "farzin2014"?'),
+             ("[time]", '[scheme]\nname = "farzin2015"\n[time]')),
+    BadInput("duplicate names of walls and fluids", ('"tank"', "taken"),
+             ("[time]", '[[wall]]\nname = "tank"\npoints = [[4, 0], [4, 1]]\n[time]')),
+    BadInput("duplicate names of probes", ('"energy"', "taken"), ('name = "depth"', 'name = "energy"')),
+    BadInput("probe outside", ("probe 'depth'", "(9, 0)", "move it"), ("at = [0.5, 0]", "at = [9, 0]")),
+    BadInput("wall probe off the wall", ("probe 'wall_pressure'", "(0.5, 1)", "move it"),
+             ('"wall-pressure"\nat = [0.5, 0]', '"wall-pressure"\nat = [0.5, 1]')),
+    BadInput("name of a probe that leaves the folder", ("../../depth", "letters"),
+             ('name = "depth"', 'name = "../../depth"')),
+    BadInput("no fluid", ("there is no fluid", "[[fluid]]"),
+             (SMALL_CASE[SMALL_CASE.index("[[fluid]]"):SMALL_CASE.index("[[wall]]")], "")),
+    BadInput("fluid thinner than a particle", ("fluid 'column'", "0.05", "no particle"), (COLUMN, "max = [1, 0.05]")),
+    BadInput("fluid inside out", ("fluid", "max"), (COLUMN, "max = [-1, 0.5]")),
+    BadInput("open wall", ("pour out", "wall 'tank'", "higher"), (FLOOR, "points = [[0, 2], [0, 0], [3, 0]]")),
+    BadInput("low wall", ("pour out", "wall 'tank'", "higher"),
+             (FLOOR, "points = [[0, 2], [0, 0], [3, 0], [3, 0.02]]")),
+    BadInput("fluid behind a wall", ("fluid 'column'", "behind wall 'tank'", "50 particles", "fluid_side"),
+             (FLOOR, FLOOR + '\nfluid_side = "right"')),
+    BadInput("fluid on both sides of a wall", ("wall 'tank'", "both sides", "fluid 'column'"),
+             ("min = [0, 0]", "min = [-1, 0]")),
+    BadInput("overlap", ("fluid 'column'", "fluid 'second'", "overlap", "(0.55, 0.05)"),
+             ("\n[[wall]]", SECOND_COLUMN + "min = [0.5, 0]\nmax = [1.5, 0.5]\n[[wall]]")),
+    BadInput("too near to a wall", ("fluid 'column'", "too near to wall 'tank'", "spacings"),
+             ("min = [0, 0]", "min = [-0.04, 0]")),
+    BadInput("wall without length", ("wall 'tank'",), (FLOOR, "points = [[0, 0], [0, 0]]")),
+    BadInput("wall of one point", ("points",), (FLOOR, "points = [[0, 0]]")),
+    BadInput("wall that crosses itself", ("wall 'tank'", "crosses itself at (1.5, 1)"),
+             (FLOOR, 'shape = "polygon"\nfluid_side = "inside"\npoints = [[0, 0], [3, 2], [3, 0], [0, 2], [-1, 1]]')),
+    BadInput("spacing that needs more memory than there is", ("1e-07 m", "GB", "use a spacing of at least"),
+             ("= 0.1\n[[", "= 1e-7\n[[")),
+    BadInput("end time that no run reaches", ("time.end = 1e+300 s", "out of reach", "seconds"),
+             ("end = 0.1", "end = 1e300")),
+    BadInput("override without a value", ("--set particles.spacing", "--set table.key=value"),
+             arguments=("--set", "particles.spacing")),
+    BadInput("override of an unknown key", ("--set particles.spcing=1", 'did you mean "spacing"?'),
+             arguments=("--set", "particles.spcing=1")),
+    BadInput("override out of range", ("--set particles.spacing=-1", "above 0"),
+             arguments=("--set", "particles.spacing=-1")),
+    BadInput("override of what is not there", ("probe", "deepth", 'did you mean "depth"?'),
+             arguments=("--set", "probe.deepth.interval=1")),
+)
+
+# Name: content, expected exit code, what the message must contain.
+FILES = {
+    "empty file": (b"", 2, ("particles.spacing is missing", "time.end is missing", "there is no fluid")),
+    "binary garbage": (bytes(range(255, 0, -1)) * 20, 2, ("not valid TOML",)),
+    "zeros": (bytes(1000), 2, ("not valid TOML",)),
+    "cut off": (SMALL_CASE[:-2].encode(), 2, ("not valid TOML",)),
+    "another format": (b'{"spacing": 0.1}\n', 2, ("case.toml:1:1", "not valid TOML")),
+}
+
+
+def cpu_seconds():
+    """Of all programs called so far: unlike the clock, it does not depend on what else the machine does."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class BadCases(ProgramTest):
+    def refuse(self, row, arguments):
+        before = self.listing()
+        for command in (("check", "case.toml"), ("run", "case.toml", "--out", "out")):
+            start = cpu_seconds()
+            result = self.call(*command, *arguments, expect=row.code)
+            self.assertLess(cpu_seconds() - start, 2, "a mistake is answered at once")
+            self.assertEqual(result.stdout, "")
+            self.assertEqual(self.listing(), before, "a mistake leaves no trace")
+            for part in row.parts:
+                self.assertIn(part, result.stderr)
+
+    def test_every_mistake_is_answered(self):
+        for row in TABLE:
+            with self.subTest(row.name):
+                old, new = row.replace
+                self.assertIn(old, SMALL_CASE)
+                (self.folder / "case.toml").write_text(SMALL_CASE.replace(old, new, 1) if old else SMALL_CASE)
+                self.refuse(row, row.arguments)
+
+    def test_files_that_are_no_cases(self):
+        for name, (content, code, parts) in FILES.items():
+            with self.subTest(name):
+                (self.folder / "case.toml").write_bytes(content)
+                self.refuse(BadInput(name, parts, code=code), ())
+
+    def test_missing_file(self):
+        self.refuse(BadInput("", ("case.toml", "No such file", "tailwater new"), code=4), ())
+
+    def test_folder_as_case_file(self):
+        (self.folder / "case.toml").mkdir()
+        self.refuse(BadInput("", ("case.toml", "is a folder"), code=4), ())
+
+    def test_all_mistakes_at_once(self):
+        text = SMALL_CASE.replace("spacing", "spcing").replace("end =", "ende =").replace('"column"', "3")
+        (self.folder / "case.toml").write_text(text)
+        message = self.call("check", "case.toml", expect=2).stderr
+        for part in ("particles.spcing", "time.ende", "fluid[0].name"):
+            self.assertIn(part, message)
+
+
+if __name__ == "__main__":
+    unittest.main()

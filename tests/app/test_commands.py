@@ -1,0 +1,146 @@
+"""new, check and info, and the command line itself."""
+
+import json
+import unittest
+import xml.etree.ElementTree
+
+from program import SMALL_CASE, ProgramTest
+
+COMMANDS = ("new", "check", "run", "info")
+TEMPLATES = ("dam-break", "tank")
+
+
+class CommandLine(ProgramTest):
+    def test_without_arguments_shows_the_help_as_a_complaint(self):
+        result = self.call(expect=2, errors_only=False)
+        self.assertEqual(result.stdout, "")
+        self.assertIn("tailwater new dam-break my.toml", result.stderr)
+
+    def test_help_names_every_command_and_exit_code(self):
+        help_text = self.call("--help").stdout
+        for word in (*COMMANDS, "0 done", "2 bad input", "3 the solver failed", "4 a file", "130 interrupted"):
+            self.assertIn(word, help_text)
+
+    def test_help_of_every_command_has_an_example(self):
+        for command in COMMANDS:
+            with self.subTest(command):
+                result = self.call(command, "--help")
+                self.assertIn(f"tailwater {command}", result.stdout)
+                self.assertRegex(result.stdout, "Examples?: ")
+                self.assertEqual(result.stderr, "")
+
+    def test_version(self):
+        self.assertRegex(self.call("--version").stdout, r"^tailwater \d+\.\d+\.\d+ \(commit .+\)\n$")
+
+    def test_mistakes_are_answered_with_the_way_out(self):
+        for arguments, parts in (
+            (("chekc", "small.toml"), ('unknown command "chekc"', 'did you mean "check"?')),
+            (("--bogus",), ("tailwater --help",)),
+            (("check",), ("case is required", "tailwater check --help")),
+            (("check", "small.toml", "--bogus"), ("--bogus", "tailwater check --help")),
+            (("check", "small.toml", "--set"), ("--set", "tailwater check --help")),
+            (("new", "dambreak", "my.toml"), ("dambreak", "dam-break", "tank", "tailwater new --help")),
+            (("run",), ("--out", "tailwater run my.toml --out my_run")),
+            (("run", "small.toml"), ("--out", "tailwater run my.toml --out my_run")),
+            (("run", "small.toml", "--out", "run", "-n", "2"), ("-n 2", "one rank", "leave -n out")),
+            (("run", "small.toml", "--out", "run", "-n", "two"), ("-n", "two")),
+            (("run", "--help-case=html"), ("html", "text", "markdown")),
+        ):
+            with self.subTest(arguments):
+                result = self.call(*arguments, expect=2)
+                self.assertEqual(result.stdout, "")
+                for part in parts:
+                    self.assertIn(part, result.stderr)
+        self.assertEqual(list(self.listing()), ["small.toml"])
+
+    def test_help_case_explains_every_key_of_the_effective_case(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        keys = {line.split(" = ")[0] for line in (self.folder / "run/case.effective.toml").read_text().splitlines()
+                if " = " in line}
+        text = self.call("run", "--help-case").stdout
+        markdown = self.call("run", "--help-case=markdown").stdout
+        self.assertLess({"spacing", "integrator", "gravity"}, keys)
+        for key in keys:
+            self.assertIn(f"\n  {key} (", text)
+            self.assertIn(f"\n| `{key}` |", markdown)
+
+
+class New(ProgramTest):
+    def test_templates_can_be_checked_and_run(self):
+        for template in TEMPLATES:
+            with self.subTest(template):
+                wrote = self.call("new", template, f"{template}.toml")
+                self.assertIn(f"tailwater check {template}.toml", wrote.stdout)
+                check = self.call("check", f"{template}.toml")
+                self.assertEqual(check.stderr, "", "a template must not provoke a warning")
+                coarse = ("--set", "particles.spacing=0.1", "--set", "time.end=0.05")
+                self.call("run", f"{template}.toml", "--out", template, "--quiet", *coarse)
+                self.assertEqual(self.summary(template)["status"], "done")
+
+    def test_refuses_to_overwrite(self):
+        message = self.call("new", "tank", "small.toml", expect=2).stderr
+        self.assertIn("small.toml", message)
+        self.assertIn("--force", message)
+        self.assertEqual((self.folder / "small.toml").read_text(), SMALL_CASE)
+
+    def test_force_overwrites(self):
+        self.call("new", "tank", "small.toml", "--force")
+        self.assertIn("Tank at rest", (self.folder / "small.toml").read_text())
+
+    def test_where_no_file_can_be(self):
+        self.assertIn("nowhere/my.toml", self.call("new", "tank", "nowhere/my.toml", expect=4).stderr)
+
+
+class Check(ProgramTest):
+    def test_tells_counts_and_estimates(self):
+        result = self.call("check", "small.toml")
+        self.assertEqual(result.stderr, "")
+        self.assertIn('small.toml: valid, "Small dam break"', result.stdout)
+        # 10 x 5 of fluid. Walls, three rows: 2 x 3 x 20 at the sides, 3 x (30 + 2 x 3) below, corners included.
+        self.assertIn("particles: 50 fluid, 228 wall, spacing 0.1 m", result.stdout)
+        self.assertRegex(result.stdout, r"memory: +about \d+ MB")
+        # Steps of at most courant dx / sqrt(2 g H) = 0.25 x 0.1 / sqrt(2 x 9.81 x 0.5) = 7.98 ms, and a flow this slow
+        # takes no smaller ones: 0.1 s are 12.5 steps.
+        self.assertRegex(result.stdout, r"time: +about 1[23] steps, under 1 s on this machine")
+
+    def test_the_preview_is_an_svg_with_every_fluid_particle(self):
+        self.call("check", "small.toml")
+        root = xml.etree.ElementTree.parse(self.folder / "small.preview.svg").getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        self.assertEqual(sorted(self.listing()), ["small.preview.svg", "small.toml"])
+
+    def test_the_preview_goes_where_it_is_told(self):
+        self.assertIn("picture.svg", self.call("check", "small.toml", "--preview", "picture.svg").stdout)
+        self.assertEqual(sorted(self.listing()), ["picture.svg", "small.toml"])
+
+    def test_the_preview_does_not_replace_the_case(self):
+        self.assertIn("small.toml", self.call("check", "small.toml", "--preview", "./small.toml", expect=2).stderr)
+        self.assertEqual((self.folder / "small.toml").read_text(), SMALL_CASE)
+
+    def test_where_no_preview_can_be(self):
+        self.assertIn("nowhere/p.svg", self.call("check", "small.toml", "--preview", "nowhere/p.svg", expect=4).stderr)
+
+    def test_set_overrides_the_file(self):
+        result = self.call("check", "small.toml", "--set", "particles.spacing=0.05")
+        self.assertIn("particles: 200 fluid", result.stdout)
+
+
+class Info(ProgramTest):
+    def test_tells_about_the_program(self):
+        text = self.call("info").stdout
+        for part in ("tailwater ", "commit", "PETSc", "cores"):
+            self.assertIn(part, text)
+
+    def test_shows_the_summary_of_a_run(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        self.assertEqual(json.loads(self.call("info", "run").stdout), self.summary("run"))
+
+    def test_a_folder_that_is_no_run(self):
+        for folder in ("nowhere", ".", "small.toml"):
+            message = self.call("info", folder, expect=4).stderr
+            self.assertIn(f"'{folder}", message)
+            self.assertIn("the folder of a run", message)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+"""A run that goes wrong on its way: exit code 3, a report and the last good fields."""
+
+import unittest
+
+import numpy as np
+
+from fields import read_points, read_series
+from program import ProgramTest
+
+PARTICLE = r"id +\d+ +(fluid|wall) +at \(.+\) m +velocity \(.+\) m/s +pressure .+ Pa"
+WHERE = r"particle \d+(, which was)? at \(.+\),? "
+REMEDY = r"\. .*remedy: "
+
+
+class Failure(ProgramTest):
+    def fail_run(self, *arguments):
+        """The report and the summary of a run that fails, after what all failures have in common was checked."""
+        result = self.call("run", "small.toml", "--out", "run", "--quiet", *arguments, expect=3, traps=False)
+        self.assertEqual(result.stdout, "")
+        self.assertIn("run/failure", result.stderr)
+        summary = self.summary("run")
+        self.assertEqual((summary["status"], summary["exit_code"]), ("failed", 3))
+        self.assertEqual(result.stderr, f"error: {summary['message']}\n")
+
+        report = (self.folder / "run/failure/report.txt").read_text()
+        first, *_ = report.splitlines()
+        self.assertTrue(summary["message"].startswith(first))
+
+        # What can be read ends at the last good state.
+        positions, fields = read_points(self.folder / "run/failure/last_good.vtp")
+        self.assertEqual(positions.shape, (50, 3))
+        self.assertEqual(set(fields), {"velocity", "pressure", "id"})
+        self.assertTrue(np.isfinite(positions).all() and np.isfinite(fields["pressure"]).all())
+        _, steps = self.table("run/steps.csv")
+        self.assertEqual(len(steps), summary["steps"]["count"])
+        if steps:
+            self.assertEqual(steps[-1][0], summary["time_s"]["reached"])
+        series = self.folder / "run/fields/fields.pvd"
+        self.assertTrue(series.exists() or not steps, "a run that took a step has fields")
+        for time, path in read_series(series) if series.exists() else ():
+            self.assertLessEqual(time, summary["time_s"]["reached"])
+            read_points(path)
+        return report, summary
+
+    def check_culprit(self, report):
+        """The report names a particle that is among the last good ones, and who was near it."""
+        self.assertRegex(report, "particle before the step: " + PARTICLE)
+        _, neighbours = report.split("its neighbours before the step:\n")
+        # Water in a corner of the tank has more neighbours than this.
+        self.assertGreater(len(neighbours.splitlines()), 5)
+        for line in neighbours.splitlines():
+            self.assertRegex(line, "^  " + PARTICLE)
+
+    def test_a_value_that_is_not_finite(self):
+        # The speed, 1e160 m/s, has a square beyond the largest double. Without gravity no time step is too small.
+        report, summary = self.fail_run("--set", "fluid[0].velocity=[1e160, 0]", "--set", "physics.gravity=[0, 0]",
+                                       "--set", "probe=[]")
+        self.assertRegex(report, "^step 0 from t = 0 s failed: " + WHERE + "has a value that is not finite" + REMEDY)
+        self.check_culprit(report)
+        self.assertEqual(summary["time_s"]["reached"], 0.0)
+
+    def test_a_time_step_that_collapses(self):
+        # At 1e7 m/s the step is courant dx / u, 3e-7 of the first one by the rule, sqrt(2 g H) = 3 m/s.
+        report, _ = self.fail_run("--set", "fluid[0].velocity=[1e7, 0]")
+        self.assertRegex(report, r"^step 0 from t = 0 s failed: the time step collapsed to 2\.5e-09 s: " + WHERE +
+                         r"moves at 1e\+07 m/s" + REMEDY)
+        self.check_culprit(report)
+
+    def test_a_run_that_becomes_unstable_on_its_way(self):
+        # The published formulation dies in a dam break, which is why it is not the default (docs/theory/schemes.md).
+        report, summary = self.fail_run("--set", "scheme.formulation=published", "--set", "time.end=5")
+        self.assertIn("scheme.formulation = \"robust\"", report)
+        self.check_culprit(report)
+        self.assertGreater(summary["time_s"]["reached"], 0.0)
+
+    def test_a_pressure_solve_that_does_not_converge(self):
+        report, summary = self.fail_run("--set", "pressure_solver.max_iterations=1")
+        self.assertIn("did not converge", report)
+        self.assertIn("Residuals on the way: 1.00e+00, ", report)
+        self.assertIn("pressure_solver.max_iterations", summary["message"])
+
+    def test_a_failed_run_can_be_replaced(self):
+        self.fail_run("--set", "pressure_solver.max_iterations=1")
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--force")
+        self.assertFalse((self.folder / "run/failure").exists())
+        self.assertEqual(self.summary("run")["status"], "done")
+
+
+if __name__ == "__main__":
+    unittest.main()

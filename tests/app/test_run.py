@@ -1,0 +1,229 @@
+"""run: what it writes, what it leaves alone, and what is left when it is stopped."""
+
+import resource
+import signal
+import unittest
+
+import numpy as np
+
+from fields import read_points, read_series
+from program import ProgramTest
+
+# Hours of work: such a run goes on until it is stopped.
+ENDLESS = ("--set", "time.end=1000", "--set", "output.fields_interval=0.05")
+PROBES = ("depth", "energy", "wall_pressure")
+
+
+class OutputContract(ProgramTest):
+    def test_every_file_is_there_and_nothing_else(self):
+        self.call("run", "small.toml", "--out", "deep/below/run", "--quiet")
+        run = self.folder / "deep/below/run"
+        self.assertEqual({path.name for path in run.iterdir()},
+                         {"case.effective.toml", "steps.csv", "summary.json", "probes", "fields"})
+        self.assertEqual({path.name for path in (run / "probes").iterdir()}, {f"{name}.csv" for name in PROBES})
+        series = read_series(run / "fields/fields.pvd")
+        self.assertEqual({path.name for path in (run / "fields").iterdir()},
+                         {"fields.pvd", *(path.name for _, path in series)})
+
+    def test_tables_cover_the_run_step_by_step(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        names, steps = self.table("run/steps.csv")
+        time, step, dt = (np.array([row[names.index(name)] for row in steps]) for name in ("time_s", "step", "dt_s"))
+        np.testing.assert_array_equal(step, np.arange(1, len(steps) + 1))
+        np.testing.assert_allclose(np.cumsum(dt), time, rtol=1e-12)
+        self.assertGreaterEqual(time[-1], 0.1)
+        self.assertLess(time[-2], 0.1)
+        for probe in PROBES:
+            _, rows = self.table(f"run/probes/{probe}.csv")
+            np.testing.assert_array_equal([row[0] for row in rows], [0.0, *time])
+
+    def test_fields_hold_all_particles_at_increasing_times(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        series = read_series(self.folder / "run/fields/fields.pvd")
+        times = [time for time, _ in series]
+        # The start, one at or after each multiple of 0.02 s below 0.1 s, the end.
+        self.assertEqual(times, sorted(set(times)))
+        self.assertEqual(len(times), 6)
+        for k, time in enumerate(times):
+            self.assertGreaterEqual(time, 0.02 * k)
+        for _, path in series:
+            positions, fields = read_points(path)
+            self.assertEqual(positions.shape, (50, 3))
+            self.assertEqual(set(fields), {"pressure", "velocity", "density_error", "id"})
+            np.testing.assert_array_equal(fields["id"], np.arange(50))
+            self.assertTrue(np.isfinite(fields["pressure"]).all() and np.isfinite(fields["velocity"]).all())
+
+    def test_summary(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        summary = self.summary("run")
+        _, steps = self.table("run/steps.csv")
+        self.assertEqual(summary["title"], "Small dam break")
+        self.assertEqual(summary["case"], "small.toml")
+        self.assertEqual((summary["status"], summary["exit_code"], summary["message"]), ("done", 0, ""))
+        self.assertEqual(summary["spacing_m"], 0.1)
+        self.assertEqual(summary["particles"], {"fluid": 50, "wall": 228})
+        self.assertEqual(summary["time_s"], {"end": 0.1, "reached": steps[-1][0]})
+        self.assertEqual(summary["steps"]["count"], len(steps))
+        self.assertEqual(summary["volume"]["fluid_particles_end"], summary["volume"]["fluid_particles_start"])
+        self.assertGreater(summary["cost"]["wall_clock_s"], 0.0)
+        self.assertGreater(summary["cost"]["peak_memory_bytes"], 0.0)
+        for block in ("pressure_solver", "divergence", "energy", "interventions", "version", "commit", "libraries",
+                      "machine"):
+            self.assertIn(block, summary)
+
+    def test_the_effective_case_gives_the_same_run(self):
+        overrides = ("--set", "scheme.integrator=implicit", "--set", "particles.jitter=0.2", "--set",
+                     "particles.seed=7")
+        self.call("run", "small.toml", "--out", "first", "--quiet", *overrides)
+        self.call("run", "first/case.effective.toml", "--out", "second", "--quiet")
+
+        def text(run, file):
+            return (self.folder / run / file).read_text()
+
+        for file in ("steps.csv", *(f"probes/{probe}.csv" for probe in PROBES), "case.effective.toml"):
+            self.assertEqual(text("first", file), text("second", file))
+        self.call("run", "small.toml", "--out", "other", "--quiet", *overrides[:-1], "particles.seed=8")
+        self.assertNotEqual(text("first", "steps.csv"), text("other", "steps.csv"))
+
+    def test_set_reaches_the_run(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set", "probe.depth.interval=0.05", "--set",
+                  "output.fields=['id']")
+        _, rows = self.table("run/probes/depth.csv")
+        self.assertEqual(len(rows), 3)  # at 0, 0.05 and 0.1 s
+        _, fields = read_points(read_series(self.folder / "run/fields/fields.pvd")[0][1])
+        self.assertEqual(set(fields), {"id"})
+
+    def test_an_end_time_below_the_first_step_makes_one_step(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=1e-6")
+        self.assertEqual(self.summary("run")["steps"]["count"], 1)
+        self.assertEqual(self.summary("run")["time_s"]["reached"], 1e-6)
+
+
+class Messages(ProgramTest):
+    def test_progress_goes_to_standard_error_in_plain_lines(self):
+        result = self.call("run", "small.toml", "--out", "run")
+        self.assertEqual(result.stdout, "")
+        *progress, last = result.stderr.splitlines()
+        self.assertEqual(last, "done: results in run")
+        self.assertRegex(progress[0], r"^ +\d+\.\d %  t = 0\.00\d+ s  ETA ")
+        self.assertRegex(progress[-1], r"^100\.0 %")
+        self.assertNotIn("\r", result.stderr)
+
+    def test_quiet_says_nothing(self):
+        # Thrown up at 3 m/s, the top row rises in 0.1 s from 0.45 to 0.70 m, above the walls: a warning otherwise.
+        low = ("--set", "wall[0].points=[[0, 0.6], [0, 0], [3, 0], [3, 0.6]]", "--set", "fluid[0].velocity=[0, 3]")
+        loud = self.call("run", "small.toml", "--out", "loud", *low)
+        self.assertGreater(self.summary("loud")["volume"]["outside_the_walls_most"], 0)
+        self.assertIn("warning: ", loud.stderr)
+        self.assertIn("Remedy: higher walls", loud.stderr)
+        quiet = self.call("run", "small.toml", "--out", "quiet", "--quiet", *low)
+        self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
+
+
+class ExistingFolder(ProgramTest):
+    def test_is_refused_and_left_untouched(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        before = self.listing()
+        message = self.call("run", "small.toml", "--out", "run", expect=2).stderr
+        self.assertIn("'run'", message)
+        self.assertIn("--force", message)
+        self.assertEqual(self.listing(), before)
+
+    def test_force_replaces_the_results_only(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        (self.folder / "run/notes.txt").write_text("mine")
+        shorter = ("--set", "time.end=0.01", "--set", "probe=[]")
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--force", *shorter)
+        self.assertEqual((self.folder / "run/notes.txt").read_text(), "mine")
+        self.assertEqual(list((self.folder / "run/probes").iterdir()), [])
+        series = read_series(self.folder / "run/fields/fields.pvd")
+        self.assertEqual(len(list((self.folder / "run/fields").glob("*.vtp"))), len(series))
+        self.assertEqual(self.summary("run")["time_s"]["end"], 0.01)
+
+    def test_a_bad_case_with_force_leaves_the_old_results(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        before = self.listing()
+        self.call("run", "small.toml", "--out", "run", "--force", "--set", "probe.depth.at=[9, 0]", expect=2)
+        self.assertEqual(self.listing(), before)
+
+    def test_an_empty_folder_will_do(self):
+        (self.folder / "run").mkdir()
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        self.assertEqual(self.summary("run")["status"], "done")
+
+    def test_a_file_in_its_place_is_refused(self):
+        (self.folder / "run").write_text("mine")
+        self.assertIn("'run' is a file", self.call("run", "small.toml", "--out", "run", expect=2).stderr)
+        self.assertEqual((self.folder / "run").read_text(), "mine")
+
+
+class Unwritable(ProgramTest):
+    def test_a_place_where_no_folder_can_be(self):
+        before = self.listing()
+        for place in ("small.toml/run", "/proc/run"):
+            with self.subTest(place):
+                self.assertIn(f"'{place}'", self.call("run", "small.toml", "--out", place, expect=4).stderr)
+        self.assertEqual(self.listing(), before)
+
+    def test_a_disk_that_fills_up_ends_the_run_with_the_name_of_the_file(self):
+        process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
+        self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (1, 1))
+        _, message = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 4)
+        self.assertRegex(message, r"^error: cannot write 'run/.+': File too large\n$")
+        for _, path in read_series(self.folder / "run/fields/fields.pvd"):
+            read_points(path)
+
+
+class Stopped(ProgramTest):
+    def start_endless_run(self):
+        process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
+        self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
+        return process
+
+    def check_readable(self):
+        for path in ("run/steps.csv", *(f"run/probes/{probe}.csv" for probe in PROBES)):
+            _, rows = self.table(path)
+            self.assertGreater(len(rows), 1)
+        series = read_series(self.folder / "run/fields/fields.pvd")
+        self.assertGreaterEqual(len(series), 2)
+        for _, path in series:
+            positions, _ = read_points(path)
+            self.assertEqual(len(positions), 50)
+        return series
+
+    def test_interrupted_runs_end_in_order(self):
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(stop):
+                process = self.start_endless_run()
+                process.send_signal(stop)
+                self.assertEqual(process.wait(timeout=60), 130)
+                summary = self.summary("run")
+                self.assertEqual((summary["status"], summary["exit_code"]), ("interrupted", 130))
+                series = self.check_readable()
+                self.assertEqual(series[-1][0], summary["time_s"]["reached"])
+                _, steps = self.table("run/steps.csv")
+                self.assertEqual(steps[-1][0], summary["time_s"]["reached"])
+                (self.folder / "run").rename(self.folder / stop.name)
+
+    def test_what_a_killed_run_wrote_can_be_read(self):
+        process = self.start_endless_run()
+        process.kill()
+        process.wait(timeout=60)
+        self.check_readable()
+        self.assertFalse((self.folder / "run/summary.json").exists())
+        self.assertIn("run/summary.json", self.call("info", "run", expect=4).stderr)
+
+    def test_lines_are_flushed_as_the_run_goes(self):
+        process = self.start_endless_run()
+        _, first = self.table_while_written("run/probes/energy.csv")
+        self.wait_for(lambda: len(self.table_while_written("run/probes/energy.csv")[1]) > len(first) + 10, process)
+
+    def table_while_written(self, path):
+        names, *rows = (self.folder / path).read_text().splitlines()
+        return names, rows
+
+
+if __name__ == "__main__":
+    unittest.main()

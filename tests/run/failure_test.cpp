@@ -1,0 +1,48 @@
+#include "run/failure.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "run/pond.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+template <class Dimension>
+class FindNonFinite : public testing::Test {
+ protected:
+  static constexpr int Dim = Dimension::value;
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  Flow<Dim> flow{pond_case<Dim>()};
+};
+
+TYPED_TEST_SUITE(FindNonFinite, Dimensions);
+
+TYPED_TEST(FindNonFinite, FindsNothingInStillWater) { EXPECT_EQ(find_non_finite(this->flow), std::nullopt); }
+
+TYPED_TEST(FindNonFinite, FindsTheFirstParticleByAnyOfItsFields) {
+  auto& water = this->flow;
+  constexpr int last = TestFixture::Dim - 1;
+  water.particles.pressure[7] = this->nan;
+  EXPECT_EQ(find_non_finite(water), 7u);
+  water.particles.velocity[5][last] = -this->infinite;
+  EXPECT_EQ(find_non_finite(water), 5u);
+  water.particles.position[3][0] = this->infinite;
+  EXPECT_EQ(find_non_finite(water), 3u);
+  water.u_star.resize(water.particles.size(), Vec<TestFixture::Dim>::Zero());
+  water.u_star[2][last] = this->nan;
+  EXPECT_EQ(find_non_finite(water), 2u);
+}
+
+TYPED_TEST(FindNonFinite, LooksAtTheWaterOnly) {
+  this->flow.particles.kind[4] = ParticleKind::wall;
+  this->flow.particles.pressure[4] = this->nan;
+  EXPECT_EQ(find_non_finite(this->flow), std::nullopt);
+}
+
+}  // namespace
+}  // namespace tailwater

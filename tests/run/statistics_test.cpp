@@ -1,0 +1,66 @@
+#include "run/statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace tailwater {
+namespace {
+
+FlowMeasures with_energy(double kinetic, double potential) {
+  FlowMeasures measures;
+  measures.kinetic_energy = kinetic;
+  measures.potential_energy = potential;
+  return measures;
+}
+
+StepReport step_of(double dt, int passes, int iterations) {
+  StepReport report;
+  report.dt = dt;
+  report.passes = passes;
+  report.iterations = iterations;
+  return report;
+}
+
+TEST(RunStatistics, AddUpSteps) {
+  RunStatistics statistics(with_energy(0.0, 10.0));
+  statistics.add(step_of(0.3, 1, 4), with_energy(1.0, 8.0), 0);
+  statistics.add(step_of(0.1, 3, 20), with_energy(1.0, 6.0), 5);
+  statistics.add(step_of(0.2, 2, 6), with_energy(3.0, 5.5), 2);
+  const auto json = statistics.json(98, 100);
+  EXPECT_EQ(json["steps"]["count"], 3);
+  EXPECT_DOUBLE_EQ(json["steps"]["dt_mean_s"].get<double>(), 0.2);
+  EXPECT_EQ(json["steps"]["dt_least_s"], 0.1);
+  EXPECT_EQ(json["steps"]["dt_largest_s"], 0.3);
+  EXPECT_EQ(json["pressure_solver"]["solves"], 6);
+  EXPECT_DOUBLE_EQ(json["pressure_solver"]["passes_per_step"].get<double>(), 2.0);
+  EXPECT_DOUBLE_EQ(json["pressure_solver"]["iterations_per_solve"].get<double>(), 5.0);
+  // Energies 10, 9, 7, 8.5: the largest rise is from 7, not from the start.
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 1.5);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_over_start"].get<double>(), 0.15);
+  EXPECT_EQ(json["volume"]["outside_the_walls_most"], 5);
+  EXPECT_EQ(json["volume"]["outside_the_walls_end"], 2);
+  EXPECT_EQ(json["volume"]["fluid_particles_start"], 100);
+  EXPECT_EQ(json["volume"]["fluid_particles_end"], 98);
+}
+
+TEST(RunStatistics, DivideByNothingWithoutSteps) {
+  const auto json = RunStatistics(with_energy(0.0, 0.0)).json(0, 0);
+  EXPECT_EQ(json["steps"]["count"], 0);
+  EXPECT_EQ(json["steps"]["dt_mean_s"], 0.0);
+  EXPECT_EQ(json["energy"]["largest_rise_over_start"], 0.0);
+}
+
+TEST(RunStatistics, CountInterventionsPerParticleAndStep) {
+  RunStatistics statistics(with_energy(0.0, 1.0));
+  StepReport report = step_of(0.1, 1, 1);
+  report.interventions = {.put_back = 3, .capped_shifts = 1, .clamped_pressures = 7, .fallback_rows = 2};
+  statistics.add(report, with_energy(0.0, 1.0), 0);
+  statistics.add(report, with_energy(0.0, 1.0), 0);
+  const auto json = statistics.json(10, 10);
+  EXPECT_EQ(json["interventions"]["put_back_from_walls"], 6);
+  EXPECT_EQ(json["interventions"]["clamped_pressures"], 14);
+  EXPECT_EQ(json["interventions"]["fallback_rows"], 4);
+  EXPECT_DOUBLE_EQ(json["interventions"]["put_back_and_capped_per_particle_step"].get<double>(), 8.0 / 20.0);
+}
+
+}  // namespace
+}  // namespace tailwater
