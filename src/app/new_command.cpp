@@ -36,7 +36,7 @@ void add_new_command(CLI::App& app, ExitCode&) {
   command->add_option("template", options->kind, "dam-break (a column collapses in a tank) or tank (water at rest)")
       ->required()
       ->check(CLI::IsMember({"dam-break", "tank"}))
-      ->type_name("");
+      ->type_name("NAME");
   command->add_option("file", options->file, "The case file to write")->required()->type_name("");
   command->add_flag("--force", options->force, "Overwrite the file if it exists");
   command->footer("Example: tailwater new dam-break my.toml");
