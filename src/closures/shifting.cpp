@@ -51,15 +51,17 @@ int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                          std::span<const std::uint8_t> is_near_surface,
+std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
+                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
-    const Vec<Dim> direction =
-        law.kind == ShiftingKind::lind ? lind_direction(law, pairs, particles, i) : farzin_direction(pairs, i);
-    shift[i] = law.strength * particles.velocity[i].norm() * dt * direction;
+    if (law.kind == ShiftingKind::lind) {
+      shift[i] = law.strength * largest_speed * dt * lind_direction(law, pairs, particles, i);
+    } else {
+      shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
+    }
     if (is_near_surface[i]) {
       const double steepness = concentration_gradient[i].norm();
       if (steepness * law.spacing > 1e-3) {
@@ -74,10 +76,10 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& p
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                              \
-  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, const Pairs<Dim>&, const Particles<Dim>&, \
-                                          std::span<const std::uint8_t>, std::span<const Vec<Dim>>,             \
-                                          std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                               \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
+                                          const Particles<Dim>&, std::span<const std::uint8_t>,  \
+                                          std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

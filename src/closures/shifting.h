@@ -1,7 +1,9 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -s |u_i| dt dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012,
-//          with the coefficient of Skillen et al. 2013)
+//   lind    dr_i = -s u_max dt dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012; the
+//           coefficient in the form of Skillen et al. 2013, but with the largest speed of the flow in the place of the
+//           particle's own: at stagnation points, where the strain lines particles up, the own speed is 0, and a
+//           Taylor-Green vortex dies of it; docs/theory/closures.md)
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
 // Both: no part along the free surface's normal within 2 dx of it, capped at a share of dx, nothing for particles with
@@ -26,10 +28,11 @@ struct ShiftingLaw {
   double W_spacing = 0.0;  ///< 1/m^Dim; W(dx)
 };
 
-/// Shift [m] of every owned particle (zero for walls). Returns how many were capped.
+/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid. Returns how many
+/// were capped.
 template <int Dim>
-std::size_t compute_shift(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                          std::span<const std::uint8_t> is_near_surface,
+std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
+                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
 
 }  // namespace tailwater

@@ -21,6 +21,16 @@ Vec<Dim> pressure_gradient(const Flow<Dim>& flow, std::size_t i) {
                                   std::span<const double>(pressure));
 }
 
+/// m/s; of the fluid.
+template <int Dim>
+double largest_speed(const Flow<Dim>& flow) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (flow.particles.is_fluid(i)) squared = std::max(squared, flow.particles.velocity[i].squaredNorm());
+  }
+  return std::sqrt(squared);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -46,7 +56,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   if (flow.scheme.shifting == ShiftingKind::none) return;
   Particles<Dim>& particles = flow.particles;
   flow.shift.resize(particles.owned);
-  interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, flow.pairs(), particles,
+  interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                     flow.is_near_surface, flow.concentration_gradient, flow.shift);
   if (flow.scheme.shifting == ShiftingKind::farzin) {
     // (F31), (F32): u and p move along with their gradients, where those are sound.
@@ -75,10 +85,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
 
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow) {
-  double speed = 0.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.is_fluid(i)) speed = std::max(speed, flow.particles.velocity[i].norm());
-  }
+  const double speed = largest_speed(flow);
   return flow.time_step_rule.largest(speed, flow.viscosity_law.at_speed(speed));
 }
 

@@ -32,7 +32,7 @@ struct Shifted {
       gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
     }
     const std::vector<std::uint8_t> near(set.size(), is_near_surface);
-    capped = compute_shift<Dim>(law, dt, set.pairs(), set.particles, near, gradient, shift);
+    capped = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, near, gradient, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "schemes/cases.h"
@@ -44,13 +45,16 @@ double decay_rate_error(double dx) {
 
 TEST(TaylorGreen, KineticEnergyDecaysAtTheViscousRate) {
   // Smoothing over a support R = 3 dx changes a wave by less than (k R)^2/2 of itself, and viscosity and pressure are
-  // both smoothed: the rate is wrong by less than (k R)^2, 0.22 on the finer set. The time step is first order,
-  // dt 4 nu k^2 < 0.03, well within it.
-  const double coarse = decay_rate_error(1.0 / 20.0);
-  const double fine = decay_rate_error(1.0 / 40.0);
-  EXPECT_LT(std::abs(coarse), std::pow(k * 3.0 / 20.0, 2));
-  EXPECT_LT(std::abs(fine), std::pow(k * 3.0 / 40.0, 2));
-  EXPECT_LT(std::abs(fine), std::abs(coarse));
+  // both smoothed: the rate is wrong by less than (k R)^2, 0.06 on the finest set. The time step is first order,
+  // dt 4 nu k^2 < 0.03, well within it. The finest set is also the one on which shifting by each particle's own speed
+  // lets the particles line up at the stagnation points until the run dies (docs/theory/closures.md).
+  double coarser = std::numeric_limits<double>::infinity();
+  for (const double cells : {20.0, 40.0, 80.0}) {
+    const double error = std::abs(decay_rate_error(1.0 / cells));
+    EXPECT_LT(error, std::pow(k * 3.0 / cells, 2)) << cells;
+    EXPECT_LT(error, coarser) << cells;
+    coarser = error;
+  }
 }
 
 }  // namespace

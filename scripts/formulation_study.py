@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""What each choice of the scheme does to the Zhou dam break: the table of docs/theory/schemes.md.
+
+One change at a time from the default formulation, then the published one, to T = 8 (or until the run fails).
+Usage: scripts/formulation_study.py [SPACING]   needs build/release/bin/tailwater (scripts/build.sh)
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "validation"))
+from tailwater_validation import zhou1999  # noqa: E402
+
+PROGRAM = ROOT / "build/release/bin/tailwater"
+CASE = ROOT / "cases/zhou1999/case.toml"
+VARIANTS = {
+    "default": [],
+    "implicit": ["scheme.integrator=implicit"],
+    "jittered start (0.15 dx)": ["particles.jitter=0.15"],
+    "no artificial viscosity (c_a = 0, floor 0)": ["scheme.artificial_viscosity=0", "scheme.viscosity_floor=0"],
+    "no slip": ["wall[0].slip=no-slip"],
+    "partial slip (0.5)": ["wall[0].slip=partial", "wall[0].friction=0.5"],
+    "cubic spline": ["scheme.kernel=cubic-spline"],
+    "published kernel": ["scheme.kernel=farzin"],
+    "no shifting": ["scheme.shifting=none"],
+    "no density relaxation": ["scheme.density_relaxation=0"],
+    "detected surface (cone)": ["scheme.surface=cone"],
+    "consistent divergence": ["scheme.divergence=consistent"],
+    "consistent gradient": ["scheme.gradient=consistent"],
+    "consistent Laplacian": ["scheme.laplacian=consistent"],
+    "Smagorinsky stress (0.10)": ["scheme.smagorinsky=0.10"],
+    "published": ["scheme.formulation=published"],
+    "published, implicit": ["scheme.formulation=published", "scheme.integrator=implicit"],
+    "published, surface by (F35)": ["scheme.formulation=published", "scheme.surface=farzin"],
+}
+
+
+def run(settings, spacing, out):
+    command = [PROGRAM, "run", CASE, "--out", out, "--force", "--quiet", "--set", f"particles.spacing={spacing}"]
+    for setting in settings:
+        command += ["--set", setting]
+    subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
+    return json.loads((pathlib.Path(out) / "summary.json").read_text())
+
+
+def number(metrics, name, digits):
+    value = metrics[name]["value"]
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def main():
+    spacing = float(sys.argv[1]) if len(sys.argv) > 1 else 0.02
+    print("| variant | reached T | energy at the end | largest rise | density error mean, rms | noise | "
+          "arrival z = 0.12 m | put back | CPU s |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, settings in VARIANTS.items():
+            summary = run(settings, spacing, f"{folder}/run")
+            metrics = {metric["name"]: metric for metric in zhou1999.score(f"{folder}/run")["metrics"]}
+            reached = summary["time_s"]["reached"] / zhou1999.TIME_SCALE
+            energy, volume = summary["energy"], summary["volume"]
+            print(f"| {name} | {reached:.2f} | {energy['end_J'] / energy['start_J']:.3f} | "
+                  f"{energy['largest_rise_over_start']:.1e} | {100 * volume['density_error_mean']:+.2f} %, "
+                  f"{100 * volume['density_error_rms']:.2f} % | {number(metrics, 'noise', 4)} | "
+                  f"{number(metrics, f'arrival_{zhou1999.READ_AT}', 3)} | "
+                  f"{summary['interventions']['put_back_from_walls']} | {summary['cost']['cpu_s']:.0f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
