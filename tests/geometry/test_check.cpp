@@ -233,8 +233,8 @@ TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
 TEST(CheckMemory, TheSpacingItProposesFits) {
   CaseSpec spec = empty_case(1e-4);
   spec.fluid = {box_fluid({0, 0}, {1, 1})};
-  const double bytes = memory_estimate<2>(1e8, 0.0, neighbours_in_support<2>(spec.scheme.support));
-  const double available = bytes / 100.0;  // a hundredth of the particles: ten times the spacing
+  // Memory for a hundredth of the 1e8 particles: ten times the spacing.
+  const double available = memory_estimate<2>(1e6, 0.0, neighbours_in_support<2>(spec.scheme.support));
   expect_only(check_memory<2>(spec, available), Severity::error, {"at least 0.001 m"});
   spec.particles.spacing = 1.001e-3;
   EXPECT_TRUE(check_memory<2>(spec, available).empty());
