@@ -12,15 +12,24 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
   const int reach = static_cast<int>(std::ceil(kernel_radius(kernel) / spacing));
   const int reach_z = Dim == 3 ? reach : 0;
   LatticeSums sums;
+  // By symmetry C and D vanish and B2 is a multiple of I; E : I = A = tr A/Dim I makes it Dim/tr A, so that the weights
+  // (F23) are 2 w W/r^2 Dim/tr A.
+  double trace_A = 0.0;
+  double inverse_squares = 0.0;
   for (int z = -reach_z; z <= reach_z; ++z) {
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         const double r = spacing * std::sqrt(static_cast<double>(x * x + y * y + z * z));
-        sums.concentration += volume * kernel_value(kernel, r);
-        if (r > 0.0) sums.morris += morris_laplacian_weight(volume, r, kernel_derivative(kernel, r), spacing);
+        const double wW = volume * kernel_value(kernel, r);
+        sums.concentration += wW;
+        if (r == 0.0) continue;
+        sums.morris += morris_laplacian_weight(volume, r, kernel_derivative(kernel, r), spacing);
+        trace_A += wW;
+        inverse_squares += wW / (r * r);
       }
     }
   }
+  sums.consistent = 2.0 * inverse_squares * Dim / trace_A;
   return sums;
 }
 

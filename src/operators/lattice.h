@@ -9,6 +9,7 @@ namespace tailwater {
 struct LatticeSums {
   double concentration = 0.0;  ///< w W(0) + sum w W, close to 1
   double morris = 0.0;         ///< 1/m^2; sum of the Morris Laplacian weights
+  double consistent = 0.0;     ///< 1/m^2; sum of the consistent Laplacian weights (F23)
 };
 
 template <int Dim>

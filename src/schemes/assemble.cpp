@@ -3,7 +3,7 @@
 //   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho clamp(C/C_0 - 1, 0, 0.1)/dt^2
 //
 // c_ij      weights of the Laplacian: Morris, or consistent (F23)
-// a_i       max(0, A_0 - sum_j c_ij), A_0 the sum of a full lattice: missing neighbours count as air at p = 0 (the idea
+// a_i       max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the idea
 // of
 //           Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead,
 //           whose rows are p = 0
@@ -86,7 +86,9 @@ bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const double air = has_air ? std::max(0.0, flow.lattice.morris - sum) : 0.0;
+  const bool is_morris = flow.scheme.laplacian == LaplacianKind::morris;
+  const double full = is_morris ? flow.lattice.morris : flow.lattice.consistent;
+  const double air = has_air ? std::max(0.0, full - sum) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
