@@ -2,13 +2,12 @@
 //
 //   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho clamp(C/C_0 - 1, 0, 0.1)/dt^2
 //
-// c_ij      weights of the Laplacian: Morris, or consistent (F23)
-// a_i       max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the idea
+// c_ij   weights of the Laplacian: Morris, or consistent (F23)
+// a_i    max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the idea
 // of
-//           Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead,
-//           whose rows are p = 0
-// gamma     share of the density error that a step corrects: particles too close are pushed apart, never pulled
-// together
+//        Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead, whose
+//        rows are p = 0
+// gamma  share of the density error that a step corrects: particles too close are pushed apart, never pulled together
 //
 // Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
 // M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
