@@ -26,12 +26,14 @@ std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<
   const Particles<Dim>& particles = context.particles;
   double sum = 0.0;
   double weights = 0.0;
+  double least = 0.0;
   for_each_weight(context, x_w, [&](std::int32_t j, double weight) {
     if (!particles.is_fluid(j)) return;
+    least = std::min(least, particles.pressure[j]);
     sum += weight * (particles.pressure[j] + context.density * context.gravity.dot(x_w - particles.position[j]));
     weights += weight;
   });
-  return sum / weights;
+  return std::max(sum / weights, least);
 }
 
 template <int Dim>

@@ -3,9 +3,10 @@
 //   p(x_w) = sum w W(x_w - x_j) (p_j + rho g . (x_w - x_j)) / sum w W
 //
 // The second term carries each particle's pressure to the wall along the hydrostatic gradient, so still water reads
-// exactly rho g times the depth at any distance of the particles from the wall. Where the wall is dry, c(x_w) <= 1/2
-// (water_share.h), it reads 0: a wall below still water is wet up to the surface, a layer one particle thick wets
-// it, a single particle does not.
+// exactly rho g times the depth at any distance of the particles from the wall. In a falling jet, where it does not
+// hold, it may not make a suction that none of the particles has. Where the wall is dry, c(x_w) <= 1/2 (water_share.h),
+// it reads 0: a wall below still water is wet up to the surface, a layer one particle thick wets it, a single particle
+// does not.
 #pragma once
 
 #include <optional>

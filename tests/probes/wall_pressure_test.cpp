@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "probes/tank.h"
 
@@ -60,6 +62,17 @@ TYPED_TEST(WallPressureTest, ALayerOneParticleThickWetsTheWallAndASingleParticle
   drop.add(x, true, 5000.0);
   drop.locate();
   EXPECT_EQ(TestFixture::pressure(drop, T::at(1.0, 0.4))[0], 0.0);
+}
+
+TYPED_TEST(WallPressureTest, HydrostaticsDoNotMakeSuctionThatNoParticleHas) {
+  using T = typename TestFixture::TankOf;
+  T falling = T::filled(0.8);
+  std::fill(falling.particles.pressure.begin(), falling.particles.pressure.end(), 0.0);
+  // At the surface all particles are below the place, and carried up along rho g they would read some -rho g dx.
+  const double z = 0.8 - 0.05 * T::dx;
+  EXPECT_EQ(TestFixture::pressure(falling, T::at(1.0, z))[0], 0.0);
+  std::fill(falling.particles.pressure.begin(), falling.particles.pressure.end(), -1.0);
+  EXPECT_EQ(TestFixture::pressure(falling, T::at(1.0, z))[0], -1.0);
 }
 
 TYPED_TEST(WallPressureTest, TheMeanOverAStretchCountsDryPlacesAsZero) {
