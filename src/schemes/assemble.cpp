@@ -15,10 +15,10 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "operators/divergence.h"
 #include "operators/gradient_consistent.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
+#include "schemes/velocity_divergence.h"
 #include "schemes/verbs.h"
 #include "schemes/wall_state.h"
 
@@ -140,18 +140,6 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity) {
-  if (flow.scheme.divergence == DivergenceKind::standard) {
-    return standard_divergence<Dim>(flow.pairs(), i, flow.particles.volume, velocity);
-  }
-  const Renormalisation<Dim>& tensors = flow.tensors[i];
-  if (!tensors.gradient_is_sound()) return 0.0;
-  return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, flow.particles.volume, flow.takes_part,
-                                  std::span<const Vec<Dim>>(velocity))
-      .trace();
-}
-
-template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
   interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
     if (flow.particles.is_fluid(i)) return assemble_fluid_row(flow, i, dt);
@@ -164,26 +152,7 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
   });
 }
 
-template <int Dim>
-double bulk_divergence(Flow<Dim>& flow) {
-  update_wall_velocity(flow, flow.particles.velocity);
-  double squares = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i) || flow.is_near_surface[i]) continue;
-    const double divergence = divergence_at(flow, i, flow.particles.velocity);
-    squares += divergence * divergence;
-    ++count;
-  }
-  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
-}
-
-#define TAILWATER_INSTANTIATE(Dim)                                                                 \
-  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&); \
-  template void assemble<Dim>(Flow<Dim>&, double, Interventions&);                                 \
-  template double bulk_divergence<Dim>(Flow<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+template void assemble<2>(Flow<2>&, double, Interventions&);
+template void assemble<3>(Flow<3>&, double, Interventions&);
 
 }  // namespace tailwater

@@ -49,6 +49,10 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions);
 template <int Dim>
 double bulk_divergence(Flow<Dim>& flow);
 
+/// The fluid's largest speed [m/s].
+template <int Dim>
+double largest_speed(const Flow<Dim>& flow);
+
 /// The largest allowed step [s] for the present velocities.
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow);

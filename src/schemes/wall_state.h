@@ -22,8 +22,4 @@ double hydrostatic_difference(const Flow<Dim>& flow, std::size_t k) {
   return flow.density * flow.pairs().r[k] * flow.gravity.dot(flow.pairs().e[k]);
 }
 
-/// Divergence of `velocity` at fluid particle i by the scheme's choice of operator.
-template <int Dim>
-double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity);
-
 }  // namespace tailwater

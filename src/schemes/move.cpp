@@ -1,0 +1,20 @@
+#include "base/for_each.h"
+#include "closures/wall_contact.h"
+#include "schemes/verbs.h"
+
+namespace tailwater {
+
+template <int Dim>
+void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
+  Particles<Dim>& particles = flow.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    particles.position[i] = flow.position_old[i] + 0.5 * dt * (flow.velocity_old[i] + particles.velocity[i]);
+  });
+  interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);
+}
+
+template void move<2>(Flow<2>&, double, Interventions&);
+template void move<3>(Flow<3>&, double, Interventions&);
+
+}  // namespace tailwater
