@@ -57,6 +57,51 @@ PCType preconditioner_type(PreconditionerName name, std::size_t unknowns) {
   return unknowns < multigrid_pays_from ? PCILU : PCHYPRE;
 }
 
+/// Type, preconditioner and the user's own options; what a solver of `unknowns` rows gets.
+void configure(KSP solver, const PressureSolverTable& settings, std::size_t unknowns) {
+  check_petsc(KSPSetOptionsPrefix(solver, "pressure_"));
+  check_petsc(KSPSetType(solver, krylov_type(settings.method, unknowns)));
+  PC preconditioner = nullptr;
+  check_petsc(KSPGetPC(solver, &preconditioner));
+  check_petsc(PCSetType(preconditioner, preconditioner_type(settings.preconditioner, unknowns)));
+  check_petsc(KSPSetPCSide(solver, PC_RIGHT));
+  check_petsc(KSPSetTolerances(solver, settings.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings.max_iterations));
+  check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
+  check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
+  check_petsc(KSPSetFromOptions(solver));
+}
+
+/// Throws InputError for options that neither a small nor a large solver asks for: PETSc itself ignores them in
+/// silence.
+void require_known_options(const PressureSolverTable& settings) {
+  PetscMatrix identity;
+  check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, 2, 2, 1, nullptr, identity.create()));
+  for (PetscInt i = 0; i < 2; ++i) check_petsc(MatSetValue(identity.get(), i, i, 1.0, INSERT_VALUES));
+  check_petsc(MatAssemblyBegin(identity.get(), MAT_FINAL_ASSEMBLY));
+  check_petsc(MatAssemblyEnd(identity.get(), MAT_FINAL_ASSEMBLY));
+  for (const std::size_t unknowns : {std::size_t{1}, multigrid_pays_from}) {
+    PetscKrylovSolver solver;
+    check_petsc(KSPCreate(PETSC_COMM_SELF, solver.create()));
+    check_petsc(KSPSetOperators(solver.get(), identity.get(), identity.get()));
+    configure(solver.get(), settings, unknowns);
+    check_petsc(KSPSetUp(solver.get()));
+  }
+  PetscInt count = 0;
+  char** names = nullptr;
+  char** values = nullptr;
+  check_petsc(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> unknown;
+  for (PetscInt k = 0; k < count; ++k) {
+    if (settings.petsc_options.find(names[k]) != std::string::npos) unknown.push_back(fmt::format("-{}", names[k]));
+  }
+  check_petsc(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  if (unknown.empty()) return;
+  throw InputError(fmt::format(
+      "pressure_solver.petsc_options = \"{}\": PETSc's solver asks for no option {}; give options of its KSP "
+      "and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\"",
+      settings.petsc_options, fmt::join(unknown, ", ")));
+}
+
 }  // namespace
 
 struct PressureSystem::Petsc {
@@ -71,7 +116,9 @@ struct PressureSystem::Petsc {
 PressureSystem::PressureSystem(const PressureSolverTable& settings)
     : settings_(settings), petsc_(std::make_unique<Petsc>()) {
   if (!settings_.petsc_options.empty()) {
+    const SuspendFpTraps suspended;
     check_petsc(PetscOptionsInsertString(nullptr, settings_.petsc_options.c_str()));
+    require_known_options(settings_);
   }
 }
 
@@ -169,17 +216,7 @@ SolveReport PressureSystem::solve(std::span<double> solution) {
   if (petsc.solver_size != size()) {
     check_petsc(KSPCreate(PETSC_COMM_SELF, petsc.solver.create()));
     petsc.solver_size = size();
-    KSP solver = petsc.solver.get();
-    check_petsc(KSPSetOptionsPrefix(solver, "pressure_"));
-    check_petsc(KSPSetType(solver, krylov_type(settings_.method, size())));
-    PC preconditioner = nullptr;
-    check_petsc(KSPGetPC(solver, &preconditioner));
-    check_petsc(PCSetType(preconditioner, preconditioner_type(settings_.preconditioner, size())));
-    check_petsc(KSPSetPCSide(solver, PC_RIGHT));
-    check_petsc(KSPSetTolerances(solver, settings_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings_.max_iterations));
-    check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
-    check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
-    check_petsc(KSPSetFromOptions(solver));
+    configure(petsc.solver.get(), settings_, size());
   }
   KSP solver = petsc.solver.get();
   check_petsc(KSPSetOperators(solver, petsc.matrix.get(), petsc.matrix.get()));

@@ -19,6 +19,7 @@ struct SolveReport {
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
 class PressureSystem {
  public:
+  /// Throws InputError for petsc_options that PETSc does not know.
   explicit PressureSystem(const PressureSolverTable& settings);
   ~PressureSystem();
   PressureSystem(const PressureSystem&) = delete;

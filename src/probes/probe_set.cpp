@@ -1,15 +1,9 @@
 #include "probes/probe_set.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
-#include <set>
 #include <utility>
 
-#include "base/error.h"
 #include "probes/front.h"
-#include "probes/places.h"
 #include "probes/point.h"
 #include "probes/wall_pressure.h"
 #include "probes/water_column.h"
@@ -62,33 +56,14 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
   return volume_reading<Dim>();
 }
 
-void require_file_name(const ProbeTable& probe) {
-  const bool is_sound = !probe.name.empty() && probe.name.front() != '.' &&
-                        std::all_of(probe.name.begin(), probe.name.end(), [](unsigned char c) {
-                          return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-                        });
-  if (!is_sound) {
-    throw InputError(
-        fmt::format("{}: its name becomes that of a file: use letters, digits, '_', '-' and '.'", label(probe)));
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::set<std::string> names;
   std::vector<Probe<Dim>> probes;
   for (const ProbeTable& table : spec.probes) {
-    require_file_name(table);
-    if (!names.insert(table.name).second) {
-      throw InputError(fmt::format("two probes are named '{}': rename one of them", table.name));
-    }
     Probe<Dim> probe{table.name, make_reading(table, spec, boundary), table.interval, table.times};
     std::sort(probe.times.begin(), probe.times.end());
-    if (table.type == ProbeType::profile && probe.times.empty()) {
-      throw InputError(fmt::format("{}: a profile needs times, as times = [0.5, 1.0]", label(table)));
-    }
     probes.push_back(std::move(probe));
   }
   return probes;

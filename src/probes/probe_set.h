@@ -20,8 +20,8 @@ struct Probe {
   std::vector<double> times;  ///< s, ascending; if any, they replace the interval
 };
 
-/// The case's probes, checked: throws InputError, which names the probe, for a place it cannot measure at, a name that
-/// is no file name or is used twice, and a profile without times.
+/// The case's probes. Throws InputError, which names the probe, for a place it cannot measure at; names and keys are
+/// checked when the case is read.
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

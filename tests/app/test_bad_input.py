@@ -34,6 +34,8 @@ TABLE = (
     BadInput("unknown parameter", ('unknown name "H"', "time.end"), ("end = 0.1", 'end = "2*H"')),
     BadInput("unknown scheme", ("scheme.name", '"farzin2014"', 'did you mean "farzin2014"?'),
              ("[time]", '[scheme]\nname = "farzin2015"\n[time]')),
+    BadInput("unknown option of PETSc", ("pressure_solver.petsc_options", "-pressure_ksp_typo", "-pressure_ksp_type"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_typo gmres"\n[time]')),
     BadInput("duplicate names of walls and fluids", ('"tank"', "taken"),
              ("[time]", '[[wall]]\nname = "tank"\npoints = [[4, 0], [4, 1]]\n[time]')),
     BadInput("duplicate names of probes", ('"energy"', "taken"), ('name = "depth"', 'name = "energy"')),
