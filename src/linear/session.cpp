@@ -6,7 +6,24 @@
 #include "base/fp_traps.h"
 #include "linear/petsc.h"
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace tailwater {
+namespace {
+
+/// MPI keeps what it allocates at its start until the process ends; the leak checker need not tell.
+struct IgnoreLeaks {
+#ifdef __SANITIZE_ADDRESS__
+  IgnoreLeaks() { __lsan_disable(); }
+  ~IgnoreLeaks() { __lsan_enable(); }
+#else
+  IgnoreLeaks() {}
+#endif
+};
+
+}  // namespace
 
 void check_petsc(PetscErrorCode code) {
   if (code == 0) return;
@@ -19,6 +36,7 @@ void check_petsc(PetscErrorCode code) {
 
 LinearSession::LinearSession() {
   const SuspendFpTraps suspended;
+  const IgnoreLeaks ignored;
   // Signals stay ours: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
   check_petsc(PetscInitializeNoArguments());
@@ -27,6 +45,7 @@ LinearSession::LinearSession() {
 
 LinearSession::~LinearSession() {
   const SuspendFpTraps suspended;
+  const IgnoreLeaks ignored;
   PetscFinalize();
 }
 
