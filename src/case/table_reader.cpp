@@ -78,15 +78,19 @@ void TableReader::coordinates(std::string_view key, Coordinates& value, std::str
   }
 }
 
+const toml::array* TableReader::list_at(std::string_view key, const toml::node* node, const std::string& wanted) {
+  if (node != nullptr && !node->is_array()) {
+    wrong(key, *node, wanted);
+  }
+  return node == nullptr ? nullptr : node->as_array();
+}
+
 void TableReader::points(std::string_view key, std::vector<Coordinates>& value, std::string_view unit,
                          std::string_view doc) {
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
-  if (node == nullptr) {
-    return;
-  }
-  const toml::array* list = node->as_array();
+  const toml::array* list =
+      list_at(key, node, fmt::format("give a list of points{}, such as [[0, 0], [1, 0]]", in_unit(unit)));
   if (list == nullptr) {
-    wrong(key, *node, fmt::format("give a list of points{}, such as [[0, 0], [1, 0]]", in_unit(unit)));
     return;
   }
   std::vector<Coordinates> given;
@@ -101,12 +105,9 @@ void TableReader::points(std::string_view key, std::vector<Coordinates>& value, 
 void TableReader::numbers(std::string_view key, std::vector<double>& value, std::string_view unit,
                           std::string_view doc) {
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
-  if (node == nullptr) {
-    return;
-  }
-  const toml::array* list = node->as_array();
+  const toml::array* list =
+      list_at(key, node, fmt::format("give a list of numbers{}, such as [0.5, 1.0]", in_unit(unit)));
   if (list == nullptr) {
-    wrong(key, *node, fmt::format("give a list of numbers{}, such as [0.5, 1.0]", in_unit(unit)));
     return;
   }
   if (auto given = elements(key, std::string(key), *list, unit)) {
@@ -117,12 +118,8 @@ void TableReader::numbers(std::string_view key, std::vector<double>& value, std:
 void TableReader::texts(std::string_view key, std::vector<std::string>& value,
                         std::span<const std::string_view> allowed, std::string_view doc) {
   const toml::node* node = find(key, doc, "", quoted_list(allowed), Presence::optional);
-  if (node == nullptr) {
-    return;
-  }
-  const toml::array* list = node->as_array();
+  const toml::array* list = list_at(key, node, fmt::format("give a list of any of {}", quoted_list(allowed)));
   if (list == nullptr) {
-    wrong(key, *node, fmt::format("give a list of any of {}", quoted_list(allowed)));
     return;
   }
   std::vector<std::string> given;

@@ -94,6 +94,9 @@ class TableReader {
   std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> names, std::string_view doc,
                                     Presence presence);
 
+  /// The list that a key was given; null if it was given nothing, or something else, which is reported: give `wanted`.
+  const toml::array* list_at(std::string_view key, const toml::node* node, const std::string& wanted);
+
   /// The number that a node of `key` stands for, if it is one.
   std::optional<double> evaluated(std::string_view key, std::string_view place, const toml::node& node,
                                   std::string_view unit);

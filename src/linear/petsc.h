@@ -3,7 +3,6 @@
 
 #include <petscksp.h>
 
-#include <string>
 #include <utility>
 
 namespace tailwater {

@@ -36,7 +36,6 @@ class Neighbourhood {
   /// All particles, ghosts included, as they were when the lists were made: search up to half a skin farther.
   const CellGrid<Dim>& grid() const { return grid_; }
   const Kernel<Dim>& kernel() const { return kernel_; }
-  double skin() const { return skin_; }
   std::size_t rebuilds() const { return rebuilds_; }
 
  private:

@@ -58,23 +58,23 @@ std::size_t count_fluid(const Particles<Dim>& particles) {
   return count;
 }
 
+/// The box around all walls; empty when there are none.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    for (const Vec<Dim>& corner : face.corners) box.extend(corner);
+  }
+  return box;
+}
+
 /// Fluid particles beyond the box around all walls: they are still computed, but left the case over its rim.
 template <int Dim>
-std::size_t count_outside(const Flow<Dim>& flow) {
-  if (flow.boundary.faces.empty()) return 0;
-  Vec<Dim> low = flow.boundary.faces[0].corners[0];
-  Vec<Dim> high = low;
-  for (const WallFace<Dim>& face : flow.boundary.faces) {
-    for (const Vec<Dim>& corner : face.corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  }
+std::size_t count_outside(const Eigen::AlignedBox<double, Dim>& box, const Particles<Dim>& particles) {
+  if (box.isEmpty()) return 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    const Vec<Dim>& x = flow.particles.position[i];
-    count += ((x - low).array() < 0.0).any() || ((x - high).array() > 0.0).any();
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    count += particles.is_fluid(i) && !box.contains(particles.position[i]);
   }
   return count;
 }
@@ -95,6 +95,7 @@ class Run {
       : spec_(spec),
         options_(options),
         flow_(spec),
+        walls_box_(box_around(flow_.boundary)),
         fluid_at_start_(count_fluid(flow_.particles)),
         probe_list_(make_probes<Dim>(spec, flow_.boundary)),
         folder_(make_folder(flow_, spec, options)),
@@ -163,7 +164,7 @@ class Run {
     // water.
     attempt([&] { report = advance(flow_, std::min(dt, spec_.time.end)); });
     const FlowMeasures measures = measure(flow_);
-    const std::size_t outside = count_outside(flow_);
+    const std::size_t outside = count_outside<Dim>(walls_box_, flow_.particles);
     warn_if_outside(outside);
     statistics_.add(report, measures, outside);
     step_log_.write(flow_.time, flow_.step, report, measures);
@@ -227,9 +228,9 @@ class Run {
   }
 
   void write_fields() {
-    const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
     if (last_fields_time_ == flow_.time && series_.size() > 0) return;
     last_fields_time_ = flow_.time;
+    const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
     series_.write(flow_.time, fields.view());
   }
 
@@ -274,6 +275,7 @@ class Run {
   const CaseSpec& spec_;
   const RunOptions& options_;
   Flow<Dim> flow_;
+  Eigen::AlignedBox<double, Dim> walls_box_;
   std::size_t fluid_at_start_;
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;

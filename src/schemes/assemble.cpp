@@ -12,7 +12,6 @@
 // Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
 // M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
 #include <algorithm>
-#include <cmath>
 
 #include "base/for_each.h"
 #include "operators/gradient_consistent.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/from_spec.h"
-#include "operators/concentration.h"
 
 namespace tailwater {
 namespace {
