@@ -24,6 +24,8 @@ enum class DivergenceKind { standard, consistent };
 enum class SurfaceTreatment { air, cone, farzin };
 enum class WallTreatment { dummies, pressure_rows };
 enum class ShiftingKind { none, lind, farzin };
+enum class DivergenceFree { start, midway };
+enum class Displacement { new_velocity, mean_velocity };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
 enum class PreconditionerName { automatic, ilu, boomeramg, gamg, jacobi };
@@ -98,6 +100,14 @@ struct Choices<WallTreatment> {
 template <>
 struct Choices<ShiftingKind> {
   static constexpr std::array<std::string_view, 3> names{"none", "lind", "farzin"};
+};
+template <>
+struct Choices<DivergenceFree> {
+  static constexpr std::array<std::string_view, 2> names{"start", "midway"};
+};
+template <>
+struct Choices<Displacement> {
+  static constexpr std::array<std::string_view, 2> names{"new-velocity", "mean-velocity"};
 };
 template <>
 struct Choices<KrylovMethod> {

@@ -13,9 +13,12 @@ void apply_formulation(SchemeTable& scheme) {
   scheme.divergence = DivergenceKind::consistent;
   scheme.surface = SurfaceTreatment::cone;
   scheme.walls = WallTreatment::pressure_rows;
+  scheme.divergence_free = DivergenceFree::start;
+  scheme.displacement = Displacement::mean_velocity;
   scheme.courant = is_explicit ? 0.05 : 0.12;
   scheme.artificial_viscosity = 0.20;
   scheme.viscosity_floor = 0.0;
+  scheme.noise_viscosity = 0.0;
   scheme.smagorinsky = 0.10;
   scheme.shifting = ShiftingKind::farzin;
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;

@@ -184,11 +184,15 @@ struct SchemeTable {
   SurfaceTreatment surface = SurfaceTreatment::air;
   WallTreatment walls = WallTreatment::dummies;
 
+  DivergenceFree divergence_free = DivergenceFree::midway;
+  Displacement displacement = Displacement::new_velocity;
+
   double courant = 0.25;
   double length = 0.0;
 
-  double artificial_viscosity = 0.02;
-  double viscosity_floor = 0.02;
+  double artificial_viscosity = 0.0;
+  double viscosity_floor = 0.0;
+  double noise_viscosity = 0.05;
   double smagorinsky = 0.0;
 
   ShiftingKind shifting = ShiftingKind::lind;
@@ -223,6 +227,11 @@ struct SchemeTable {
     v.choice("walls", self.walls,
              "Dummy particles behind the wall, as deep as the support, or one layer on it that carries pressure rows "
              "(formulation)");
+    v.choice("divergence_free", self.divergence_free,
+             "Where the explicit projection makes the velocity divergence-free: at the positions at the start of the "
+             "step (F18), or midway along the displacement, which is second order in time (formulation)");
+    v.choice("displacement", self.displacement,
+             "Velocity that moves the particles: the new one, or the mean of old and new (F17, F25) (formulation)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
              "alpha of the time-step rule (F40, F41) (formulation)");
     v.number("length", self.length, "m", Range::at_least(0.0),
@@ -231,6 +240,9 @@ struct SchemeTable {
              "c_a of nu_a = c_a |u| dx (F3) (formulation)");
     v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
              "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest (formulation)");
+    v.number("noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+             "Viscosity, as a multiple of dx times the speed of the time-step rule, for what a linear velocity field "
+             "does not explain of the difference between neighbours (formulation)");
     v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
              "c_s of the sub-particle stress (F4-F6); 0: no stress (formulation)");
     v.choice("shifting", self.shifting,

@@ -1,5 +1,6 @@
 #include "closures/free_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,9 @@ namespace {
 
 constexpr double air_concentration = 0.85;
 constexpr double near_surface_distance = 2.0;  // dx
+/// Mean concentrations between which a particle counts as more and more inside.
+constexpr double interior_begins = 0.94;
+constexpr double interior_is_full = 0.98;
 
 constexpr double cone_reach = 2.3;  // dx
 constexpr double cone_concentration = 0.95;
@@ -76,21 +80,42 @@ void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, st
 }
 
 template <int Dim>
-void find_near_surface(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                       std::span<const std::uint8_t> is_surface, std::span<std::uint8_t> is_near) {
+void find_interior(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> concentration,
+                   double W_0, std::span<double> interior) {
   for_each(pairs.owned(), [&](std::size_t i) {
-    is_near[i] = is_surface[i];
+    interior[i] = 0.0;
     if (!particles.is_fluid(i)) return;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i) && !is_near[i]; ++k) {
-      is_near[i] = is_surface[pairs.j[k]] && pairs.r[k] < near_surface_distance * spacing;
+    double sum = W_0 * concentration[i];
+    double weight = W_0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!particles.is_fluid(j)) continue;
+      sum += pairs.W[k] * concentration[j];
+      weight += pairs.W[k];
     }
+    const double step = std::clamp((sum / weight - interior_begins) / (interior_is_full - interior_begins), 0.0, 1.0);
+    interior[i] = step * step * (3.0 - 2.0 * step);
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                           \
-  template void find_free_surface<Dim>(SurfaceTreatment, const SurfaceInput<Dim>&, std::span<std::uint8_t>); \
-  template void find_near_surface<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double,                     \
-                                       std::span<const std::uint8_t>, std::span<std::uint8_t>);
+template <int Dim>
+void find_interior_by_marks(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                            std::span<const std::uint8_t> is_surface, std::span<double> interior) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    bool is_near = !particles.is_fluid(i) || is_surface[i];
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i) && !is_near; ++k) {
+      is_near = is_surface[pairs.j[k]] && pairs.r[k] < near_surface_distance * spacing;
+    }
+    interior[i] = is_near ? 0.0 : 1.0;
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                            \
+  template void find_free_surface<Dim>(SurfaceTreatment, const SurfaceInput<Dim>&, std::span<std::uint8_t>);  \
+  template void find_interior<Dim>(const Pairs<Dim>&, const Particles<Dim>&, std::span<const double>, double, \
+                                   std::span<double>);                                                        \
+  template void find_interior_by_marks<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double,                 \
+                                            std::span<const std::uint8_t>, std::span<double>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

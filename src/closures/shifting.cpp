@@ -52,7 +52,7 @@ int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
 
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
+                          const Particles<Dim>& particles, std::span<const double> interior,
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
@@ -62,11 +62,11 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
-    if (is_near_surface[i]) {
+    if (interior[i] < 1.0) {
       const double steepness = concentration_gradient[i].norm();
       if (steepness * law.spacing > 1e-3) {
         const Vec<Dim> normal = concentration_gradient[i] / steepness;
-        shift[i] -= shift[i].dot(normal) * normal;
+        shift[i] -= (1.0 - interior[i]) * shift[i].dot(normal) * normal;
       }
     }
     const double length = shift[i].norm();
@@ -76,10 +76,10 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                               \
-  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
-                                          const Particles<Dim>&, std::span<const std::uint8_t>,  \
-                                          std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&,                     \
+                                          const Particles<Dim>&, std::span<const double>, std::span<const Vec<Dim>>, \
+                                          std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -6,7 +6,8 @@
 //           Taylor-Green vortex dies of it; docs/theory/closures.md)
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
-// Both: no part along the free surface's normal within 2 dx of it, capped at a share of dx, nothing for particles with
+// Both: no part along the free surface's normal where `interior` (free_surface.h) is 0, all of it where
+// that is 1, capped at a share of dx, nothing for particles with
 // few neighbours. (F31) and (F32), the correction of u and p by their gradients, belong to the published scheme and is
 // done there.
 #pragma once
@@ -32,7 +33,7 @@ struct ShiftingLaw {
 /// were capped.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
+                          const Particles<Dim>& particles, std::span<const double> interior,
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
 
 }  // namespace tailwater

@@ -39,6 +39,27 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
 }
 
 template <int Dim>
+void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
+                         std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
+                         std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (!particles.is_fluid(j)) continue;
+      const Vec<Dim> difference = velocity[j] - velocity[i];
+      // r_j - r_i = -r e
+      Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
+      const double work = noise.dot(difference);
+      if (work < 0.0) noise -= work / difference.squaredNorm() * difference;
+      sum += morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * noise;
+    }
+    acceleration[i] += viscosity * sum;
+  });
+}
+
+template <int Dim>
 void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                               std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,
                               double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
@@ -66,6 +87,8 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
   template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&, double,    \
                                           std::span<const double>, std::span<const Vec<Dim>>,                         \
                                           std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                            \
+  template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
+                                         std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
   template void add_consistent_viscosity<Dim>(                                                                        \
       const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
       double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);

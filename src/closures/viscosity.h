@@ -34,6 +34,19 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
                           double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
                           std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
 
+/// Dissipation of noise only: the two-point viscous force between fluid particles, not of the velocity difference
+/// itself but of what a linear field does not explain of it,
+///
+///   d_ij = u_j - u_i - (grad u_i + grad u_j)/2 . (r_j - r_i),
+///
+/// less its part along u_j - u_i where that would add energy. It vanishes for linear fields and is of fourth order in
+/// the wave number of a smooth one. Pairs are antisymmetric: momentum is conserved, and energy never grows.
+/// `viscosity` [m^2/s] is one number for the whole flow; `gradient` [1/s] is needed on ghosts.
+template <int Dim>
+void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
+                         std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
+                         std::span<Vec<Dim>> acceleration);
+
 /// nu_i lap u by the consistent operator (F12), by its two-point fallback where that is unsound.
 template <int Dim>
 void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,

@@ -91,7 +91,8 @@ bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
   }
-  row.finish(sum + air, -flow.density / dt * divergence_at(flow, i, flow.u_star) + density_source(flow, i, dt));
+  row.finish(sum + air, -flow.density / dt * (divergence_at(flow, i, flow.u_star) - flow.target_divergence[i]) +
+                            density_source(flow, i, dt));
   return fell_back;
 }
 

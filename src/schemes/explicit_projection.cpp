@@ -10,7 +10,8 @@ StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
   report.passes = 1;
   remember(flow);
   locate(flow);
-  predict(flow, dt);                         // (F14)
+  predict(flow, dt);  // (F14)
+  aim(flow, dt);
   assemble(flow, dt, report.interventions);  // (F15)
   const SolveReport solved = solve(flow, report.interventions);
   correct(flow, dt);                              // (F16)

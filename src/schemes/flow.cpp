@@ -128,6 +128,11 @@ bool Flow<Dim>::uses_tensors() const {
 }
 
 template <int Dim>
+bool Flow<Dim>::uses_velocity_gradient() const {
+  return scheme.noise_viscosity > 0.0 || scheme.divergence_free == DivergenceFree::midway;
+}
+
+template <int Dim>
 FlowMeasures measure(const Flow<Dim>& flow) {
   FlowMeasures measures;
   const Particles<Dim>& particles = flow.particles;
@@ -140,7 +145,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.largest_speed = std::max(measures.largest_speed, speed_squared);
     measures.kinetic_energy += 0.5 * mass * speed_squared;
     measures.potential_energy -= mass * flow.gravity.dot(particles.position[i]);
-    if (i < flow.is_near_surface.size() && !flow.is_near_surface[i]) {
+    if (i < flow.interior.size() && flow.is_inside(i)) {
       const double error = flow.concentration[i] - 1.0;
       error_sum += error;
       error_squares += error * error;

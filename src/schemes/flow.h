@@ -2,6 +2,7 @@
 // correct, move, shift) read and write.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -78,20 +79,29 @@ struct Flow {
   std::vector<std::uint8_t> takes_part;       ///< fluid, and wet walls
   std::vector<Renormalisation<Dim>> tensors;  ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;
-  std::vector<std::uint8_t> is_near_surface;
+  std::vector<double> interior;  ///< 0 near the free surface, 1 inside (free_surface.h)
   // One step:
   std::vector<Vec<Dim>> position_old;  ///< r^n, owned
   std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
   std::vector<Vec<Dim>> u_star;        ///< predicted velocity without gravity
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
+  std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
+  std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> viscosity;
   std::vector<Mat<Dim>> stress;
   std::vector<Vec<Dim>> shift;
   std::vector<Vec<Dim>> shift_velocity;  ///< (F31)
   std::vector<double> shift_pressure;    ///< (F32)
 
+  /// Whether statistics of the bulk count particle i.
+  bool is_inside(std::size_t i) const { return particles.is_fluid(i) && interior[i] > 0.5; }
+  /// Viscosity [m^2/s] with which noise is dissipated while this is the largest speed.
+  double noise_viscosity(double speed) const {
+    return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
+  }
   bool uses_tensors() const;
+  bool uses_velocity_gradient() const;
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
 };
 

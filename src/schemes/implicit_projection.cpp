@@ -42,6 +42,7 @@ StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
   report.dt = dt;
   Particles<Dim>& particles = flow.particles;
   remember(flow);
+  flow.target_divergence.assign(particles.owned, 0.0);  // (F19)
   for (bool settled = false; !settled && report.passes < flow.scheme.max_passes; ++report.passes) {
     const auto pressure_before = owned_part(particles.pressure, particles.owned);
     const auto velocity_before = owned_part(particles.velocity, particles.owned);

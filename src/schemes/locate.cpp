@@ -16,7 +16,7 @@ void resize_geometry(Flow<Dim>& flow) {
   flow.takes_part.resize(count);
   if (flow.uses_tensors()) flow.tensors.resize(count);
   flow.is_surface.resize(count);
-  flow.is_near_surface.resize(count);
+  flow.interior.resize(count);
   flow.wall_mean.resize(count, Vec<Dim>::Zero());
   flow.u_star.resize(count, Vec<Dim>::Zero());
 }
@@ -50,13 +50,19 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   if (flow.uses_tensors()) {
     compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
   }
+  if (flow.scheme.surface == SurfaceTreatment::air) {
+    halo.exchange(flow.concentration);
+    find_interior<Dim>(pairs, particles, flow.concentration, flow.W_0, flow.interior);
+  }
   if (keep_marks) return;
   find_free_surface<Dim>(flow.scheme.surface,
                          {pairs, particles, flow.concentration, flow.concentration_gradient, flow.tensors, flow.spacing,
                           flow.lattice.concentration, flow.W_0},
                          flow.is_surface);
   halo.exchange(flow.is_surface);
-  find_near_surface<Dim>(pairs, particles, flow.spacing, flow.is_surface, flow.is_near_surface);
+  if (flow.scheme.surface != SurfaceTreatment::air) {
+    find_interior_by_marks<Dim>(pairs, particles, flow.spacing, flow.is_surface, flow.interior);
+  }
 }
 
 template void locate<2>(Flow<2>&, bool);

@@ -9,7 +9,10 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    particles.position[i] = flow.position_old[i] + 0.5 * dt * (flow.velocity_old[i] + particles.velocity[i]);
+    const Vec<Dim> velocity = flow.scheme.displacement == Displacement::mean_velocity
+                                  ? Vec<Dim>(0.5 * (flow.velocity_old[i] + particles.velocity[i]))
+                                  : particles.velocity[i];
+    particles.position[i] = flow.position_old[i] + dt * velocity;
   });
   interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);
 }

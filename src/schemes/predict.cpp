@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "closures/smagorinsky.h"
+#include "operators/gradient_corrected.h"
 #include "schemes/verbs.h"
 #include "schemes/wall_state.h"
 
@@ -29,6 +30,20 @@ void predict(Flow<Dim>& flow, double dt) {
     add_morris_viscosity<Dim>(pairs, particles, flow.walls, flow.spacing, flow.viscosity, particles.velocity,
                               flow.wall_mean, flow.acceleration);
   }
+  if (flow.uses_velocity_gradient()) {
+    flow.velocity_gradient.resize(particles.size());
+    for_each(particles.owned, [&](std::size_t i) {
+      flow.velocity_gradient[i] = particles.is_fluid(i)
+                                      ? corrected_gradient<Dim>(pairs, i, particles.volume, flow.takes_part,
+                                                                std::span<const Vec<Dim>>(particles.velocity))
+                                      : Mat<Dim>(Mat<Dim>::Zero());
+    });
+    flow.neighbourhood.halo().exchange(flow.velocity_gradient);
+  }
+  if (flow.scheme.noise_viscosity > 0.0) {
+    add_noise_viscosity<Dim>(pairs, particles, flow.spacing, flow.noise_viscosity(largest_speed(flow)),
+                             particles.velocity, flow.velocity_gradient, flow.acceleration);
+  }
   if (flow.scheme.smagorinsky > 0.0) {
     flow.stress.resize(particles.size());
     sub_particle_stress<Dim>(pairs, particles, flow.scheme.smagorinsky, flow.spacing, particles.velocity, flow.stress);
@@ -41,6 +56,18 @@ void predict(Flow<Dim>& flow, double dt) {
   update_wall_velocity(flow, flow.u_star);
 }
 
+template <int Dim>
+void aim(Flow<Dim>& flow, double dt) {
+  flow.target_divergence.assign(flow.particles.owned, 0.0);
+  if (flow.scheme.divergence_free != DivergenceFree::midway) return;
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    const Mat<Dim>& gradient = flow.velocity_gradient[i];
+    flow.target_divergence[i] = 0.5 * dt * (gradient * gradient).trace();
+  });
+}
+
+template void aim<2>(Flow<2>&, double);
+template void aim<3>(Flow<3>&, double);
 template void remember<2>(Flow<2>&);
 template void remember<3>(Flow<3>&);
 template void predict<2>(Flow<2>&, double);

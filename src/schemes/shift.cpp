@@ -14,7 +14,7 @@ void carry_fields_along(Flow<Dim>& flow) {
   flow.shift_velocity.assign(particles.owned, Vec<Dim>::Zero());
   flow.shift_pressure.assign(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (!particles.is_fluid(i) || flow.is_near_surface[i] || !flow.tensors[i].gradient_is_sound()) return;
+    if (!particles.is_fluid(i) || flow.interior[i] < 1.0 || !flow.tensors[i].gradient_is_sound()) return;
     const Mat<Dim>& B1 = flow.tensors[i].B1;
     flow.shift_velocity[i] = consistent_gradient<Dim>(flow.pairs(), i, B1, particles.volume, flow.takes_part,
                                                       std::span<const Vec<Dim>>(velocity)) *
@@ -37,7 +37,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
   flow.shift.resize(particles.owned);
   interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
-                                                    flow.is_near_surface, flow.concentration_gradient, flow.shift);
+                                                    flow.interior, flow.concentration_gradient, flow.shift);
   if (flow.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow);
   for_each(particles.owned, [&](std::size_t i) { particles.position[i] += flow.shift[i]; });
   interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);

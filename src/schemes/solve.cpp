@@ -7,13 +7,13 @@
 namespace tailwater {
 namespace {
 
-/// p >= 0 near the surface, where suction would tear particles together (method.md 6: without it a run dies at the
-/// first impact). The bulk keeps its sign.
+/// Suction only where the fluid is whole: a negative pressure is cut to its share `interior`, 0 in the outermost rows,
+/// where nothing holds the particles together (docs/theory/robustness.md), all of it inside. Returns how many were cut.
 template <int Dim>
-std::size_t clamp_near_surface(Flow<Dim>& flow) {
+std::size_t limit_suction(Flow<Dim>& flow) {
   return count_each(flow.particles.owned, [&](std::size_t i) {
-    if (!flow.particles.is_fluid(i) || !flow.is_near_surface[i] || flow.particles.pressure[i] >= 0.0) return false;
-    flow.particles.pressure[i] = 0.0;
+    if (!flow.particles.is_fluid(i) || flow.interior[i] == 1.0 || flow.particles.pressure[i] >= 0.0) return false;
+    flow.particles.pressure[i] *= flow.interior[i];
     return true;
   });
 }
@@ -42,7 +42,7 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   const SolveReport report = flow.pressure_system.solve(std::span(pressure).first(flow.particles.owned));
   const Halo<Dim>& halo = flow.neighbourhood.halo();
   if (flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed) {
-    interventions.clamped_pressures += clamp_near_surface(flow);
+    interventions.clamped_pressures += limit_suction(flow);
     halo.exchange(pressure);
     if (flow.walls.treatment == WallTreatment::dummies) refresh_dummies(flow);
   }

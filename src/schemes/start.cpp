@@ -13,6 +13,7 @@ void start(Flow<Dim>& flow) {
   if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either
   Interventions ignored;
   predict(flow, dt);
+  aim(flow, dt);
   assemble(flow, dt, ignored);
   solve(flow, ignored);
 }

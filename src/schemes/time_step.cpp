@@ -17,7 +17,7 @@ double largest_speed(const Flow<Dim>& flow) {
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow) {
   const double speed = largest_speed(flow);
-  return flow.time_step_rule.largest(speed, flow.viscosity_law.at_speed(speed));
+  return flow.time_step_rule.largest(speed, flow.viscosity_law.at_speed(speed) + flow.noise_viscosity(speed));
 }
 
 template double largest_speed<2>(const Flow<2>&);

@@ -27,7 +27,7 @@ double bulk_divergence(Flow<Dim>& flow) {
   double squares = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i) || flow.is_near_surface[i]) continue;
+    if (!flow.is_inside(i)) continue;
     const double divergence = divergence_at(flow, i, flow.particles.velocity);
     squares += divergence * divergence;
     ++count;

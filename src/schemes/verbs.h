@@ -25,6 +25,13 @@ void remember(Flow<Dim>& flow);
 template <int Dim>
 void predict(Flow<Dim>& flow, double dt);
 
+/// What the pressure equation shall leave of div u at its positions. Nothing as published (F18); with
+/// `divergence_free = "midway"` the divergence dt/2 tr(grad u . grad u) that the same motion loses on the first half of
+/// its way, so that the velocity is divergence-free there: second order in time, where (F18) loses the energy
+/// dt |grad p|^2/rho per unit volume and time (docs/theory/robustness.md). Needs `predict`.
+template <int Dim>
+void aim(Flow<Dim>& flow, double dt);
+
 /// (F15), (F22): lap p = rho/dt div u_star, one row per particle: fluid, surface, wall.
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
@@ -37,7 +44,7 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt);
 
-/// (F17), (F25): r = r^n + dt/2 (u^n + u); nobody passes a wall.
+/// r = r^n + dt u, or as published (F17), (F25): r = r^n + dt/2 (u^n + u); nobody passes a wall.
 template <int Dim>
 void move(Flow<Dim>& flow, double dt, Interventions& interventions);
 

@@ -93,9 +93,12 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.divergence = DivergenceKind::consistent;
   expected.surface = SurfaceTreatment::cone;
   expected.walls = WallTreatment::pressure_rows;
+  expected.divergence_free = DivergenceFree::start;
+  expected.displacement = Displacement::mean_velocity;
   expected.courant = 0.5;
   expected.artificial_viscosity = 0.20;
   expected.viscosity_floor = 0.0;
+  expected.noise_viscosity = 0.0;
   expected.smagorinsky = 0.10;
   expected.shifting = ShiftingKind::farzin;
   expected.shifting_strength = 0.10;

@@ -47,7 +47,7 @@ struct Marks {
             make_kernel<Dim>(test == SurfaceTreatment::farzin ? KernelName::farzin : KernelName::wendland_c2, 3.0 * dx),
             dx, std::move(domain)),
         is_surface(set.size()),
-        is_near(set.size()) {
+        interior(set.size()) {
     const ConsistentOperators<Dim> operators(set);
     const Kernel<Dim>& kernel = set.neighbourhood.kernel();
     const double W_0 = kernel_value(kernel, 0.0);
@@ -61,12 +61,17 @@ struct Marks {
     find_free_surface<Dim>(test, {set.pairs(), set.particles, filling, gradient, operators.tensors, dx, C_0, W_0},
                            is_surface);
     set.neighbourhood.halo().exchange(is_surface);
-    find_near_surface<Dim>(set.pairs(), set.particles, dx, is_surface, is_near);
+    if (test == SurfaceTreatment::air) {
+      set.neighbourhood.halo().exchange(filling);
+      find_interior<Dim>(set.pairs(), set.particles, filling, W_0, interior);
+    } else {
+      find_interior_by_marks<Dim>(set.pairs(), set.particles, dx, is_surface, interior);
+    }
   }
 
   ParticleSet<Dim> set;
   std::vector<std::uint8_t> is_surface;
-  std::vector<std::uint8_t> is_near;
+  std::vector<double> interior;
 };
 
 template <int Dim>
@@ -87,15 +92,15 @@ TYPED_TEST(FreeSurfaceTest, MarksTheOutermostRowsAndNothingElse) {
   }
 }
 
-TYPED_TEST(FreeSurfaceTest, NearSurfaceReachesTwoSpacings) {
+TYPED_TEST(FreeSurfaceTest, TheInteriorBeginsBelowTwoRows) {
   constexpr int Dim = TypeParam::value;
   for (const SurfaceTreatment test : tests_for<Dim>()) {
     const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
     for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
       const int row = row_of(marks.set.position(i)[1]);
       const int depth = std::min(row, rows - 1 - row);
-      if (depth == 2) continue;  // exactly 2 dx away: rounding decides
-      EXPECT_EQ(marks.is_near[i] != 0, depth < 2) << name_of(test) << ", depth " << depth;
+      if (depth == 2) continue;  // by marks: exactly 2 dx away, rounding decides; by concentration: on the step
+      EXPECT_EQ(marks.interior[i], depth < 2 ? 0.0 : 1.0) << name_of(test) << ", depth " << depth;
     }
   }
 }
@@ -122,7 +127,7 @@ TYPED_TEST(FreeSurfaceTest, SprayIsSurface) {
     const Marks<Dim> marks(test, fluid_at<Dim>(spray, dx), {});
     for (std::size_t i = 0; i < spray.size(); ++i) {
       EXPECT_TRUE(marks.is_surface[i]) << name_of(test);
-      EXPECT_TRUE(marks.is_near[i]) << name_of(test);
+      EXPECT_EQ(marks.interior[i], 0.0) << name_of(test);
     }
   }
 }

@@ -31,8 +31,8 @@ struct Shifted {
     for (std::size_t i = 0; i < set.size(); ++i) {
       gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
     }
-    const std::vector<std::uint8_t> near(set.size(), is_near_surface);
-    capped = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, near, gradient, shift);
+    const std::vector<double> interior(set.size(), is_near_surface ? 0.0 : 1.0);
+    capped = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, interior, gradient, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {

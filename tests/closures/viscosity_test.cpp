@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "operators/gradient_corrected.h"
 #include "operators/laplacian_morris.h"
 #include "support/dimensions.h"
 #include "support/tensors.h"
@@ -65,6 +66,57 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   EXPECT_LT(force.norm(), round_off);
   EXPECT_NEAR(power, pair_power, 2.0 * round_off);  // |u| < 2
   EXPECT_LT(power, 0.0);
+}
+
+TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = block<Dim>();
+  Noise noise(43);
+  const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
+  // Any gradients, right or wrong: what the limiter promises does not depend on them.
+  std::vector<Mat<Dim>> gradient(set.size());
+  for (Mat<Dim>& entry : gradient) {
+    for (int a = 0; a < Dim; ++a) entry.row(a) = 20.0 * noise.vector<Dim>().transpose();
+  }
+  std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
+  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, acceleration);
+  Vec<Dim> force = Vec<Dim>::Zero();
+  double forces = 0.0;
+  double power = 0.0;
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+    force += acceleration[i];
+    forces += acceleration[i].norm();
+    power += acceleration[i].dot(velocity[i]);
+  }
+  EXPECT_LT(force.norm(), 300.0 * eps * forces);  // some 100 terms per particle, each rounded a few times
+  EXPECT_LT(power, 0.0);
+}
+
+TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
+  constexpr int Dim = TypeParam::value;
+  constexpr int edge = Dim == 2 ? 14 : 10;
+  const ParticleSet<Dim> set(jittered_cube<Dim>(edge, dx, 0.3), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx),
+                             dx);
+  const Mat<Dim> slope = 3.0 * Mat<Dim>::Identity() + Mat<Dim>::Ones();
+  const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(slope * x); });
+  const std::vector<std::uint8_t> takes_part(set.size(), 1);
+  std::vector<Mat<Dim>> gradient(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    gradient[i] =
+        corrected_gradient<Dim>(set.pairs(), i, set.particles.volume, takes_part, std::span<const Vec<Dim>>(velocity));
+  }
+  std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
+  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, acceleration);
+  // Where the support is whole the gradient is exact; a neighbour's must be too, so two supports from the edge.
+  const double inside = (0.5 * edge - 0.5 - 3.3) * dx;
+  const double unit = slope.norm() * 0.1 / (dx * dx) * dx;  // nu u/dx^2 with |u| = slope dx
+  std::size_t tested = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set.position(i).cwiseAbs().maxCoeff() > inside) continue;
+    ++tested;
+    EXPECT_LT(acceleration[i].norm(), 1e4 * eps * unit);
+  }
+  EXPECT_GT(tested, 0u);
 }
 
 TYPED_TEST(ViscosityTest, LeavesAUniformVelocityAlone) {

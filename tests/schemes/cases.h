@@ -20,6 +20,7 @@ inline CaseSpec free_case(double spacing) {
   spec.physics.viscosity = 0.0;
   spec.scheme.artificial_viscosity = 0.0;
   spec.scheme.viscosity_floor = 0.0;
+  spec.scheme.noise_viscosity = 0.0;
   return spec;
 }
 
