@@ -131,27 +131,35 @@ void PressureSystem::set_pattern(std::span<const std::size_t> row_begin, std::sp
   pattern_begin_.assign(row_begin.begin(), row_begin.end());
   csr_begin_.resize(rows + 1);
   csr_column_.resize(entries);
-  csr_value_.assign(entries, 0.0);
+  csr_value_.resize(entries);
   slot_.resize(columns.size());
   diagonal_slot_.resize(rows);
   rhs_.assign(rows, 0.0);
   scale_.assign(rows, 1.0);
 
-  std::vector<std::pair<int, int>> row;  // column and place in the pattern, -1 for the diagonal
+  std::vector<std::size_t> by_column;
   csr_begin_[0] = 0;
   for (std::size_t i = 0; i < rows; ++i) {
-    row.clear();
-    row.emplace_back(static_cast<int>(i), -1);
-    for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) {
-      row.emplace_back(columns[k], static_cast<int>(k));
-    }
-    std::sort(row.begin(), row.end());
+    const auto diagonal = static_cast<std::int32_t>(i);
     int slot = csr_begin_[i];
-    for (const auto& [column, place] : row) {
-      csr_column_[slot] = column;
-      (place < 0 ? diagonal_slot_[i] : slot_[place]) = slot;
-      ++slot;
+    diagonal_slot_[i] = -1;
+    const auto take = [&](std::size_t k) {
+      if (diagonal_slot_[i] < 0 && columns[k] > diagonal) diagonal_slot_[i] = slot++;
+      csr_column_[slot] = columns[k];
+      slot_[k] = slot++;
+    };
+    const auto row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
+    if (std::is_sorted(row.begin(), row.end())) {
+      for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) take(k);
+    } else {
+      by_column.resize(row.size());
+      std::iota(by_column.begin(), by_column.end(), row_begin[i]);
+      std::sort(by_column.begin(), by_column.end(),
+                [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
+      for (const std::size_t k : by_column) take(k);
     }
+    if (diagonal_slot_[i] < 0) diagonal_slot_[i] = slot++;
+    csr_column_[diagonal_slot_[i]] = diagonal;
     csr_begin_[i + 1] = slot;
   }
 }
