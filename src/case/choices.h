@@ -26,7 +26,7 @@ enum class WallTreatment { dummies, pressure_rows };
 enum class ShiftingKind { none, lind, farzin };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
-enum class PreconditionerName { automatic, ilu, boomeramg, gamg, jacobi };
+enum class PreconditionerName { automatic, ssor, ilu, boomeramg, gamg, jacobi };
 
 enum class ProbeType {
   depth,
@@ -105,7 +105,7 @@ struct Choices<KrylovMethod> {
 };
 template <>
 struct Choices<PreconditionerName> {
-  static constexpr std::array<std::string_view, 5> names{"auto", "ilu", "boomeramg", "gamg", "jacobi"};
+  static constexpr std::array<std::string_view, 6> names{"auto", "ssor", "ilu", "boomeramg", "gamg", "jacobi"};
 };
 template <>
 struct Choices<ProbeType> {
