@@ -28,7 +28,7 @@ enum class DivergenceFree { start, midway };
 enum class Displacement { new_velocity, mean_velocity };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
-enum class PreconditionerName { automatic, ilu, boomeramg, gamg, jacobi };
+enum class PreconditionerName { automatic, ssor, ilu, boomeramg, gamg, jacobi };
 
 enum class ProbeType {
   depth,
@@ -115,7 +115,7 @@ struct Choices<KrylovMethod> {
 };
 template <>
 struct Choices<PreconditionerName> {
-  static constexpr std::array<std::string_view, 5> names{"auto", "ilu", "boomeramg", "gamg", "jacobi"};
+  static constexpr std::array<std::string_view, 6> names{"auto", "ssor", "ilu", "boomeramg", "gamg", "jacobi"};
 };
 template <>
 struct Choices<ProbeType> {

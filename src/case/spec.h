@@ -270,7 +270,7 @@ struct SchemeTable {
 struct PressureSolverTable {
   KrylovMethod method = KrylovMethod::automatic;
   PreconditionerName preconditioner = PreconditionerName::automatic;
-  double tolerance = 1e-5;
+  double tolerance = 1e-4;
   int max_iterations = 500;
   std::string petsc_options;
 

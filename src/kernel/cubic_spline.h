@@ -1,7 +1,9 @@
 // Cubic spline on a support R = 2h (Monaghan & Lattanzio 1985; B5): with s = r/h,
-// W = c (1 - 3/2 s^2 + 3/4 s^3) for s < 1, c/4 (2 - s)^3 for s < 2.
+// W = c (1 - 3/2 s^2 + 3/4 s^3) for s < 1, c/4 (2 - s)^3 for s < 2; in one piece, c/4 [(2 - s)+^3 - 4 (1 - s)+^3], x+
+// the larger of x and 0.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/vec.h"
@@ -16,19 +18,16 @@ struct CubicSpline {
 
   double value(double r) const {
     const double s = 2.0 * r / radius;
-    if (s >= 2.0) return 0.0;
-    if (s < 1.0) return scale * (1.0 + s * s * (0.75 * s - 1.5));
-    const double a = 2.0 - s;
-    return 0.25 * scale * a * a * a;
+    const double a = std::max(0.0, 2.0 - s);
+    const double b = std::max(0.0, 1.0 - s);
+    return 0.25 * scale * (a * a * a - 4.0 * b * b * b);
   }
 
   double derivative(double r) const {
     const double s = 2.0 * r / radius;
-    if (s >= 2.0) return 0.0;
-    const double scale_over_h = 2.0 * scale / radius;
-    if (s < 1.0) return scale_over_h * s * (2.25 * s - 3.0);
-    const double a = 2.0 - s;
-    return -0.75 * scale_over_h * a * a;
+    const double a = std::max(0.0, 2.0 - s);
+    const double b = std::max(0.0, 1.0 - s);
+    return -1.5 * scale / radius * (a * a - 4.0 * b * b);
   }
 
   double radius;

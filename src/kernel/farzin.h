@@ -2,6 +2,7 @@
 // 2D; in 3D the integral 4 pi R^3 (1/3 - 1/2 + 1/5) = 2 pi R^3/15 gives s = 15/(2 pi R^3).
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/vec.h"
@@ -14,14 +15,11 @@ struct FarzinKernel {
       : radius(support_radius), scale((Dim == 2 ? 6.0 : 7.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
 
   double value(double r) const {
-    const double q = r / radius;
-    return q < 1.0 ? scale * (1.0 - q) * (1.0 - q) : 0.0;
+    const double a = std::max(0.0, 1.0 - r / radius);
+    return scale * a * a;
   }
 
-  double derivative(double r) const {
-    const double q = r / radius;
-    return q < 1.0 ? -2.0 * scale / radius * (1.0 - q) : 0.0;
-  }
+  double derivative(double r) const { return -2.0 * scale / radius * std::max(0.0, 1.0 - r / radius); }
 
   double radius;
   double scale;

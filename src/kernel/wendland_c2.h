@@ -2,6 +2,7 @@
 // pairing. Wendland (1995); Dehnen & Aly (2012), table 1.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/vec.h"
@@ -15,15 +16,13 @@ struct WendlandC2 {
 
   double value(double r) const {
     const double q = r / radius;
-    if (q >= 1.0) return 0.0;
-    const double a = 1.0 - q;
+    const double a = std::max(0.0, 1.0 - q);
     return scale * a * a * a * a * (1.0 + 4.0 * q);
   }
 
   double derivative(double r) const {
     const double q = r / radius;
-    if (q >= 1.0) return 0.0;
-    const double a = 1.0 - q;
+    const double a = std::max(0.0, 1.0 - q);
     return -20.0 * scale / radius * q * a * a * a;
   }
 

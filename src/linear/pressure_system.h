@@ -13,7 +13,7 @@ namespace tailwater {
 
 struct SolveReport {
   int iterations = 0;
-  double residual = 0.0;  ///< |b - A x| / |b|, rows scaled
+  double residual = 0.0;  ///< |b - A x| / |b|, rows scaled, computed from x
 };
 
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
@@ -62,6 +62,7 @@ class PressureSystem {
  private:
   struct Petsc;
   void make_rhs_consistent();
+  double residual_norm(std::span<const double> solution) const;
 
   PressureSolverTable settings_;
   std::unique_ptr<Petsc> petsc_;

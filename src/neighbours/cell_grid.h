@@ -22,9 +22,6 @@ class CellGrid {
 
   double cell_size() const { return cell_size_; }
 
-  /// Particle indices cell by cell, first coordinate fastest: the cache-friendly order.
-  std::span<const std::int32_t> order() const { return order_; }
-
   /// Calls body(j) for every particle in the cells around `place`: all within cell_size(), and some beyond.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {

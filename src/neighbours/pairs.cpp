@@ -8,36 +8,56 @@ namespace tailwater {
 
 template <int Dim>
 void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, double least_distance,
-                    Pairs<Dim>& pairs) {
-  const std::size_t count = pairs.j.size();
-  pairs.e.resize(count);
-  pairs.r.resize(count);
-  pairs.W.resize(count);
-  pairs.dW.resize(count);
+                    const NeighbourList& list, Pairs<Dim>& pairs) {
+  const std::size_t rows = list.row_begin.size() - 1;
+  pairs.row_begin.resize(rows + 1);
+  pairs.j.resize(list.j.size());
+  pairs.e.resize(list.j.size());
+  pairs.r.resize(list.j.size());
+
+  // Rows are packed one behind the other, so this loop goes in order. It keeps by overwriting: whether a candidate is
+  // within the support is a coin toss that no processor predicts.
+  const double radius = kernel_radius(kernel);
+  const double radius_squared = radius * radius;
+  const double least_squared = least_distance * least_distance;
+  std::size_t n = 0;
+  pairs.row_begin[0] = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Vec<Dim> r_i = position[i];
+    for (std::size_t k = list.row_begin[i]; k < list.row_begin[i + 1]; ++k) {
+      const std::int32_t j = list.j[k];
+      Vec<Dim> r_ij = r_i - position[j];
+      double squared = r_ij.squaredNorm();
+      if (squared <= least_squared) [[unlikely]] {
+        squared = least_squared;
+        r_ij = (static_cast<std::size_t>(j) > i ? least_distance : -least_distance) * Vec<Dim>::UnitX();
+      }
+      pairs.j[n] = j;
+      pairs.e[n] = r_ij;
+      pairs.r[n] = squared;
+      n += squared < radius_squared;
+    }
+    pairs.row_begin[i + 1] = n;
+  }
+  pairs.j.resize(n);
+  pairs.e.resize(n);
+  pairs.r.resize(n);
+  pairs.W.resize(n);
+  pairs.dW.resize(n);
+
   std::visit(
       [&](const auto& chosen) {
-        for_each(pairs.owned(), [&](std::size_t i) {
-          for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-            const Vec<Dim> r_ij = position[i] - position[pairs.j[k]];
-            const double squared = r_ij.squaredNorm();
-            if (squared > least_distance * least_distance) {
-              const double r = std::sqrt(squared);
-              pairs.r[k] = r;
-              pairs.e[k] = r_ij / r;
-            } else {
-              pairs.r[k] = least_distance;
-              const double sign = static_cast<std::size_t>(pairs.j[k]) > i ? 1.0 : -1.0;
-              pairs.e[k] = sign * Vec<Dim>::UnitX();
-            }
-            pairs.W[k] = chosen.value(pairs.r[k]);
-            pairs.dW[k] = chosen.derivative(pairs.r[k]);
-          }
+        for_each(n, [r = pairs.r.data(), W = pairs.W.data(), dW = pairs.dW.data(), kernel = chosen](std::size_t k) {
+          r[k] = std::sqrt(r[k]);
+          W[k] = kernel.value(r[k]);
+          dW[k] = kernel.derivative(r[k]);
         });
       },
       kernel);
+  for_each(n, [&](std::size_t k) { pairs.e[k] /= pairs.r[k]; });
 }
 
-template void evaluate_pairs<2>(const Kernel<2>&, std::span<const Vec<2>>, double, Pairs<2>&);
-template void evaluate_pairs<3>(const Kernel<3>&, std::span<const Vec<3>>, double, Pairs<3>&);
+template void evaluate_pairs<2>(const Kernel<2>&, std::span<const Vec<2>>, double, const NeighbourList&, Pairs<2>&);
+template void evaluate_pairs<3>(const Kernel<3>&, std::span<const Vec<3>>, double, const NeighbourList&, Pairs<3>&);
 
 }  // namespace tailwater

@@ -11,8 +11,8 @@
 
 namespace tailwater {
 
-/// Row i holds the neighbours of owned particle i: entries row_begin[i] .. row_begin[i + 1] of the arrays below.
-/// Entries may lie beyond the support (the list has a skin); their W and dW are 0.
+/// Row i holds the neighbours of owned particle i, all nearer than the support: entries row_begin[i] ..
+/// row_begin[i + 1] of the arrays below.
 template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
@@ -27,10 +27,16 @@ struct Pairs {
   std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
 };
 
-/// Fills e, r, W and dW for the positions given. Two particles at one place get r = `least_distance` and an arbitrary
-/// but fixed direction, so that they can part again.
+/// Who may come within the support of owned particle i while the list is valid: j[row_begin[i]] .. j[row_begin[i + 1]].
+struct NeighbourList {
+  std::vector<std::size_t> row_begin{0};  ///< owned + 1 entries
+  std::vector<std::int32_t> j;            ///< owned or ghost, ascending in each row
+};
+
+/// Makes the pairs of those in the list that are within the support at the positions given, in the list's order. Two
+/// particles at one place get r = `least_distance` and an arbitrary but fixed direction, so that they can part again.
 template <int Dim>
 void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, double least_distance,
-                    Pairs<Dim>& pairs);
+                    const NeighbourList& list, Pairs<Dim>& pairs);
 
 }  // namespace tailwater

@@ -26,12 +26,7 @@ void resize_geometry(Flow<Dim>& flow) {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks) {
   Particles<Dim>& particles = flow.particles;
-  if (flow.neighbourhood.update(particles)) {
-    const Pairs<Dim>& pairs = flow.pairs();
-    std::vector<std::int32_t> columns(pairs.j);
-    for (std::int32_t& column : columns) column = flow.neighbourhood.halo().owner(column);
-    flow.pressure_system.set_pattern(pairs.row_begin, columns);
-  }
+  flow.neighbourhood.update(particles);
   resize_geometry(flow);
   const Pairs<Dim>& pairs = flow.pairs();
   const Halo<Dim>& halo = flow.neighbourhood.halo();

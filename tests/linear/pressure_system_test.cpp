@@ -84,8 +84,8 @@ TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
   const double tolerance = 1e-10;
   for (const KrylovMethod method :
        {KrylovMethod::automatic, KrylovMethod::bicgstab, KrylovMethod::gmres, KrylovMethod::fgmres}) {
-    for (const PreconditionerName preconditioner :
-         {PreconditionerName::automatic, PreconditionerName::ilu, PreconditionerName::jacobi}) {
+    for (const PreconditionerName preconditioner : {PreconditionerName::automatic, PreconditionerName::ssor,
+                                                    PreconditionerName::ilu, PreconditionerName::jacobi}) {
       PressureSolverTable settings = solver_settings(tolerance);
       settings.method = method;
       settings.preconditioner = preconditioner;

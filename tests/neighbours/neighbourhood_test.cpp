@@ -93,7 +93,7 @@ TYPED_TEST(NeighbourhoodTest, RowsEqualBruteForce) {
   Particles<Dim> particles = random_fluid<Dim>(400, 1);
   auto neighbourhood = make_neighbourhood<Dim>();
   EXPECT_TRUE(neighbourhood.update(particles));
-  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius + skin);
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius);
 }
 
 TYPED_TEST(NeighbourhoodTest, ListsServeUntilSomeoneMovedHalfTheSkin) {
@@ -117,7 +117,7 @@ TYPED_TEST(NeighbourhoodTest, ListsServeUntilSomeoneMovedHalfTheSkin) {
     particles.position[7] += 0.501 * skin * Vec<Dim>::UnitX();
     EXPECT_TRUE(neighbourhood.update(particles));
     EXPECT_EQ(neighbourhood.rebuilds(), 2u);
-    if (periodic == 0) expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius + skin);
+    if (periodic == 0) expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
   }
 }
 
@@ -130,7 +130,7 @@ TYPED_TEST(NeighbourhoodTest, PeriodicGhostsGiveTheMinimumImage) {
     for (std::size_t i = 0; i < particles.owned; ++i) particles.pressure[i] = static_cast<double>(i);
     auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, domain);
     neighbourhood.update(particles);
-    expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius + skin);
+    expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
     for (std::size_t g = particles.owned; g < particles.size(); ++g) {
       const auto i = neighbourhood.halo().owner(static_cast<std::int32_t>(g));
       EXPECT_EQ(particles.pressure[g], particles.pressure[i]);
@@ -199,7 +199,7 @@ TYPED_TEST(NeighbourhoodTest, FarOutlierAndEmptySet) {
   auto neighbourhood = make_neighbourhood<Dim>();
   neighbourhood.update(particles);
   EXPECT_EQ(neighbourhood.pairs().begin(100), neighbourhood.pairs().end(100));
-  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius + skin);
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius);
 
   Particles<Dim> nobody;
   neighbourhood.update(nobody);
@@ -243,7 +243,7 @@ TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
   EXPECT_EQ(ids.size(), before.owned);
 
   EXPECT_TRUE(neighbourhood.update(particles));
-  expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius + skin);
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
 }
 
 }  // namespace
