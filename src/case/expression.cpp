@@ -78,33 +78,61 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
 
 }  // namespace
 
-double evaluate(const std::string& text, const NamedNumbers& numbers) {
-  // Division by zero is caught below, by its result.
-  const SuspendFpTraps suspended;
+struct Formula::State {
   mu::Parser parser;
+  std::vector<double> variables;  ///< where the parser reads them
+};
+
+Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span<const std::string_view> variables)
+    : state_(std::make_unique<State>()) {
+  // Division by zero is told by the result.
+  const SuspendFpTraps suspended;
+  mu::Parser& parser = state_->parser;
+  state_->variables.resize(variables.size());
   parser.ClearConst();
   parser.DefineConst("pi", std::numbers::pi);
-  bool numbers_are_finite = true;
   for (const auto& [name, value] : numbers) {
     parser.DefineConst(name, value);
-    numbers_are_finite = numbers_are_finite && std::isfinite(value);
+  }
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    parser.DefineVar(std::string(variables[i]), &state_->variables[i]);
   }
   try {
     parser.SetExpr(text);
     int count = 0;
-    const double* values = parser.Eval(count);
+    parser.Eval(count);
     if (count != 1) {
       throw ExpressionError(
           fmt::format("these are {} numbers, separated by commas; the decimal sign is the point", count));
     }
-    if (!std::isfinite(values[0]) && numbers_are_finite) {
-      throw ExpressionError(
-          fmt::format("its value is {}; check divisions by zero and roots of negative numbers", values[0]));
-    }
-    return values[0];
   } catch (const mu::Parser::exception_type& error) {
-    throw as_expression_error(error, text, numbers);
+    NamedNumbers known = numbers;
+    for (const std::string_view name : variables) {
+      known.emplace(name, 0.0);
+    }
+    throw as_expression_error(error, text, known);
   }
+}
+
+Formula::Formula(Formula&&) noexcept = default;
+Formula::~Formula() = default;
+
+bool Formula::uses_variables() const { return !state_->parser.GetUsedVar().empty(); }
+
+double Formula::at(std::span<const double> values) {
+  const SuspendFpTraps suspended;
+  std::copy(values.begin(), values.end(), state_->variables.begin());
+  return state_->parser.Eval();
+}
+
+double evaluate(const std::string& text, const NamedNumbers& numbers) {
+  const double value = Formula(text, numbers, {}).at({});
+  const bool numbers_are_finite =
+      std::all_of(numbers.begin(), numbers.end(), [](const auto& number) { return std::isfinite(number.second); });
+  if (!std::isfinite(value) && numbers_are_finite) {
+    throw ExpressionError(fmt::format("its value is {}; check divisions by zero and roots of negative numbers", value));
+  }
+  return value;
 }
 
 bool is_free_name(std::string_view name) {

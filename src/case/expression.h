@@ -5,7 +5,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,6 +32,25 @@ class ExpressionError : public std::runtime_error {
 
 /// The value of `text`. It is not finite only if one of the numbers in it is not. Throws ExpressionError.
 double evaluate(const std::string& text, const NamedNumbers& numbers);
+
+/// An expression of `numbers` and of `variables`, which take their values at each evaluation; read once.
+class Formula {
+ public:
+  /// No variable may have the name of a number. Throws ExpressionError.
+  Formula(const std::string& text, const NamedNumbers& numbers, std::span<const std::string_view> variables);
+  Formula(Formula&&) noexcept;
+  ~Formula();
+
+  /// Whether the value depends on where it is taken: the text names one of the variables.
+  bool uses_variables() const;
+
+  /// The value with the variables at `values`, in their order; it may be infinite or not a number.
+  double at(std::span<const double> values);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// Whether `name` can be given to a number: letters, digits and _, no digit first, not pi nor a function.
 bool is_free_name(std::string_view name);

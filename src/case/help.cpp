@@ -44,6 +44,9 @@ std::string type_text(const KeyInfo& row) {
   if (row.type == "vector") {
     return "list of `dimension` numbers";
   }
+  if (row.type == "field") {
+    return "list of `dimension` numbers or expressions of x, y, z";
+  }
   if (row.type == "points") {
     return "list of points";
   }

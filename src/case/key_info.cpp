@@ -70,6 +70,15 @@ void KeyCollector::coordinates(std::string_view key, const Coordinates& value, s
   rows_.push_back({key, "vector", array_text(value), unit, "", doc, Presence::optional});
 }
 
+void KeyCollector::field(std::string_view key, const VectorField& value, std::string_view unit, std::string_view doc) {
+  std::vector<std::string> texts;
+  for (const auto& component : value) {
+    const auto* number = std::get_if<double>(&component);
+    texts.push_back(number != nullptr ? toml_float(*number) : toml_string(std::get<std::string>(component)));
+  }
+  rows_.push_back({key, "field", fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional});
+}
+
 void KeyCollector::points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit,
                           std::string_view doc) {
   std::vector<std::string> texts;

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "case/expression.h"
+#include "case/named_numbers.h"
 #include "case/nearest_name.h"
 #include "case/overrides.h"
 #include "case/problems.h"
@@ -120,8 +121,10 @@ bool CaseReader::settle(const std::string& name, const toml::node& node, const s
   const std::string key = fmt::format("parameters.{}", name);
   // Until it has a value, what uses this parameter is not a number and is not reported a second time.
   double value = std::numeric_limits<double>::quiet_NaN();
-  if (!is_free_name(name) || name == "dx" || name == "g") {
-    report(node, key, "cannot be a parameter's name; use letters, digits and _, not dx, g, pi or a function's name");
+  const bool is_position = std::find(position_names.begin(), position_names.end(), name) != position_names.end();
+  if (!is_free_name(name) || is_position || name == "dx" || name == "g") {
+    report(node, key,
+           "cannot be a parameter's name; use letters, digits and _, not x, y, z, dx, g, pi or a function's name");
     return true;
   }
   if (const auto* text = node.as_string()) {
@@ -190,11 +193,7 @@ void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, cons
     spec.physics.gravity = {0.0, 0.0, -9.81};
   }
   physics.read_ahead(spec.physics, {"gravity"});
-  double magnitude = 0.0;
-  for (const double component : spec.physics.gravity) {
-    magnitude = std::hypot(magnitude, component);
-  }
-  context.numbers["g"] = physics.is_wrong("gravity") ? unknown : magnitude;
+  context.numbers["g"] = physics.is_wrong("gravity") ? unknown : gravity_magnitude(spec.physics);
 }
 
 std::string read_text(const std::filesystem::path& path) {

@@ -7,9 +7,12 @@
 // ("2*H"); the structs hold the values.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "case/choices.h"
@@ -23,6 +26,12 @@ inline std::string default_name(const std::string& table, std::size_t index) {
 
 /// A point or vector as read from the file: `dimension` numbers.
 using Coordinates = std::vector<double>;
+
+/// Names of the position in expressions that are evaluated particle by particle; in 2D the first two.
+inline constexpr std::array<std::string_view, 3> position_names{"x", "y", "z"};
+
+/// A vector that may vary in space, one component per dimension: a number, or an expression of the position.
+using VectorField = std::vector<std::variant<double, std::string>>;
 
 /// The values a number may take. Bounds are inclusive unless `above`/`below` made them exclusive.
 struct Range {
@@ -113,7 +122,7 @@ struct FluidTable {
   Coordinates min;
   Coordinates max;
   std::vector<Coordinates> points;
-  Coordinates velocity;
+  VectorField velocity;
 
   bool operator==(const FluidTable&) const = default;
 
@@ -124,7 +133,8 @@ struct FluidTable {
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.points("points", self.points, "m", "Corners of a polygon, in order; the last joins the first");
-    v.coordinates("velocity", self.velocity, "m/s", "Velocity at the start (default: at rest)");
+    v.field("velocity", self.velocity, "m/s",
+            "Velocity at the start (default: at rest); expressions may use the particle's position x, y, z");
   }
 };
 

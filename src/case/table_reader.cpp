@@ -78,6 +78,32 @@ void TableReader::coordinates(std::string_view key, Coordinates& value, std::str
   }
 }
 
+void TableReader::field(std::string_view key, VectorField& value, std::string_view unit, std::string_view doc) {
+  const toml::node* node = find(key, doc, unit, "", Presence::optional);
+  const toml::array* list = node == nullptr ? nullptr : components(key, std::string(key), *node, unit);
+  if (list == nullptr) {
+    return;
+  }
+  const auto position = std::span(position_names).first(list->size());
+  VectorField given;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string place = fmt::format("{}[{}]", key, i);
+    const auto* text = (*list)[i].as_string();
+    try {
+      if (text != nullptr && Formula(text->get(), context_.numbers, position).uses_variables()) {
+        given.emplace_back(text->get());
+      } else if (const auto number = evaluated(key, place, (*list)[i], unit)) {
+        given.emplace_back(*number);
+      }
+    } catch (const ExpressionError& error) {
+      wrong(key, *text, error.what(), place);
+    }
+  }
+  if (given.size() == list->size()) {
+    value = std::move(given);
+  }
+}
+
 const toml::array* TableReader::list_at(std::string_view key, const toml::node* node, const std::string& wanted) {
   if (node != nullptr && !node->is_array()) {
     wrong(key, *node, wanted);
@@ -238,8 +264,8 @@ std::optional<std::vector<double>> TableReader::elements(std::string_view key, c
   return values.size() == list.size() ? std::optional(values) : std::nullopt;
 }
 
-std::optional<Coordinates> TableReader::point(std::string_view key, const std::string& place, const toml::node& node,
-                                              std::string_view unit) {
+const toml::array* TableReader::components(std::string_view key, const std::string& place, const toml::node& node,
+                                           std::string_view unit) {
   const toml::array* list = node.as_array();
   const int dimension = context_.dimension;
   const bool is_right_size = list != nullptr && (dimension == 0 ? list->size() == 2 || list->size() == 3
@@ -250,9 +276,15 @@ std::optional<Coordinates> TableReader::point(std::string_view key, const std::s
           fmt::format("give {} numbers{}, one per dimension{}", count, in_unit(unit),
                       dimension == 0 ? "" : fmt::format(" (case.dimension = {})", dimension)),
           place);
-    return std::nullopt;
+    return nullptr;
   }
-  return elements(key, place, *list, unit);
+  return list;
+}
+
+std::optional<Coordinates> TableReader::point(std::string_view key, const std::string& place, const toml::node& node,
+                                              std::string_view unit) {
+  const toml::array* list = components(key, place, node, unit);
+  return list == nullptr ? std::nullopt : elements(key, place, *list, unit);
 }
 
 }  // namespace tailwater

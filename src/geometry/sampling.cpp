@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <variant>
 
+#include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
@@ -95,6 +98,54 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const s
   return lattice;
 }
 
+/// The starting velocity of one block.
+template <int Dim>
+class StartVelocity {
+ public:
+  /// Throws InputError, which names the block's `owner`.
+  StartVelocity(const CaseSpec& spec, const FluidTable& block, const std::string& owner) : owner_(owner) {
+    if (!block.velocity.empty() && block.velocity.size() != Dim) {
+      throw InputError(
+          fmt::format("{}: velocity has {} components but the case has {} dimensions: give one per dimension", owner,
+                      block.velocity.size(), Dim));
+    }
+    for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
+      if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
+        constant_[axis] = *number;
+      } else {
+        const std::string& text = std::get<std::string>(block.velocity[axis]);
+        varying_.push_back(
+            {static_cast<int>(axis), text, Formula(text, named_numbers(spec), std::span(position_names).first(Dim))});
+      }
+    }
+  }
+
+  Vec<Dim> at(const Vec<Dim>& x) {
+    Vec<Dim> velocity = constant_;
+    for (Component& component : varying_) {
+      velocity[component.axis] = component.formula.at({x.data(), Dim});
+      if (!std::isfinite(velocity[component.axis])) {
+        throw InputError(
+            fmt::format("{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is finite wherever "
+                        "the block has particles",
+                        owner_, component.axis, component.text, velocity[component.axis], place(x)));
+      }
+    }
+    return velocity;
+  }
+
+ private:
+  struct Component {
+    int axis;
+    std::string text;
+    Formula formula;
+  };
+
+  std::string owner_;
+  Vec<Dim> constant_ = Vec<Dim>::Zero();
+  std::vector<Component> varying_;
+};
+
 /// Is the lattice of `block` fitted to this face? Elsewhere a misfit is the case file's, and check_geometry reports it.
 template <int Dim>
 bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
@@ -139,8 +190,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
     const FluidTable& block = spec.fluid[b];
     const std::string owner = fmt::format("fluid '{}'", name_or_number(block.name, "fluid", b));
     const Lattice<Dim> lattice = make_lattice<Dim>(spec, block, owner);
-    const Vec<Dim> velocity =
-        block.velocity.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(block.velocity, owner, "velocity");
+    StartVelocity<Dim> velocity(spec, block, owner);
     bool takes_next_on_outline = true;
     const auto add = [&](Vec<Dim> x) {
       if constexpr (Dim == 2) {
@@ -165,7 +215,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
       }
       keep_off_walls(block, x);
       fluid.position.push_back(x);
-      fluid.velocity.push_back(velocity);
+      fluid.velocity.push_back(velocity.at(x));
       fluid.block.push_back(static_cast<int>(b));
     };
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from . import picture, zhou1999
 from .curves import DataError
+from .metric import bar
 
 CASES = {"zhou1999": (zhou1999.score, picture.draw_zhou1999)}
 
@@ -35,8 +36,7 @@ def table(result):
     rows = [("quantity", "value", "unit", "target", "", "compared with", "best shift of it")]
     for metric in result["metrics"]:
         value = "-" if metric["value"] is None else f"{metric['value']:.3f}"
-        low, high = metric["low"], metric["high"]
-        target = f"{low:g}..{high:g}" if None not in (low, high) else f"<= {high:g}" if high is not None else ""
+        target = bar(metric["low"], metric["high"])
         shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at T {metric['shift']:+.3f}"
         rows.append((metric["what"], value, metric["unit"], target, metric["verdict"],
                      metric["note"] or metric["against"], shift))

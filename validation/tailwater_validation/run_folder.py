@@ -4,7 +4,7 @@ import json
 import tomllib
 from pathlib import Path
 
-from .curves import DataError, read_curve
+from .curves import DataError, read_curve, read_table
 
 
 class RunFolder:
@@ -23,6 +23,18 @@ class RunFolder:
         """The curve of a probe's column over time in s."""
         return read_curve(self.path / "probes" / f"{name}.csv", column)
 
+    def steps(self):
+        """Columns of steps.csv, by name."""
+        return read_table(self.path / "steps.csv")
+
+    def step_curve(self, column):
+        """A column of steps.csv over time in s."""
+        return read_curve(self.path / "steps.csv", column)
+
+    @property
+    def parameters(self):
+        return self.case.get("parameters", {})
+
     @property
     def summary(self):
         """summary.json; empty when there is none, which is how a run that was killed looks."""
@@ -37,6 +49,19 @@ class RunFolder:
     @property
     def spacing(self):
         return self.case["particles"]["spacing"]
+
+    @property
+    def dimension(self):
+        return self.case["case"]["dimension"]
+
+    @property
+    def density(self):
+        return self.case["physics"]["density"]
+
+    @property
+    def gravity(self):
+        """Magnitude, m/s^2."""
+        return sum(component**2 for component in self.case["physics"]["gravity"]) ** 0.5
 
     @property
     def integrator(self):

@@ -4,11 +4,12 @@ T = t sqrt(g/H); depths over H; pressures over rho g H. Two people digitised the
 their distance from each other is scored too: it is the least uncertainty that the data can have.
 """
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 
 from .curves import DataError, arrival_time, best_shift, first_peak, noise, read_curve, rms_difference
+from .metric import Metric, measure
 from .run_folder import RunFolder
 
 H = 0.6
@@ -36,41 +37,6 @@ DEPTH_TARGETS = {(0.0, 6.0): 0.05, (0.0, 8.0): 0.10}  # window of T: largest RMS
 POINT_HEIGHTS = {"P060": 0.06, "P115": 0.115, "P120": 0.12, "P160": 0.16}  # m, of the point probes
 READ_AT = "P120"  # the height 0.2 H that Buchner (2002) gives for the gauge; the case's README argues for it
 NOISE_AT = "P160"  # where others' noise was read
-
-
-@dataclass(frozen=True)
-class Metric:
-    """One number of the comparison. `value` is None where it could not be had; `note` then says why. RMS differences
-    also have the value at the best shift of the measured curve within TIME_UNCERTAINTY, and that shift (of T)."""
-
-    name: str
-    what: str
-    unit: str
-    against: str
-    low: float | None = None
-    high: float | None = None
-    value: float | None = None
-    shifted_value: float | None = None
-    shift: float | None = None
-    note: str = ""
-
-    @property
-    def verdict(self):
-        if self.low is None and self.high is None:
-            return ""
-        if self.value is None:
-            return "missed"
-        above = self.low is None or self.value >= self.low
-        below = self.high is None or self.value <= self.high
-        return "met" if above and below else "missed"
-
-
-def measure(metric, **values):
-    """The metric with its values, each given as a function; with the reason instead where one cannot be computed."""
-    try:
-        return replace(metric, **{field: compute() for field, compute in values.items()})
-    except DataError as error:
-        return replace(metric, note=str(error))
 
 
 def laboratory(quantity, digitisation):

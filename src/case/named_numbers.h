@@ -1,0 +1,15 @@
+// The numbers that the expressions of a case may use by name, besides pi.
+#pragma once
+
+#include "case/expression.h"
+#include "case/spec.h"
+
+namespace tailwater {
+
+/// m/s^2; the number `g`.
+double gravity_magnitude(const PhysicsTable& physics);
+
+/// The parameters, `dx` and `g` of a case that has been read.
+NamedNumbers named_numbers(const CaseSpec& spec);
+
+}  // namespace tailwater

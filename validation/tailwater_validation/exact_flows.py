@@ -1,0 +1,244 @@
+"""Errors of runs of cases/robustness against what theory says: still water, and three flows with known solutions.
+
+Each function takes a RunFolder and returns its numbers by name; all are without unit unless the name ends in one. They
+throw DataError where the run does not have what they need.
+
+Usage: python -m tailwater_validation.exact_flows tank|taylor-green|standing-wave|drop RUN_DIR
+"""
+
+import argparse
+import cmath
+import json
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from .curves import DataError
+from .particles import list_frames, read_frame
+from .run_folder import RunFolder
+
+REST = 5.0  # s from which a tank counts as at rest
+BOTTOM_LAYER = 4  # dx
+
+
+def fields(run, frame, *names):
+    """Fields of a frame, as float64. Throws DataError for one that was not written."""
+    for name in names:
+        if name not in frame.fields:
+            raise DataError(f"{run.path}: the field files hold no {name}; add it to output.fields")
+    return [frame.fields[name].astype(float) for name in names]
+
+
+def frames(run):
+    """All frames of a run, from the start to the end. Throws DataError if the run did not reach its end."""
+    found = list_frames(run.path)
+    if not found or run.summary.get("status") != "done":
+        raise DataError(f"{run.path}: the run {run.summary.get('message') or 'has not ended'}")
+    return [read_frame(*entry) for entry in found]
+
+
+def relative_error(computed, exact):
+    """L2 norm of the difference over that of `exact`."""
+    return float(np.linalg.norm(computed - exact) / np.linalg.norm(exact))
+
+
+# ---------------------------------------------------------------------------------------------------- still water
+
+
+def bottom_distance(run, position):
+    """Distance (m) from the parts of the tank's bottom that are not vertical. In 3D the bottom is the lowest plane."""
+    wall, = run.case["wall"]
+    if run.dimension == 3:
+        return position[:, 2] - wall["min"][2]
+    least = np.full(len(position), np.inf)
+    for start, end in zip(np.array(wall["points"])[:-1], np.array(wall["points"])[1:]):
+        along = end - start
+        if along[0] == 0.0:
+            continue
+        share = np.clip((position[:, :2] - start) @ along / (along @ along), 0.0, 1.0)
+        least = np.minimum(least, np.linalg.norm(position[:, :2] - start - share[:, None] * along, axis=1))
+    return least
+
+
+def tank(run):
+    """Water at rest whose surface is at the height `depth` of the case's parameters.
+
+    u_rms: largest from 5 s on (of a shorter run: over its second half), over sqrt(g H). pressure_error: rms over all
+    particles at the end, over rho g H. level_error_dx: largest from then on. bottom_density: mean density error within
+    4 dx of the bottom at the end."""
+    depth, dx = run.parameters["depth"], run.spacing
+    last = frames(run)[-1]
+    pressure, density_error = fields(run, last, "pressure", "density_error")
+    height = last.position[:, run.dimension - 1].astype(float)
+    scale = run.density * run.gravity * depth
+    hydrostatic = run.density * run.gravity * (depth - height)
+    kinetic = run.step_curve("kinetic_J")
+    rest = REST if kinetic.time[-1] > REST else 0.5 * kinetic.time[-1]
+    mass = run.density * dx**run.dimension * run.summary["particles"]["fluid"]
+    level = run.probe("level", "connected_m").window(rest, math.inf)
+    return {
+        "u_rms": math.sqrt(2 * kinetic.window(rest, math.inf).value.max() / mass / (run.gravity * depth)),
+        "pressure_error": float(np.sqrt(np.mean((pressure - hydrostatic) ** 2))) / scale,
+        "level_error_dx": float(np.abs(level.value - depth).max()) / dx,
+        "bottom_density": float(density_error[bottom_distance(run, last.position) < BOTTOM_LAYER * dx].mean()),
+    }
+
+
+# -------------------------------------------------------------------------------------------- Taylor-Green vortices
+
+
+def taylor_green_field(position, time, speed, side, viscosity, density):
+    """(velocity, pressure with mean 0) of the decaying vortices."""
+    k = 2 * math.pi / side
+    x, y = k * position[:, 0], k * position[:, 1]
+    decay = math.exp(-2 * viscosity * k**2 * time)
+    velocity = speed * decay * np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], axis=1)
+    pressure = 0.25 * density * (speed * decay) ** 2 * (np.cos(2 * x) + np.cos(2 * y))
+    return velocity, pressure
+
+
+def taylor_green(run):
+    """Relative L2 errors of velocity and pressure (without its mean) at the end, and of the decay rate of the kinetic
+    energy over the run, (computed - exact)/exact."""
+    parameters, viscosity = run.parameters, run.case["physics"]["viscosity"]
+    last = frames(run)[-1]
+    velocity, pressure = fields(run, last, "velocity", "pressure")
+    exact_velocity, exact_pressure = taylor_green_field(last.position.astype(float), last.time, parameters["U"],
+                                                        parameters["L"], viscosity, run.density)
+    kinetic = run.probe("energy", "kinetic_J")
+    rate = math.log(kinetic.value[0] / kinetic.value[-1]) / kinetic.time[-1]
+    exact_rate = 4 * viscosity * (2 * math.pi / parameters["L"]) ** 2
+    return {
+        "velocity_error": relative_error(velocity[:, :2], exact_velocity),
+        "pressure_error": relative_error(pressure - pressure.mean(), exact_pressure),
+        "decay_error": rate / exact_rate - 1,
+    }
+
+
+# ---------------------------------------------------------------------------------------------------- standing wave
+
+
+def wave_root(k, depth, viscosity, gravity):
+    """Root s = -decay + i frequency (1/s) of linear waves exp(s t) on viscous water over a free-slip bed:
+
+    (s + 2 nu k^2)^2 + g k tanh(k h) = 4 nu^2 k^3 m tanh(k h) coth(m h), m^2 = k^2 + s/nu
+
+    (Lamb 1932, art. 349, with the bed; to first order decay = 2 nu k^2, frequency^2 = g k tanh(k h))."""
+    restoring = gravity * k * math.tanh(k * depth)
+    root = complex(-2 * viscosity * k**2, math.sqrt(restoring))
+    if viscosity == 0:
+        return root
+    for _ in range(50):  # each contracts the error by about (nu k^2/omega)^1.5
+        m = cmath.sqrt(k**2 + root / viscosity)
+        drag = 4 * viscosity**2 * k**3 * m * math.tanh(k * depth) / cmath.tanh(m * depth)
+        beat = cmath.sqrt(drag - restoring)
+        root = (beat if beat.imag > 0 else -beat) - 2 * viscosity * k**2
+    return root
+
+
+def fit_oscillation(time, value, root, iterations=30):
+    """The s nearest to `root` with which offset + Re(C exp(s t)) fits best: Gauss-Newton, linear in offset and C."""
+    for _ in range(iterations):
+        wave = np.exp(root * time)
+        basis = np.stack([np.ones_like(time), wave.real, -wave.imag], axis=1)
+        offset, real, imaginary = np.linalg.lstsq(basis, value, rcond=None)[0]
+        tangent = complex(real, imaginary) * time * wave  # d/ds of C exp(s t)
+        jacobian = np.column_stack([basis, tangent.real, -tangent.imag])
+        change = np.linalg.lstsq(jacobian, value - basis @ [offset, real, imaginary], rcond=None)[0]
+        root += complex(change[3], change[4])
+    return root
+
+
+def standing_wave(run):
+    """The slowest wave of a tank, followed by the centre of mass, which no disorder of particles disturbs.
+
+    period_error, decay_error: (computed - exact)/exact, from the best fit of an offset and a damped oscillation.
+    wave_error: rms difference from the exact path of the centre, over its amplitude."""
+    parameters, viscosity = run.parameters, run.case["physics"]["viscosity"]
+    length, depth, k = parameters["L"], parameters["depth"], parameters["k"]
+    path = [(frame.time, frame.position[:, 0].astype(float).mean()) for frame in frames(run)]
+    time, centre = np.array(path).T
+    root = wave_root(k, depth, viscosity, run.gravity)
+    # The centre of mass moves as -2 a/(k^2 L h) times the elevation; the elevation starts with a omega exp(s t)/Im s.
+    amplitude = -2 * parameters["a"] * parameters["omega"] / (k**2 * length * depth * root.imag)
+    exact = amplitude * np.exp(root * time).imag
+    found = fit_oscillation(time, centre, root)
+    return {
+        "period_error": root.imag / found.imag - 1,
+        "decay_error": found.real / root.real - 1,
+        "wave_error": float(np.sqrt(np.mean((centre - centre[0] - exact) ** 2))) / abs(amplitude),
+    }
+
+
+# -------------------------------------------------------------------------------------------------- stretching drop
+
+
+def drop_axes(times, rate, a, b):
+    """[(semi-axis along x, along y, rate of strain)] at rising `times` of an ideal ellipse that starts with `rate`, a,
+    b at 0: a' = s a, b' = -s b, s' = s^2 (b^2 - a^2)/(a^2 + b^2) (Monaghan 1994, JCP 110, 399), by Runge-Kutta 4."""
+    def slope(state):
+        a, b, s = state
+        return np.array([s * a, -s * b, s**2 * (b**2 - a**2) / (a**2 + b**2)])
+
+    state, now, states = np.array([a, b, rate], dtype=float), 0.0, []
+    for time in times:
+        steps = max(1, math.ceil((time - now) * abs(rate) / 1e-3))
+        dt = (time - now) / steps
+        for _ in range(steps):
+            k1 = slope(state)
+            k2 = slope(state + 0.5 * dt * k1)
+            k3 = slope(state + 0.5 * dt * k2)
+            k4 = slope(state + dt * k3)
+            state = state + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        now = time
+        states.append(state)
+    return states
+
+
+def semi_axes(position):
+    """Semi-axes along x and y of the ellipse with the second moments of these particles."""
+    return 2 * position[:, :2].astype(float).std(axis=0)
+
+
+def drop(run):
+    """axes_error: largest relative error of a semi-axis over all frames, both started as the particles are.
+    velocity_error, pressure_error: relative L2 at the end. energy_error: (end - start)/start of the kinetic energy,
+    which an ideal drop keeps."""
+    series = frames(run)
+    start, last = semi_axes(series[0].position), series[-1]
+    exact = drop_axes([frame.time for frame in series], run.parameters["A"], *start)
+    axes = [np.abs(semi_axes(frame.position) / state[:2] - 1).max() for frame, state in zip(series, exact)]
+    a, b, s = exact[-1]
+    x, y = (last.position.astype(float) - last.position.astype(float).mean(axis=0))[:, :2].T
+    velocity, pressure = fields(run, last, "velocity", "pressure")
+    centre_pressure = run.density * s**2 * (a * b) ** 2 / (a**2 + b**2)
+    kinetic = run.probe("energy", "kinetic_J")
+    return {
+        "axes_error": float(max(axes)),
+        "velocity_error": relative_error(velocity[:, :2], np.stack([s * x, -s * y], axis=1)),
+        "pressure_error": relative_error(pressure, centre_pressure * np.maximum(0, 1 - (x / a) ** 2 - (y / b) ** 2)),
+        "energy_error": float(kinetic.value[-1] / kinetic.value[0] - 1),
+    }
+
+
+FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop}
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="tailwater_validation.exact_flows",
+                                     description="Errors of a run of cases/robustness against theory, as JSON.")
+    parser.add_argument("flow", choices=FLOWS)
+    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote")
+    options = parser.parse_args(arguments)
+    try:
+        print(json.dumps(FLOWS[options.flow](RunFolder(options.run)), indent=2))
+    except DataError as error:
+        print(f"exact_flows: {error}", file=sys.stderr)
+        return 4
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,47 @@
+"""One number that is held against a bar."""
+
+from dataclasses import dataclass, replace
+
+from .curves import DataError
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences
+    from laboratory curves also have the value at the best shift of the measured curve, and that shift (of T)."""
+
+    name: str
+    what: str
+    unit: str
+    against: str
+    low: float | None = None
+    high: float | None = None
+    value: float | None = None
+    shifted_value: float | None = None
+    shift: float | None = None
+    note: str = ""
+
+    @property
+    def verdict(self):
+        if self.low is None and self.high is None:
+            return ""
+        if self.value is None:
+            return "missed"
+        above = self.low is None or self.value >= self.low
+        below = self.high is None or self.value <= self.high
+        return "met" if above and below else "missed"
+
+
+def bar(low, high):
+    """A bar as text, such as "0.6..0.66", "<= 0.05" or ">= 1.5"; empty if there is none."""
+    if None not in (low, high):
+        return f"{low:g}..{high:g}"
+    return f"<= {high:g}" if high is not None else f">= {low:g}" if low is not None else ""
+
+
+def measure(metric, **values):
+    """The metric with its values, each given as a function; with the reason instead where one cannot be computed."""
+    try:
+        return replace(metric, **{field: compute() for field, compute in values.items()})
+    except DataError as error:
+        return replace(metric, note=str(error))
