@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (capped at
+/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (at most
 /// half of this), so at the start of the next step; a wider skin would add idle entries to every loop.
 constexpr double skin_over_spacing = 0.2;
 
@@ -78,7 +78,6 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
 
 Interventions& Interventions::operator+=(const Interventions& other) {
   put_back += other.put_back;
-  capped_shifts += other.capped_shifts;
   clamped_pressures += other.clamped_pressures;
   fallback_rows += other.fallback_rows;
   return *this;

@@ -11,7 +11,8 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
     if (!particles.is_fluid(i)) return;
     particles.position[i] = flow.position_old[i] + 0.5 * dt * (flow.velocity_old[i] + particles.velocity[i]);
   });
-  interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);
+  interventions.put_back +=
+      keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, flow.position_old, particles, particles.velocity);
 }
 
 template void move<2>(Flow<2>&, double, Interventions&);
