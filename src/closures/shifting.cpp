@@ -51,12 +51,12 @@ int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
 }  // namespace
 
 template <int Dim>
-void compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
+std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
                    const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
                    std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
-  for_each(pairs.owned(), [&](std::size_t i) {
+  return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return;
+    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
     if (law.kind == ShiftingKind::lind) {
       shift[i] = law.strength * largest_speed * dt * lind_direction(law, pairs, particles, i);
     } else {
@@ -69,12 +69,14 @@ void compute_shift(const ShiftingLaw& law, double dt, double largest_speed, cons
         shift[i] -= shift[i].dot(normal) * normal;
       }
     }
-    shift[i] /= std::sqrt(1.0 + shift[i].squaredNorm() / (law.cap * law.cap));
+    const double ratio = shift[i].norm() / law.cap;
+    shift[i] /= std::sqrt(1.0 + ratio * ratio);
+    return ratio > 1.0;
   });
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                               \
-  template void compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, const Particles<Dim>&, \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, const Particles<Dim>&, \
                                    std::span<const std::uint8_t>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

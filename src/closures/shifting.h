@@ -29,9 +29,10 @@ struct ShiftingLaw {
   double W_spacing = 0.0;  ///< 1/m^Dim; W(dx)
 };
 
-/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid.
+/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid. Returns how many
+/// would have been longer than the bound.
 template <int Dim>
-void compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
+std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
                    const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
                    std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
 

@@ -55,9 +55,11 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
         {"density_error_rms", std::sqrt(density_error_squares_ / steps)}}},
       {"interventions",
        {{"put_back_from_walls", interventions_.put_back},
+        {"capped_shifts", interventions_.capped_shifts},
         {"clamped_pressures", interventions_.clamped_pressures},
         {"fallback_rows", interventions_.fallback_rows},
-        {"put_back_per_particle_step", static_cast<double>(interventions_.put_back) / particle_steps}}}};
+        {"put_back_and_capped_per_particle_step",
+         static_cast<double>(interventions_.put_back + interventions_.capped_shifts) / particle_steps}}}};
 }
 
 }  // namespace tailwater

@@ -78,6 +78,7 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
 
 Interventions& Interventions::operator+=(const Interventions& other) {
   put_back += other.put_back;
+  capped_shifts += other.capped_shifts;
   clamped_pressures += other.clamped_pressures;
   fallback_rows += other.fallback_rows;
   return *this;

@@ -36,7 +36,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   if (flow.scheme.shifting == ShiftingKind::none) return;
   Particles<Dim>& particles = flow.particles;
   flow.shift.resize(particles.owned);
-  compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles, flow.is_near_surface,
+  interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles, flow.is_near_surface,
                      flow.concentration_gradient, flow.shift);
   if (flow.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow);
   for_each(particles.owned, [&](std::size_t i) {

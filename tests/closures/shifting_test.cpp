@@ -32,7 +32,7 @@ struct Shifted {
       gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
     }
     const std::vector<std::uint8_t> near(set.size(), is_near_surface);
-    compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, near, gradient, shift);
+    beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, near, gradient, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {
@@ -45,6 +45,7 @@ struct Shifted {
   ParticleSet<Dim> set;
   std::vector<Vec<Dim>> gradient;
   std::vector<Vec<Dim>> shift;
+  std::size_t beyond_bound = 0;
 };
 
 template <int Dim>
@@ -114,8 +115,10 @@ TYPED_TEST(ShiftingTest, BoundsItselfSmoothly) {
     double longest = 0.0;
     for (const Vec<Dim>& shift : unbounded.shift) longest = std::max(longest, shift.norm());
     ASSERT_GT(longest, 0.0);
-    for (const double cap : {0.01 * longest, longest, 100.0 * longest}) {
+    for (const double cap : {0.01 * longest, 0.5 * longest, 100.0 * longest}) {
       const Shifted<Dim> bounded(law_of<Dim>(kind, cap), points, 1.0, false);
+      const auto is_beyond = [&](const Vec<Dim>& shift) { return shift.norm() / cap > 1.0; };
+      EXPECT_EQ(bounded.beyond_bound, std::count_if(unbounded.shift.begin(), unbounded.shift.end(), is_beyond));
       for (std::size_t i = 0; i < points.size(); ++i) {
         const double length = unbounded.shift[i].norm();
         EXPECT_LE((bounded.shift[i] - unbounded.shift[i] / std::hypot(1.0, length / cap)).norm(), 16.0 * eps * length);
