@@ -69,10 +69,9 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
         shift[i] -= (1.0 - interior[i]) * shift[i].dot(normal) * normal;
       }
     }
-    const double length = shift[i].norm();
-    if (length <= law.cap) return false;
-    shift[i] *= law.cap / length;
-    return true;
+    const double ratio = shift[i].norm() / law.cap;
+    shift[i] /= std::sqrt(1.0 + ratio * ratio);
+    return ratio > 1.0;
   });
 }
 

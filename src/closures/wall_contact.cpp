@@ -5,40 +5,74 @@
 namespace tailwater {
 namespace {
 
-constexpr double least_distance = 0.05;  // dx
-constexpr double search_distance = 3.0;  // dx
+constexpr double contact_distance = 0.5;  // dx
+constexpr double least_gap = 0.01;        // dx; from nearer, and from behind a wall, a move counts as starting here
+constexpr double search_distance = 3.0;   // dx
 
-/// One time per adjacent wall: a corner has at most Dim of them.
 template <int Dim>
-bool put_back(const Boundary<Dim>& boundary, double spacing, Vec<Dim>& position, Vec<Dim>& velocity) {
-  bool moved = false;
+bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (!particles.is_fluid(pairs.j[k])) return true;
+  }
+  return false;
+}
+
+/// One cushion per adjacent wall: a corner has at most Dim of them. Returns whether the move would have ended behind
+/// one.
+template <int Dim>
+bool cushion(const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& before, Vec<Dim>& position,
+             Vec<Dim>* velocity) {
+  const double contact = contact_distance * spacing;
+  bool would_cross = false;
+  int last_face = -1;
   for (int attempt = 0; attempt < Dim; ++attempt) {
     const NearestWall<Dim> wall = boundary.nearest(position, search_distance * spacing);
-    if (wall.face < 0 || wall.signed_distance >= least_distance * spacing) break;
-    const Vec<Dim>& normal = boundary.faces[wall.face].normal;
-    position = wall.point + least_distance * spacing * normal;
-    velocity -= std::min(0.0, velocity.dot(normal)) * normal;
-    moved = true;
+    if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
+    last_face = wall.face;
+    const WallFace<Dim>& face = boundary.faces[wall.face];
+    const double gap = std::clamp(face.height(before), least_gap * spacing, contact);
+    const double approach = gap - wall.signed_distance;
+    if (approach <= 0.0) continue;
+    const double share = gap / (gap + approach);
+    position += (share * gap - wall.signed_distance) * face.normal;
+    if (velocity) *velocity -= (1.0 - share) * std::min(0.0, velocity->dot(face.normal)) * face.normal;
+    would_cross = would_cross || wall.signed_distance < 0.0;
   }
-  return moved;
+  return would_cross;
 }
 
 }  // namespace
 
 template <int Dim>
-std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
-                           Particles<Dim>& particles) {
-  return count_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return false;
-    bool is_near_wall = false;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i) && !is_near_wall; ++k) {
-      is_near_wall = !particles.is_fluid(pairs.j[k]);
-    }
-    return is_near_wall && put_back(boundary, spacing, particles.position[i], particles.velocity[i]);
+void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
+                       const Particles<Dim>& particles, std::span<double> overlap) {
+  const double contact = contact_distance * spacing;
+  for_each(pairs.owned(), [&](std::size_t i) {
+    overlap[i] = 0.0;
+    if (!particles.is_fluid(i) || !has_wall_neighbour(pairs, particles, i)) return;
+    const NearestWall<Dim> wall = boundary.nearest(particles.position[i], contact);
+    if (wall.face < 0) return;
+    const double s = std::clamp(1.0 - wall.signed_distance / contact, 0.0, 1.0);
+    overlap[i] = 0.25 * s * s * (3.0 - s);
   });
 }
 
-template std::size_t keep_off_walls<2>(const Pairs<2>&, const Boundary<2>&, double, Particles<2>&);
-template std::size_t keep_off_walls<3>(const Pairs<3>&, const Boundary<3>&, double, Particles<3>&);
+template <int Dim>
+std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
+                           std::span<const Vec<Dim>> before, Particles<Dim>& particles, std::span<Vec<Dim>> velocity) {
+  return count_each(pairs.owned(), [&](std::size_t i) {
+    return particles.is_fluid(i) && has_wall_neighbour(pairs, particles, i) &&
+           cushion(boundary, spacing, before[i], particles.position[i], velocity.empty() ? nullptr : &velocity[i]);
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
+  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,         \
+                                       std::span<double>);                                                             \
+  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, std::span<const Vec<Dim>>, \
+                                           Particles<Dim>&, std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -1,13 +1,15 @@
 // The pressure equation, row by row. For fluid particle i
 //
-//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho clamp(C/C_0 - 1, 0, 0.1)/dt^2
+//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
 // c_ij   weights of the Laplacian: Morris, or consistent (F23)
 // a_i    max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the idea
 // of
 //        Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead, whose
 //        rows are p = 0
-// gamma  share of the density error that a step corrects: particles too close are pushed apart, never pulled together
+// o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
+// gamma  share of the density error that a step corrects; s_i is 1 for particles too close, and `interior` for those too
+//        far apart: at the surface nothing pulls
 //
 // Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
 // M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
@@ -29,8 +31,9 @@ constexpr double largest_density_error = 0.1;
 
 template <int Dim>
 double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
-  const double error = std::clamp(flow.concentration[i] - 1.0, 0.0, largest_density_error);
-  return flow.scheme.density_relaxation * flow.density * error / (dt * dt);
+  const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
+  const double answered = (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
+  return flow.scheme.density_relaxation * flow.density * answered / (dt * dt);
 }
 
 /// Sets the weights of row i by weight(k) and returns their sum.

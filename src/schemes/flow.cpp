@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (capped at
+/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (at most
 /// half of this), so at the start of the next step; a wider skin would add idle entries to every loop.
 constexpr double skin_over_spacing = 0.2;
 

@@ -22,8 +22,8 @@ namespace tailwater {
 
 /// Things a step did that the equations do not ask for. A sound run needs few.
 struct Interventions {
-  std::size_t put_back = 0;           ///< particles moved off a wall
-  std::size_t capped_shifts = 0;      ///< shifts cut to their cap
+  std::size_t put_back = 0;           ///< moves that would have ended behind a wall
+  std::size_t capped_shifts = 0;      ///< shifts that would have been longer than their bound
   std::size_t clamped_pressures = 0;  ///< suction near the surface set to 0
   std::size_t fallback_rows = 0;      ///< consistent rows replaced where B2 is unsound
 
@@ -75,13 +75,14 @@ struct Flow {
   std::vector<double> concentration;  ///< C/C_0
   std::vector<Vec<Dim>> concentration_gradient;
   std::vector<double> wall_fluid_weight;
+  std::vector<double> wall_overlap;  ///< share of the particle behind a wall
   std::vector<std::uint8_t> is_wet;
   std::vector<std::uint8_t> takes_part;       ///< fluid, and wet walls
   std::vector<Renormalisation<Dim>> tensors;  ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;
   std::vector<double> interior;  ///< 0 near the free surface, 1 inside (free_surface.h)
   // One step:
-  std::vector<Vec<Dim>> position_old;  ///< r^n, owned
+  std::vector<Vec<Dim>> position_old;  ///< r^n, owned; in `shift`, the positions before it
   std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
   std::vector<Vec<Dim>> u_star;        ///< predicted velocity without gravity
   std::vector<Vec<Dim>> wall_mean;

@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "closures/free_surface.h"
+#include "closures/wall_contact.h"
 #include "operators/concentration.h"
 #include "schemes/verbs.h"
 
@@ -12,6 +13,7 @@ void resize_geometry(Flow<Dim>& flow) {
   flow.concentration.resize(count);
   flow.concentration_gradient.resize(count);
   flow.wall_fluid_weight.resize(count);
+  flow.wall_overlap.resize(count);
   flow.is_wet.resize(count);
   flow.takes_part.resize(count);
   if (flow.uses_tensors()) flow.tensors.resize(count);
@@ -32,6 +34,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   const Halo<Dim>& halo = flow.neighbourhood.halo();
 
   find_wet_walls<Dim>(pairs, particles, flow.W_0, flow.wall_fluid_weight, flow.is_wet);
+  find_wall_overlap<Dim>(pairs, flow.boundary, flow.spacing, particles, flow.wall_overlap);
   for_each(particles.owned, [&](std::size_t i) {
     const bool is_fluid = particles.is_fluid(i);
     flow.takes_part[i] = is_fluid || flow.is_wet[i];

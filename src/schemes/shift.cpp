@@ -39,8 +39,12 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                     flow.interior, flow.concentration_gradient, flow.shift);
   if (flow.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow);
-  for_each(particles.owned, [&](std::size_t i) { particles.position[i] += flow.shift[i]; });
-  interventions.put_back += keep_off_walls(flow.pairs(), flow.boundary, flow.spacing, particles);
+  for_each(particles.owned, [&](std::size_t i) {
+    flow.position_old[i] = particles.position[i];  // r^n has served
+    particles.position[i] += flow.shift[i];
+  });
+  interventions.put_back +=
+      keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, flow.position_old, particles, {});
   flow.neighbourhood.halo().exchange_positions(particles.position);
 }
 
