@@ -2,12 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tailwater {
+namespace {
+
+/// Directions by how far the positions spread along them (standard deviation, which a single particle does not turn),
+/// the farthest first.
+template <int Dim>
+std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
+  Vec<Dim> mean = Vec<Dim>::Zero();
+  for (const Vec<Dim>& position : positions) mean += position / static_cast<double>(positions.size());
+  Vec<Dim> spread = Vec<Dim>::Zero();
+  for (const Vec<Dim>& position : positions) spread += (position - mean).cwiseAbs2();
+  std::array<int, Dim> axes;
+  std::iota(axes.begin(), axes.end(), 0);
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
+  return axes;
+}
+
+}  // namespace
 
 template <int Dim>
-CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double cell_size) : cell_size_(cell_size) {
-  count_.fill(0);
+CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edge_(reach / cells_per_reach) {
   if (positions.empty()) return;
 
   Vec<Dim> low = positions[0];
@@ -17,19 +34,20 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double cell_size) :
     high = high.cwiseMax(position);
   }
   origin_ = low;
+  axis_ = axes_by_spread<Dim>(positions);
 
   // A few far particles must not make the grid huge: coarser cells are slower there, never wrong.
-  const double most_cells = 8.0 * static_cast<double>(positions.size()) + 1e5;
-  for (;; cell_size_ *= 2.0) {
+  const double most_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
+  for (;; edge_ *= 2.0) {
     double cells = 1.0;
     for (int d = 0; d < Dim; ++d) {
-      cells *= std::floor((high[d] - low[d]) / cell_size_) + 1.0;
+      cells *= std::floor((high[d] - low[d]) / edge_) + 1.0;
     }
     if (cells <= most_cells) break;
   }
   std::int64_t cells = 1;
   for (int d = 0; d < Dim; ++d) {
-    count_[d] = static_cast<std::int64_t>((high[d] - low[d]) / cell_size_) + 1;
+    count_[d] = static_cast<std::int64_t>((high[axis_[d]] - low[axis_[d]]) / edge_) + 1;
     cells *= count_[d];
   }
 
@@ -54,8 +72,9 @@ std::array<std::int64_t, Dim> CellGrid<Dim>::cell_of(const Vec<Dim>& place) cons
   std::array<std::int64_t, Dim> cell;
   for (int d = 0; d < Dim; ++d) {
     // Clamped before the cast: a place far outside has no cell, and its index need not fit an integer.
-    const double index = std::floor((place[d] - origin_[d]) / cell_size_);
-    cell[d] = static_cast<std::int64_t>(std::clamp(index, -2.0, static_cast<double>(count_[d]) + 1.0));
+    const double index = std::floor((place[axis_[d]] - origin_[axis_[d]]) / edge_);
+    constexpr double beyond = cells_per_reach + 1.0;
+    cell[d] = static_cast<std::int64_t>(std::clamp(index, -beyond, static_cast<double>(count_[d]) + beyond));
   }
   return cell;
 }
@@ -64,7 +83,7 @@ template <int Dim>
 std::int64_t CellGrid<Dim>::flat_index(const Vec<Dim>& place) const {
   const auto cell = cell_of(place);
   std::int64_t index = 0;
-  for (int d = Dim - 1; d >= 0; --d) {
+  for (int d = 0; d < Dim; ++d) {
     index = index * count_[d] + std::min(cell[d], count_[d] - 1);
   }
   return index;

@@ -1,5 +1,5 @@
-// Particles sorted into the cells of a regular grid, so that everything within a cell's edge of a place is found in the
-// 3^Dim cells around it.
+// Particles sorted into the cells of a regular grid, so that everything within reach of a place is found in the cells
+// around it. The same order is the best one for the particles in memory (docs/theory/neighbours.md).
 #pragma once
 
 #include <array>
@@ -16,30 +16,35 @@ class CellGrid {
  public:
   CellGrid() = default;
 
-  /// Sorts `positions` into cells of edge `cell_size` [m], or larger where a few far particles would otherwise make the
-  /// grid much larger than the set.
-  CellGrid(std::span<const Vec<Dim>> positions, double cell_size);
+  /// Sorts `positions` into cells of a third of `reach` [m], or larger where a few far particles would otherwise make
+  /// the grid much larger than the set.
+  CellGrid(std::span<const Vec<Dim>> positions, double reach);
 
-  double cell_size() const { return cell_size_; }
+  /// As asked for, or larger.
+  double reach() const { return cells_per_reach * edge_; }
 
-  /// Calls body(j) for every particle in the cells around `place`: all within cell_size(), and some beyond.
+  /// Particle indices cell by cell: by slabs across the direction in which the set spreads most, in a slab by rows.
+  std::span<const std::int32_t> order() const { return order_; }
+
+  /// Calls body(j) for every particle in the cells around `place`: all within reach(), and some beyond.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {
     const auto centre = cell_of(place);
     std::array<std::int64_t, Dim> low;
     std::array<std::int64_t, Dim> high;
     for (int d = 0; d < Dim; ++d) {
-      low[d] = std::max<std::int64_t>(centre[d] - 1, 0);
-      high[d] = std::min<std::int64_t>(centre[d] + 1, count_[d] - 1);
+      low[d] = std::max<std::int64_t>(centre[d] - cells_per_reach, 0);
+      high[d] = std::min<std::int64_t>(centre[d] + cells_per_reach, count_[d] - 1);
       if (low[d] > high[d]) return;
     }
-    const std::int64_t low_z = Dim == 3 ? low[Dim - 1] : 0;
-    const std::int64_t high_z = Dim == 3 ? high[Dim - 1] : 0;
-    for (std::int64_t z = low_z; z <= high_z; ++z) {
-      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+    const std::int64_t low_middle = Dim == 3 ? low[1] : 0;
+    const std::int64_t high_middle = Dim == 3 ? high[1] : 0;
+    for (std::int64_t a = low[0]; a <= high[0]; ++a) {
+      for (std::int64_t b = low_middle; b <= high_middle; ++b) {
         // The cells of one row lie side by side, so their particles are one range.
-        const std::int64_t row = (z * count_[1] + y) * count_[0];
-        for (std::int32_t k = cell_begin_[row + low[0]]; k < cell_begin_[row + high[0] + 1]; ++k) {
+        const std::int64_t row = (Dim == 3 ? a * count_[1] + b : a) * count_[Dim - 1];
+        const std::int32_t end = cell_begin_[row + high[Dim - 1] + 1];
+        for (std::int32_t k = cell_begin_[row + low[Dim - 1]]; k < end; ++k) {
           body(order_[k]);
         }
       }
@@ -47,12 +52,16 @@ class CellGrid {
   }
 
  private:
+  /// Cells of a third: a search looks at half as many particles as with cells of the whole reach.
+  static constexpr int cells_per_reach = 3;
+
   std::array<std::int64_t, Dim> cell_of(const Vec<Dim>& place) const;
   std::int64_t flat_index(const Vec<Dim>& place) const;
 
   Vec<Dim> origin_ = Vec<Dim>::Zero();
-  double cell_size_ = 1.0;
-  std::array<std::int64_t, Dim> count_{};
+  double edge_ = 1.0;
+  std::array<int, Dim> axis_{};            ///< directions, the one across the slabs first, that along the rows last
+  std::array<std::int64_t, Dim> count_{};  ///< cells along each axis_
   std::vector<std::int32_t> cell_begin_;
   std::vector<std::int32_t> order_;
 };

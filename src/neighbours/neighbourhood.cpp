@@ -1,9 +1,5 @@
 #include "neighbours/neighbourhood.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace tailwater {
@@ -21,35 +17,14 @@ void permute(std::span<const std::int32_t> order, std::vector<Value>& field) {
   field.swap(sorted);
 }
 
-/// Particle indices by slabs of thickness `spacing` across the fluid's longest extent, in each by rows across the next
-/// longest, in each by cells. Positions far from the fluid are cut to a range that fits the keys.
-template <int Dim>
-std::vector<std::int32_t> slab_order(const Particles<Dim>& particles, double spacing) {
-  Eigen::AlignedBox<double, Dim> box;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (particles.is_fluid(i)) box.extend(particles.position[i]);
+/// In ascending order; quick where it nearly is.
+void sort_row(std::int32_t* row, std::size_t count) {
+  for (std::size_t n = 1; n < count; ++n) {
+    const std::int32_t j = row[n];
+    std::size_t place = n;
+    for (; place > 0 && row[place - 1] > j; --place) row[place] = row[place - 1];
+    row[place] = j;
   }
-  std::array<int, Dim> axes;
-  std::iota(axes.begin(), axes.end(), 0);
-  if (!box.isEmpty()) {
-    const Vec<Dim> extent = box.sizes();
-    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return extent[a] > extent[b]; });
-  }
-  constexpr double most = 1 << 20;
-  std::vector<std::pair<std::int64_t, std::int32_t>> keys(particles.owned);
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    std::int64_t key = 0;
-    for (const int axis : axes) {
-      const double cell = std::floor((particles.position[i][axis] - (box.isEmpty() ? 0.0 : box.min()[axis])) / spacing);
-      key = key * static_cast<std::int64_t>(2.0 * most) +
-            static_cast<std::int64_t>(std::clamp(cell, -most, most - 1.0) + most);
-    }
-    keys[i] = {key, static_cast<std::int32_t>(i)};
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int32_t> order(keys.size());
-  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
-  return order;
 }
 
 }  // namespace
@@ -75,14 +50,14 @@ template <int Dim>
 void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
   wrap(particles);
   particles.resize(particles.owned);
-  const std::vector<std::int32_t> order = slab_order(particles, spacing_);
-  permute(order, particles.position);
-  permute(order, particles.velocity);
-  permute(order, particles.pressure);
-  permute(order, particles.volume);
-  permute(order, particles.kind);
-  permute(order, particles.wall_row);
-  permute(order, particles.id);
+  const CellGrid<Dim> grid(particles.position, kernel_radius(kernel_) + skin_);
+  permute(grid.order(), particles.position);
+  permute(grid.order(), particles.velocity);
+  permute(grid.order(), particles.pressure);
+  permute(grid.order(), particles.volume);
+  permute(grid.order(), particles.kind);
+  permute(grid.order(), particles.wall_row);
+  permute(grid.order(), particles.id);
   position_at_rebuild_.clear();
 }
 
@@ -108,18 +83,27 @@ void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
 
   list_.row_begin.resize(particles.owned + 1);
   list_.j.clear();
-  std::vector<std::int32_t> row(particles.size());
+  std::vector<std::int32_t> buffer(particles.size());
+  std::int32_t* const row = buffer.data();
+  const Vec<Dim>* const position = particles.position.data();
+  const double reach_squared = reach * reach;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    const Vec<Dim> position = particles.position[i];
-    const bool takes_walls = wall_rows_ == WallRows::all || particles.is_fluid(i);
+    const Vec<Dim> r_i = position[i];
+    const auto self = static_cast<std::int32_t>(i);
     std::size_t n = 0;  // kept by overwriting, as in evaluate_pairs
-    grid_.for_each_near(position, [&](std::int32_t j) {
-      row[n] = j;
-      n += (static_cast<std::size_t>(j) != i) & (takes_walls | particles.is_fluid(j)) &
-           static_cast<std::size_t>((position - particles.position[j]).squaredNorm() < reach * reach);
-    });
-    std::sort(row.begin(), row.begin() + n);
-    list_.j.insert(list_.j.end(), row.begin(), row.begin() + n);
+    if (wall_rows_ == WallRows::all || particles.is_fluid(i)) {
+      grid_.for_each_near(r_i, [&](std::int32_t j) {
+        row[n] = j;
+        n += static_cast<std::size_t>((r_i - position[j]).squaredNorm() < reach_squared) & (j != self);
+      });
+    } else {
+      grid_.for_each_near(r_i, [&](std::int32_t j) {
+        row[n] = j;
+        n += static_cast<std::size_t>((r_i - position[j]).squaredNorm() < reach_squared) & particles.is_fluid(j);
+      });
+    }
+    sort_row(row, n);
+    list_.j.insert(list_.j.end(), row, row + n);
     list_.row_begin[i + 1] = list_.j.size();
   }
 }

@@ -20,11 +20,15 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
   const double radius = kernel_radius(kernel);
   const double radius_squared = radius * radius;
   const double least_squared = least_distance * least_distance;
+  std::int32_t* const pair_j = pairs.j.data();
+  Vec<Dim>* const e = pairs.e.data();
+  double* const r = pairs.r.data();
   std::size_t n = 0;
   pairs.row_begin[0] = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     const Vec<Dim> r_i = position[i];
-    for (std::size_t k = list.row_begin[i]; k < list.row_begin[i + 1]; ++k) {
+    const std::size_t end = list.row_begin[i + 1];
+    for (std::size_t k = list.row_begin[i]; k < end; ++k) {
       const std::int32_t j = list.j[k];
       Vec<Dim> r_ij = r_i - position[j];
       double squared = r_ij.squaredNorm();
@@ -32,9 +36,9 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
         squared = least_squared;
         r_ij = (static_cast<std::size_t>(j) > i ? least_distance : -least_distance) * Vec<Dim>::UnitX();
       }
-      pairs.j[n] = j;
-      pairs.e[n] = r_ij;
-      pairs.r[n] = squared;
+      pair_j[n] = j;
+      e[n] = r_ij;
+      r[n] = squared;
       n += squared < radius_squared;
     }
     pairs.row_begin[i + 1] = n;
@@ -54,7 +58,10 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
         });
       },
       kernel);
-  for_each(n, [&](std::size_t k) { pairs.e[k] /= pairs.r[k]; });
+  for_each(n, [r = pairs.r.data(), e = pairs.e.data()](std::size_t k) {
+    const double inverse = 1.0 / r[k];
+    for (int d = 0; d < Dim; ++d) e[k].data()[d] *= inverse;
+  });
 }
 
 template void evaluate_pairs<2>(const Kernel<2>&, std::span<const Vec<2>>, double, const NeighbourList&, Pairs<2>&);

@@ -28,7 +28,7 @@ namespace tailwater {
 namespace {
 
 /// Particles drift away from cache order slowly: sorting this seldom keeps its cost below notice.
-constexpr std::int64_t steps_between_sorts = 20;
+constexpr std::int64_t steps_between_sorts = 5;
 
 /// A step below this share of the rule's own reference means some particle has run away: better an error now than a run
 /// that never ends.
