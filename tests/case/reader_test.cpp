@@ -33,7 +33,7 @@ TEST(Reader, ReadsEveryKindOfValue) {
   EXPECT_EQ(spec.scheme.kernel, KernelName::cubic_spline);
   EXPECT_EQ(spec.fluid[0].name, "drop");
   EXPECT_EQ(spec.fluid[0].points, (std::vector<Coordinates>{{0.0, 0.0}, {2.0, 0.0}, {1.0, 1.5}}));
-  EXPECT_EQ(spec.fluid[0].velocity, (Coordinates{3.0, 0.0}));
+  EXPECT_EQ(spec.fluid[0].velocity, (VectorField{3.0, 0.0}));
   EXPECT_EQ(spec.walls[0].name, "wall1");
   EXPECT_EQ(spec.walls[0].open, (std::vector<std::string>{"+y"}));
   EXPECT_EQ(spec.walls[0].slip, Slip::partial);
@@ -67,7 +67,7 @@ TEST(Reader, FillsInWhatDependsOnTheDimension) {
       read_text("case.dimension = 3\n" + required_keys +
                 "[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[[probe]]\nname = \"f\"\ntype = \"front\"\n");
   EXPECT_EQ(spec.physics.gravity, (Coordinates{0.0, 0.0, -9.81}));
-  EXPECT_EQ(spec.fluid[0].velocity, (Coordinates{0.0, 0.0, 0.0}));
+  EXPECT_EQ(spec.fluid[0].velocity, (VectorField{0.0, 0.0, 0.0}));
   EXPECT_EQ(spec.probes[0].direction, (Coordinates{1.0, 0.0, 0.0}));
 }
 
