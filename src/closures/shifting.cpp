@@ -52,8 +52,8 @@ int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
 
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                   const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
-                   std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
+                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
+                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
@@ -75,9 +75,10 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                               \
-  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, const Particles<Dim>&, \
-                                   std::span<const std::uint8_t>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                               \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
+                                          const Particles<Dim>&, std::span<const std::uint8_t>,  \
+                                          std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -33,7 +33,7 @@ struct ShiftingLaw {
 /// would have been longer than the bound.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                   const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
-                   std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
+                          const Particles<Dim>& particles, std::span<const std::uint8_t> is_near_surface,
+                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
 
 }  // namespace tailwater
