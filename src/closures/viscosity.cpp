@@ -1,10 +1,16 @@
 #include "closures/viscosity.h"
 
+#include <cmath>
+
 #include "base/for_each.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 
 namespace tailwater {
+
+double ViscosityLaw::at_wall(double speed) const {
+  return std::max(molecular, std::pow(8.3, -1.75) * std::pow(speed * wall_distance, 0.75) * std::pow(molecular, 0.25));
+}
 
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {
@@ -12,29 +18,42 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 }
 
 template <int Dim>
-void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
-                          double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                          std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration) {
+void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                          std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                          std::span<Vec<Dim>> acceleration) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      const double weight = morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
-      if (particles.is_fluid(j)) {
-        sum += weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-        continue;
-      }
+      if (!particles.is_fluid(j)) continue;
+      sum += morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * 0.5 *
+             (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
+    }
+    acceleration[i] += sum;
+  });
+}
+
+template <int Dim>
+void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
+                       const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
+                       std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration) {
+  // The no-slip velocity where the wall particle stands: of the mirror image behind the wall, or of the wall itself.
+  const bool is_image = walls.treatment == WallTreatment::dummies;
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      if (particles.is_fluid(j)) continue;
       const auto row = particles.wall_row[j];
       const double lambda = walls.friction[row];
       if (lambda == 0.0) continue;
-      // The no-slip velocity where the wall particle stands: of the mirror image behind the wall, or of the wall
-      // itself.
-      const bool is_image = walls.treatment == WallTreatment::dummies;
       const Vec<Dim> difference = (is_image ? Vec<Dim>(-wall_mean[j]) : Vec<Dim>(Vec<Dim>::Zero())) - velocity[i];
-      sum += lambda * weight * viscosity[i] * (difference - walls.particles.blocked[row] * difference);
+      sum += lambda * morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) *
+             (difference - walls.particles.blocked[row] * difference);
     }
-    acceleration[i] += sum;
+    if (!sum.isZero(0.0)) acceleration[i] += law.at_wall(velocity[i].norm()) * sum;
   });
 }
 
@@ -84,11 +103,13 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                    \
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
-  template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&, double,    \
-                                          std::span<const double>, std::span<const Vec<Dim>>,                         \
+  template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>,  \
                                           std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                            \
   template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
                                          std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
+  template void add_wall_friction<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,               \
+                                       const ViscosityLaw&, double, std::span<const Vec<Dim>>,                        \
+                                       std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                               \
   template void add_consistent_viscosity<Dim>(                                                                        \
       const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
       double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);

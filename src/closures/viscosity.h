@@ -1,8 +1,10 @@
-// Effective viscosity and the viscous acceleration.
+// Effective viscosity, the viscous acceleration and the friction of walls.
 //
 //   nu_eff = nu_0 + max(c_a |u| dx, c_f dx sqrt(g L))        (F3) with a floor
+//   nu_wall = nu_0 max(1, 8.3^(-7/4) (|u| y/nu_0)^(3/4))     wall stress nu_wall u/y of Werner & Wengle (1991)
 //
-// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (method.md 3).
+// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (method.md 3). Neither has anything
+// to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that of water.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +16,16 @@
 namespace tailwater {
 
 struct ViscosityLaw {
-  double molecular = 0.0;   ///< m^2/s; nu_0
-  double artificial = 0.0;  ///< m; c_a dx, times |u| gives nu_a
-  double floor = 0.0;       ///< m^2/s; c_f dx sqrt(g L)
+  double molecular = 0.0;      ///< m^2/s; nu_0
+  double artificial = 0.0;     ///< m; c_a dx, times |u| gives nu_a
+  double floor = 0.0;          ///< m^2/s; c_f dx sqrt(g L)
+  double wall_distance = 0.0;  ///< m; y of the wall law
 
   double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
+
+  /// Viscosity [m^2/s] with which no slip over `wall_distance` has the stress of a smooth wall: the laminar one up to
+  /// u y/nu_0 = 140 (y+ = 11.8), above it that of the power law u/u_tau = 8.3 (y u_tau/nu_0)^(1/7).
+  double at_wall(double speed) const;
 };
 
 /// Effective viscosity [m^2/s] of every particle, ghosts included.
@@ -26,13 +33,19 @@ template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity);
 
 /// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, c_ij the Morris
-/// weight; conserves momentum and never adds energy. Walls add friction lambda times the no-slip stress: the tangential
-/// part of c_ij nu_i (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror images, and 0 on
-/// the wall.
+/// weight; conserves momentum and never adds energy.
 template <int Dim>
-void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
-                          double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                          std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
+void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                          std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                          std::span<Vec<Dim>> acceleration);
+
+/// Friction of walls, lambda times the no-slip stress of the wall law: the tangential part of
+/// sum_w lambda c_iw nu_wall(|u_i|) (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror
+/// images, and 0 on the wall. Only slows down.
+template <int Dim>
+void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
+                       const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
+                       std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
 
 /// Dissipation of noise only: the two-point viscous force between fluid particles, not of the velocity difference
 /// itself but of what a linear field does not explain of it,

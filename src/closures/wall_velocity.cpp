@@ -42,11 +42,10 @@ void set_wall_velocity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
     const auto row = particles.wall_row[i];
     const Vec<Dim> normal_part = walls.particles.blocked[row] * mean[i];
     const Vec<Dim> tangential_part = mean[i] - normal_part;
-    const double lambda = walls.friction[row];
     if (walls.treatment == WallTreatment::dummies) {
-      velocity[i] = (1.0 - 2.0 * lambda) * tangential_part - normal_part;
+      velocity[i] = tangential_part - normal_part;
     } else {
-      velocity[i] = (1.0 - lambda) * tangential_part;
+      velocity[i] = (1.0 - walls.friction[row]) * tangential_part;
     }
   });
 }

@@ -1,12 +1,13 @@
 // Velocity of the particles that stand for walls.
 //
 //   mean_w = sum_f W u_f / sum_f W                       (Shepard mean of the fluid in reach)
-//   dummies:        u_w = (I - 2 M) mean - 2 lambda (I - M) mean     the mirror image: normal part reversed, tangential
-//                                                        part kept (lambda = 0, free slip) ... reversed (1, no slip)
+//   dummies:        u_w = (I - 2 M) mean                 the mirror image: normal part reversed, tangential part kept
 //   pressure rows:  u_w = (1 - lambda) (I - M) mean      the particle is on the wall: nothing goes through it
 //
 // M is the projector on the directions the wall blocks, lambda the wall's friction. A wall particle with no fluid in
-// reach is dry and at rest. Mirror images after Adami, Hu & Adams (2012), with their slip generalised.
+// reach is dry and at rest. Mirror images after Adami, Hu & Adams (2012), free slip for any friction: the divergence is
+// that of water that glides past a boundary layer thinner than dx; friction is a stress (viscosity.h). With the image
+// of no slip the divergence along the wall is that of water that turns back in it.
 #pragma once
 
 #include <cstdint>

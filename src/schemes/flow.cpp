@@ -12,6 +12,9 @@ namespace {
 /// half of this), so at the start of the next step; a wider skin would add idle entries to every loop.
 constexpr double skin_over_spacing = 0.2;
 
+/// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
+constexpr double wall_law_distance_over_spacing = 0.6;
+
 template <int Dim>
 PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   PeriodicDomain<Dim> periodic;
@@ -107,7 +110,8 @@ Flow<Dim>::Flow(const CaseSpec& spec)
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,
-                   .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length)};
+                   .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length),
+                   .wall_distance = wall_law_distance_over_spacing * spacing};
   shifting_law = {.kind = scheme.shifting,
                   .strength = scheme.shifting_strength,
                   .cap = scheme.shifting_cap * spacing,

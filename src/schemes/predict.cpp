@@ -27,8 +27,12 @@ void predict(Flow<Dim>& flow, double dt) {
     add_consistent_viscosity<Dim>(pairs, particles, flow.tensors, flow.takes_part, flow.spacing, flow.viscosity,
                                   particles.velocity, flow.acceleration);
   } else {
-    add_morris_viscosity<Dim>(pairs, particles, flow.walls, flow.spacing, flow.viscosity, particles.velocity,
-                              flow.wall_mean, flow.acceleration);
+    add_morris_viscosity<Dim>(pairs, particles, flow.spacing, flow.viscosity, particles.velocity, flow.acceleration);
+  }
+  // The consistent Laplacian takes the velocity of particles that stand on the wall, and with it their friction.
+  if (flow.scheme.laplacian == LaplacianKind::morris || flow.walls.treatment == WallTreatment::dummies) {
+    add_wall_friction<Dim>(pairs, particles, flow.walls, flow.viscosity_law, flow.spacing, particles.velocity,
+                           flow.wall_mean, flow.acceleration);
   }
   if (flow.uses_velocity_gradient()) {
     flow.velocity_gradient.resize(particles.size());

@@ -41,8 +41,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   std::vector<double> viscosity(set.size());
   effective_viscosity<Dim>({.molecular = 1e-6, .artificial = 0.02, .floor = 0.001}, velocity, viscosity);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
-  add_morris_viscosity<Dim>(set.pairs(), set.particles, WallModel<Dim>{}, dx, viscosity, velocity,
-                            std::vector<Vec<Dim>>(set.size(), Vec<Dim>::Zero()), acceleration);
+  add_morris_viscosity<Dim>(set.pairs(), set.particles, dx, viscosity, velocity, acceleration);
 
   // Pair by pair: force on i = - force on j, power = - w_i c_ij nu_ij |u_i - u_j|^2.
   const Pairs<Dim>& pairs = set.pairs();
@@ -126,8 +125,7 @@ TYPED_TEST(ViscosityTest, LeavesAUniformVelocityAlone) {
   const auto velocity = sample(set, [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Constant(1.7)); });
   const std::vector<double> viscosity(set.size(), 0.1);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
-  add_morris_viscosity<Dim>(set.pairs(), set.particles, WallModel<Dim>{}, dx, viscosity, velocity,
-                            std::vector<Vec<Dim>>(set.size(), Vec<Dim>::Zero()), acceleration);
+  add_morris_viscosity<Dim>(set.pairs(), set.particles, dx, viscosity, velocity, acceleration);
   add_consistent_viscosity<Dim>(set.pairs(), set.particles, operators.tensors, operators.takes_part, dx, viscosity,
                                 velocity, acceleration);
   for (const Vec<Dim>& a : acceleration) EXPECT_EQ(a, Vec<Dim>(Vec<Dim>::Zero()));

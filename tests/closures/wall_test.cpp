@@ -109,7 +109,7 @@ TYPED_TEST(WallTest, MirrorsAUniformVelocity) {
         const auto velocity = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
         Vec<Dim> expected;
         if (treatment == WallTreatment::dummies) {
-          expected = is_corner ? Vec<Dim>(-u) : Vec<Dim>((1.0 - 2.0 * friction) * tangential - normal);
+          expected = is_corner ? Vec<Dim>(-u) : Vec<Dim>(tangential - normal);
         } else {
           expected = is_corner ? Vec<Dim>(Vec<Dim>::Zero()) : Vec<Dim>((1.0 - friction) * tangential);
         }
@@ -127,13 +127,15 @@ TYPED_TEST(WallTest, MirrorsAUniformVelocity) {
   }
 }
 
+constexpr ViscosityLaw wall_law{.molecular = 0.1, .wall_distance = 0.6 * dx};
+
 template <int Dim>
-std::vector<Vec<Dim>> viscous_acceleration(double friction, const std::vector<Vec<Dim>>& fluid_velocity) {
+std::vector<Vec<Dim>> friction_acceleration(double friction, const std::vector<Vec<Dim>>& fluid_velocity,
+                                            const ViscosityLaw& law) {
   WettedWall<Dim> wall(flat<Dim>(), friction, WallTreatment::dummies);
   const auto velocity = wall.with_walls(fluid_velocity);
   std::vector<Vec<Dim>> acceleration(wall.set.size(), Vec<Dim>::Zero());
-  add_morris_viscosity<Dim>(wall.set.pairs(), wall.set.particles, wall.walls, dx,
-                            std::vector<double>(wall.set.size(), 0.1), velocity, wall.mean, acceleration);
+  add_wall_friction<Dim>(wall.set.pairs(), wall.set.particles, wall.walls, law, dx, velocity, wall.mean, acceleration);
   return acceleration;
 }
 
@@ -141,9 +143,9 @@ TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
   constexpr int Dim = TypeParam::value;
   const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
   const std::vector<Vec<Dim>> uniform(wall.set.size(), some_velocity<Dim>());
-  const auto free = viscous_acceleration<Dim>(0.0, uniform);
-  const auto partial = viscous_acceleration<Dim>(0.3, uniform);
-  const auto no_slip = viscous_acceleration<Dim>(1.0, uniform);
+  const auto free = friction_acceleration<Dim>(0.0, uniform, wall_law);
+  const auto partial = friction_acceleration<Dim>(0.3, uniform, wall_law);
+  const auto no_slip = friction_acceleration<Dim>(1.0, uniform, wall_law);
   Vec<Dim> tangential = some_velocity<Dim>();
   tangential[1] = 0.0;
   const double scale = 0.1 * tangential.norm() / (dx * dx);
@@ -161,6 +163,34 @@ TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
       EXPECT_EQ(no_slip[i], Vec<Dim>(Vec<Dim>::Zero()));
     }
   }
+}
+
+TYPED_TEST(WallTest, FrictionGoesByTheWallsViscosityAlone) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  const std::vector<Vec<Dim>> uniform(wall.set.size(), some_velocity<Dim>());
+  const auto laminar = friction_acceleration<Dim>(1.0, uniform, wall_law);
+  const ViscosityLaw water{.molecular = 1e-6, .artificial = 0.2 * dx, .floor = 0.3, .wall_distance = 0.6 * dx};
+  const auto turbulent = friction_acceleration<Dim>(1.0, uniform, water);
+  const double ratio = water.at_wall(some_velocity<Dim>().norm()) / wall_law.at_wall(some_velocity<Dim>().norm());
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    EXPECT_LE((turbulent[i] - ratio * laminar[i]).norm(), 8.0 * eps * turbulent[i].norm());
+  }
+}
+
+TEST(WallLaw, StressOfWernerAndWengle) {
+  const double nu = 1e-6;
+  const double y = 0.012;
+  const ViscosityLaw law{.molecular = nu, .artificial = 1.0, .floor = 1.0, .wall_distance = y};
+  for (const double u_tau : {0.01, 0.1, 1.0}) {  // y+ of 120 to 12000: turbulent
+    const double speed = 8.3 * u_tau * std::pow(y * u_tau / nu, 1.0 / 7.0);
+    EXPECT_NEAR(law.at_wall(speed) * speed / y, u_tau * u_tau, 16.0 * eps * u_tau * u_tau);
+  }
+  EXPECT_EQ(law.at_wall(0.0), nu);
+  EXPECT_EQ(law.at_wall(139.0 * nu / y), nu);  // laminar up to u y/nu = 8.3^(7/3) = 139.5
+  const double transition = std::pow(8.3, 7.0 / 3.0) * nu / y;
+  EXPECT_NEAR(law.at_wall(transition * (1.0 + 1e-9)), nu, 1e-9 * nu);  // continuous
+  EXPECT_EQ((ViscosityLaw{.wall_distance = y}.at_wall(3.0)), 0.0);
 }
 
 /// Floor y = 0 and a wall x = 0 meet in the origin; the fluid is in the first quadrant. Fluid at `positions`, then one
