@@ -22,7 +22,7 @@ import numpy as np
 from . import exact_flows, report, zhou1999
 from .curves import DataError
 from .metric import Metric, measure
-from .runs import INTERRUPTED, Program, Run, duration, finished, make, outcome
+from .runs import INTERRUPTED, Program, Run, duration, finished, make, outcome, require_accepted
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 EXPLICIT, IMPLICIT = (), ("scheme.integrator=implicit",)
@@ -460,10 +460,18 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
+class Parser(argparse.ArgumentParser):
+    """Complains like the rest of the program."""
+
+    def error(self, message):
+        print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
+        sys.exit(2)
+
+
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="tailwater bench robustness",
-                                     description="Runs and scores every gate of the robust core.",
-                                     epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
+    parser = Parser(prog="tailwater bench robustness", allow_abbrev=False,
+                    description="Runs and scores every gate of the robust core.",
+                    epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
     parser.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--out", type=Path, default=Path("bench"), metavar="DIR", help="folder for runs and results (bench)")
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
@@ -488,6 +496,8 @@ def main(arguments=None):
         program = Program(options.program)
         runs = list(dict.fromkeys(run for gate in chosen for run in gate.runs))
         (options.out / "runs").mkdir(parents=True, exist_ok=True)
+        if options.settings:
+            require_accepted(runs[0], program, options.out)
     except (DataError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2 if isinstance(error, DataError) else 4

@@ -83,9 +83,21 @@ def finished(run, out):
     return RunFolder(folder)
 
 
+def settings_of(run):
+    """As words of a command line."""
+    return [word for setting in run.settings for word in ("--set", setting)]
+
+
+def require_accepted(run, program, out):
+    """Throws DataError, with what the program says, if it does not accept the case with these settings."""
+    command = [program.path, "check", run.case, "--preview", out / "check.svg", *settings_of(run)]
+    result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    if result.returncode != 0:
+        raise DataError(result.stderr.strip().removeprefix("error: ") or f"{run.name}: exit code {result.returncode}")
+
+
 def command(run, program, folder):
-    settings = [word for setting in run.settings for word in ("--set", setting)]
-    return [str(program.path), "run", str(run.case), "--out", str(folder), "--force", "--quiet", *settings]
+    return [str(program.path), "run", str(run.case), "--out", str(folder), "--force", "--quiet", *settings_of(run)]
 
 
 def message_of(folder, errors):
