@@ -11,5 +11,6 @@ void add_new_command(CLI::App& app, ExitCode& code);
 void add_check_command(CLI::App& app, ExitCode& code);
 void add_run_command(CLI::App& app, ExitCode& code);
 void add_info_command(CLI::App& app, ExitCode& code);
+void add_bench_command(CLI::App& app, ExitCode& code);
 
 }  // namespace tailwater

@@ -19,7 +19,7 @@ from .curves import DataError
 from .particles import list_frames, read_frame
 from .run_folder import RunFolder
 
-REST = 5.0  # s from which a tank counts as at rest
+REST = 5.0  # s from which a tank counts as at rest; at most half the run
 BOTTOM_LAYER = 4  # dx
 
 
@@ -63,9 +63,10 @@ def bottom_distance(run, position):
 
 
 def tank(run):
-    """Water at rest whose surface is at the height `depth` of the case's parameters.
+    """Water at rest whose surface is at the height `depth` of the case's parameters, over a bottom whose height at the
+    depth probe is `bed` (default 0).
 
-    u_rms: largest from 5 s on (of a shorter run: over its second half), over sqrt(g H). pressure_error: rms over all
+    u_rms: largest from REST on, over sqrt(g H). pressure_error: rms over all
     particles at the end, over rho g H. level_error_dx: largest from then on. bottom_density: mean density error within
     4 dx of the bottom at the end."""
     depth, dx = run.parameters["depth"], run.spacing
@@ -75,13 +76,13 @@ def tank(run):
     scale = run.density * run.gravity * depth
     hydrostatic = run.density * run.gravity * (depth - height)
     kinetic = run.step_curve("kinetic_J")
-    rest = REST if kinetic.time[-1] > REST else 0.5 * kinetic.time[-1]
+    rest = min(REST, 0.5 * kinetic.time[-1])
     mass = run.density * dx**run.dimension * run.summary["particles"]["fluid"]
-    level = run.probe("level", "connected_m").window(rest, math.inf)
+    level = run.probe("level", "connected_m").window(rest, math.inf).value + run.parameters.get("bed", 0.0)
     return {
         "u_rms": math.sqrt(2 * kinetic.window(rest, math.inf).value.max() / mass / (run.gravity * depth)),
         "pressure_error": float(np.sqrt(np.mean((pressure - hydrostatic) ** 2))) / scale,
-        "level_error_dx": float(np.abs(level.value - depth).max()) / dx,
+        "level_error_dx": float(np.abs(level - depth).max()) / dx,
         "bottom_density": float(density_error[bottom_distance(run, last.position) < BOTTOM_LAYER * dx].mean()),
     }
 

@@ -1,0 +1,207 @@
+"""The solutions that runs are held against, each by the equations it must satisfy, and the scores of made-up runs."""
+
+import cmath
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from tailwater_validation import exact_flows
+from tailwater_validation.curves import DataError
+from tailwater_validation.run_folder import RunFolder
+
+FLOAT32 = 2.0**-23  # relative spacing of what field files hold
+
+
+def write_frame(path, position, fields):
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.column_stack([position, np.zeros(len(position))]).astype(np.float32), deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    for name, values in fields.items():
+        array = numpy_to_vtk(values.astype(np.float32), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(data)
+    writer.Write()
+
+
+class RunTest(unittest.TestCase):
+    """Writes runs of a given case: frames are [(time, position (n, 2), fields)], tables {file: {column: values}}."""
+
+    def write_run(self, case, frames, tables=None, status="done"):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        folder = Path(parent.name)
+        for name in ("fields", "probes"):
+            (folder / name).mkdir()
+        (folder / "case.effective.toml").write_text(case)
+        (folder / "summary.json").write_text(json.dumps(
+            {"status": status, "message": "it broke" if status == "failed" else "",
+             "particles": {"fluid": len(frames[0][1])}}))
+        entries = []
+        for k, (time, position, fields) in enumerate(frames):
+            write_frame(folder / "fields" / f"{k}.vtp", position, fields)
+            entries.append(f'<DataSet timestep="{time}" file="{k}.vtp"/>')
+        (folder / "fields" / "fields.pvd").write_text(
+            f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>{"".join(entries)}</Collection></VTKFile>\n')
+        for name, columns in (tables or {}).items():
+            np.savetxt(folder / name, np.stack(list(columns.values()), axis=1), delimiter=",", header=",".join(columns),
+                       comments="")
+        return RunFolder(folder)
+
+
+def lattice(low, high, dx):
+    x, y = np.meshgrid(*(np.arange(a + dx / 2, b, dx) for a, b in zip(low, high)))
+    return np.stack([x.ravel(), y.ravel()], axis=1)
+
+
+TANK = """\
+[parameters]
+depth = 0.5
+[case]
+dimension = 2
+[physics]
+density = 1000.0
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.05
+[[wall]]
+shape = "polyline"
+points = [[0.0, 1.0], [0.0, 0.0], [0.5, 0.0], [1.0, 0.5], [1.0, 1.0]]
+"""
+
+
+class Tank(RunTest):
+    def test_bottom_is_what_is_not_vertical(self):
+        run = self.write_run(TANK, [(0.0, np.zeros((1, 2)), {})])
+        position = np.array([[0.1, 0.2, 0.0], [0.75, 0.5, 0.0], [0.0, 0.4, 0.0], [1.0, 0.9, 0.0]])
+        np.testing.assert_allclose(exact_flows.bottom_distance(run, position),
+                                   [0.2, 0.25 / math.sqrt(2), 0.4, 0.4], atol=1e-12)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (0.25, 0.5), 0.05)  # far from the slope
+        pressure = 9810 * (0.5 - position[:, 1]) + 9810 * 0.5 * 0.01
+        density = np.where(position[:, 1] < 0.2, 0.003, -1.0)  # 4 dx = 0.2 m
+        mass = 1000 * len(position) * 0.05**2
+        time = np.linspace(0, 10, 101)
+        speed = np.where(time < 5, 1.0, 2e-3) * math.sqrt(9.81 * 0.5)
+        level = np.where(time < 5, 0.7, np.where(time == 7, 0.49, 0.5))
+        run = self.write_run(TANK, [(10.0, position, {"pressure": pressure, "density_error": density})], {
+            "steps.csv": {"time_s": time, "kinetic_J": 0.5 * mass * speed**2},
+            "probes/level.csv": {"time_s": time, "connected_m": level}})
+        numbers = exact_flows.tank(run)
+        self.assertAlmostEqual(numbers["u_rms"], 2e-3, delta=1e-9)
+        self.assertAlmostEqual(numbers["pressure_error"], 0.01, delta=2 * FLOAT32)
+        self.assertAlmostEqual(numbers["level_error_dx"], 0.2, delta=1e-9)
+        self.assertAlmostEqual(numbers["bottom_density"], 0.003, delta=FLOAT32)
+
+    def test_a_failed_run_and_a_missing_field_are_named(self):
+        with self.assertRaisesRegex(DataError, "it broke"):
+            exact_flows.tank(self.write_run(TANK, [(0.0, np.zeros((1, 2)), {})], status="failed"))
+        with self.assertRaisesRegex(DataError, "no pressure"):
+            exact_flows.tank(self.write_run(TANK, [(0.0, np.zeros((1, 2)), {})]))
+
+
+class TaylorGreen(RunTest):
+    CASE = """\
+[parameters]
+U = 2.0
+L = 1.0
+[case]
+dimension = 2
+[physics]
+density = 1000.0
+viscosity = 0.02
+[particles]
+spacing = 0.1
+"""
+
+    def test_field_solves_the_equations(self):
+        # Central differences of step h are wrong by h^2/6 times a third derivative: (2 pi)^3 U, and (4 pi)^3 for p.
+        h, U, nu, rho = 1e-4, 2.0, 0.02, 1000.0
+        x = np.array([[0.13, 0.41], [0.77, 0.05], [0.5, 0.9]])
+        def at(dx=0.0, dy=0.0, dt=0.0):
+            return exact_flows.taylor_green_field(x + [dx, dy], 0.3 + dt, U, 1.0, nu, rho)
+        (u, _), (east, pe), (west, pw), (north, pn), (south, ps) = at(), at(h), at(-h), at(0, h), at(0, -h)
+        ux, uy = (east - west) / (2 * h), (north - south) / (2 * h)
+        laplacian = (east + west + north + south - 4 * u) / h**2
+        ut = (at(dt=h)[0] - at(dt=-h)[0]) / (2 * h)
+        gradient = np.stack([pe - pw, pn - ps], axis=1) / (2 * h)
+        residual = ut + u[:, :1] * ux + u[:, 1:] * uy + gradient / rho - nu * laplacian
+        tolerance = h**2 / 6 * U**2 * ((4 * math.pi) ** 3 + 2 * (2 * math.pi) ** 4)
+        np.testing.assert_allclose(residual, 0, atol=tolerance + 1e-6)  # the second is round-off of 1/h^2
+        np.testing.assert_allclose(ux[:, 0] + uy[:, 1], 0, atol=tolerance)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (1, 1), 0.1)
+        velocity, pressure = exact_flows.taylor_green_field(position, 0.5, 2.0, 1.0, 0.02, 1000.0)
+        rate = 1.1 * 4 * 0.02 * (2 * math.pi) ** 2
+        run = self.write_run(self.CASE, [(0.5, position, {"pressure": 0.9 * pressure + 77,
+                                                          "velocity": np.column_stack([1.2 * velocity, 0 * pressure])})],
+                             {"probes/energy.csv": {"time_s": np.array([0.0, 0.5]),
+                                                    "kinetic_J": np.array([1.0, math.exp(-0.5 * rate)])}})
+        numbers = exact_flows.taylor_green(run)
+        # Positions are kept in single precision too: 2 pi/L times that.
+        self.assertAlmostEqual(numbers["velocity_error"], 0.2, delta=50 * FLOAT32)
+        self.assertAlmostEqual(numbers["pressure_error"], 0.1, delta=50 * FLOAT32)
+        self.assertAlmostEqual(numbers["decay_error"], 0.1, places=9)
+
+
+class StandingWave(unittest.TestCase):
+    K, DEPTH, G = math.pi, 0.5, 9.81
+
+    def test_root_without_viscosity(self):
+        root = exact_flows.wave_root(self.K, self.DEPTH, 0.0, self.G)
+        self.assertAlmostEqual(root, 1j * math.sqrt(self.G * self.K * math.tanh(self.K * self.DEPTH)))
+
+    def test_root_solves_its_equation_and_tends_to_2_nu_k2(self):
+        for nu in (1e-6, 1e-4, 5e-3):
+            with self.subTest(nu):
+                k, h = self.K, self.DEPTH
+                s = exact_flows.wave_root(k, h, nu, self.G)
+                m = cmath.sqrt(k**2 + s / nu)
+                left = (s + 2 * nu * k**2) ** 2 + self.G * k * math.tanh(k * h)
+                right = 4 * nu**2 * k**3 * m * math.tanh(k * h) / cmath.tanh(m * h)
+                self.assertLess(abs(left - right), 1e-12 * abs(s) ** 2)
+                # The right side is (nu k^2)^1.5 sqrt(s) at leading order, 4 of it, felt through 2 s.
+                self.assertLess(abs(s.real + 2 * nu * k**2), 4 * (nu * k**2) ** 1.5 / abs(s) ** 0.5)
+
+    def test_fit_finds_a_damped_oscillation_and_its_offset(self):
+        time, true = np.linspace(0, 6, 100), complex(-0.13, 5.2)
+        value = 0.4 + (complex(0.3, -0.7) * np.exp(true * time)).real
+        found = exact_flows.fit_oscillation(time, value, complex(-0.09, 5.35))
+        self.assertAlmostEqual(found, true, places=9)
+
+
+class Drop(unittest.TestCase):
+    def test_ideal_ellipse_keeps_area_and_energy(self):
+        # RK4 with steps of 1e-3 of the time scale: errors of the order 1e-12.
+        for a, b, rate in exact_flows.drop_axes([0.5, 1.0, 1.7], 1.3, 1.1, 0.9):
+            self.assertAlmostEqual(a * b, 1.1 * 0.9, places=10)
+            self.assertAlmostEqual(rate**2 * (a**2 + b**2), 1.3**2 * (1.1**2 + 0.9**2), places=10)
+
+    def test_axes_start_with_the_rate_of_strain(self):
+        (a, b, _), = exact_flows.drop_axes([1e-6], 2.0, 1.5, 0.5)
+        self.assertAlmostEqual((a - 1.5) / 1e-6, 2.0 * 1.5, delta=1e-4)
+        self.assertAlmostEqual((b - 0.5) / 1e-6, -2.0 * 0.5, delta=1e-4)
+
+    def test_semi_axes_of_a_lattice(self):
+        dx = 0.01
+        position = lattice((-2, -1), (2, 1), dx)
+        inside = (position[:, 0] / 2) ** 2 + position[:, 1] ** 2 < 1
+        # The cells that the outline cuts hold a share dx (perimeter)/area of the second moments at most.
+        np.testing.assert_allclose(exact_flows.semi_axes(position[inside]), [2, 1], rtol=dx)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,247 @@
+"""The bench: its runs with a program that only pretends, its gates, and what it reports."""
+
+import contextlib
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+import unittest
+from pathlib import Path
+
+from tailwater_validation import report, robustness, runs
+from tailwater_validation.curves import DataError
+from tailwater_validation.metric import Metric
+
+# Writes the least that a run leaves. A run whose command line holds the word given by $FAKE_FAILS fails; one that holds
+# $FAKE_WAITS sleeps until it is interrupted.
+FAKE = """\
+#!/usr/bin/python3
+import json, os, pathlib, sys, time
+here = pathlib.Path(__file__)
+if sys.argv[1] == "--version":
+    print("tailwater 9.9.9 (commit " + here.with_name("commit").read_text() + ")")
+    sys.exit()
+line = " ".join(sys.argv)
+if sys.argv[1] == "check":
+    if "bogus" in line:
+        print("error: unknown key bogus", file=sys.stderr)
+        sys.exit(2)
+    sys.exit()
+out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+with open(here.with_name("calls.txt"), "a") as calls:
+    print(out.name, file=calls)
+failing, waiting = os.environ.get("FAKE_FAILS"), os.environ.get("FAKE_WAITS")
+if waiting and waiting in line:
+    try:
+        time.sleep(60)
+    except KeyboardInterrupt:
+        sys.exit(130)
+if failing and failing in line:
+    print("error: made to fail", file=sys.stderr)
+    sys.exit(3)
+(out / "case.effective.toml").write_text("[particles]\\nspacing = 0.02\\n[scheme]\\nintegrator = 'explicit'\\n")
+(out / "summary.json").write_text(json.dumps({
+    "status": "done", "particles": {"fluid": 100}, "steps": {"count": 50},
+    "energy": {"start_J": 1.0, "largest_rise_over_start": 5e-5},
+    "volume": {"outside_the_walls_most": 0, "density_error_mean": 0.001, "density_error_rms": 0.02},
+    "interventions": {"put_back": 3, "capped": 1, "per_step": 0.5}}))
+"""
+
+
+class BenchTest(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.program = self.folder / "tailwater"
+        self.program.write_text(FAKE)
+        self.program.chmod(0o755)
+        self.commit("abc")
+        self.case = self.folder / "case.toml"
+        self.case.write_text("")
+
+    def commit(self, name):
+        (self.folder / "commit").write_text(name)
+
+    def calls(self):
+        """Names of the runs made so far, in order."""
+        path = self.folder / "calls.txt"
+        return path.read_text().split() if path.exists() else []
+
+    def fake(self, **variables):
+        """Behaviour of the fake program from here on."""
+        os.environ.update(variables)
+        for name in variables:
+            self.addCleanup(os.environ.pop, name, None)
+
+    def make(self, *made, jobs=1):
+        with contextlib.redirect_stderr(io.StringIO()) as messages:
+            runs.make(made, runs.Program(self.program), self.folder / "out", jobs)
+        return messages.getvalue()
+
+    def bench(self, *arguments):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                code = robustness.main(["--program", str(self.program), "--out", str(self.folder / "out"), *arguments])
+            except SystemExit as leave:
+                code = leave.code
+        return code, out.getvalue(), err.getvalue()
+
+
+class Runs(BenchTest):
+    def test_finished_runs_are_not_repeated(self):
+        a, b = (runs.Run(name, self.case, (f"x={name}",)) for name in "ab")
+        self.make(a)
+        self.make(a, b)
+        self.assertEqual(self.calls(), ["a", "b"])
+
+    def test_another_setting_case_or_commit_repeats_them(self):
+        self.make(runs.Run("a", self.case))
+        self.make(runs.Run("a", self.case, ("x=1",)))
+        self.case.write_text("# changed")
+        self.make(runs.Run("a", self.case, ("x=1",)))
+        self.commit("def")
+        self.make(runs.Run("a", self.case, ("x=1",)))
+        self.assertEqual(self.calls(), ["a"] * 4)
+
+    def test_a_program_without_commit_is_known_by_its_content(self):
+        self.commit("abc-dirty")
+        run = runs.Run("a", self.case)
+        self.make(run)
+        self.make(run)
+        self.program.write_text(FAKE + "# changed\n")
+        self.make(run)
+        self.assertEqual(self.calls(), ["a"] * 2)
+
+    def test_a_run_that_fails_keeps_its_message_and_the_others_go_on(self):
+        self.fake(FAKE_FAILS="x=1")
+        bad, good = runs.Run("bad", self.case, ("x=1",)), runs.Run("good", self.case)
+        self.assertIn("failed (error: made to fail)", self.make(bad, good, jobs=2))
+        self.assertEqual(runs.finished(good, self.folder / "out").spacing, 0.02)
+        with self.assertRaisesRegex(DataError, "bad: error: made to fail"):
+            runs.finished(bad, self.folder / "out")
+        self.make(bad)
+        self.assertEqual(sorted(self.calls()), ["bad", "good"])
+
+    def test_progress_tells_what_is_left(self):
+        lines = self.make(*(runs.Run(name, self.case, seconds=5) for name in "ab")).splitlines()
+        self.assertRegex(lines[0], r"^\[1/2\] a: done in \d+ s; ETA \d+ s$")
+        self.assertRegex(lines[1], r"^\[2/2\] b: done in \d+ s; ETA 0 s$")
+
+    def test_a_program_that_cannot_be_started(self):
+        with self.assertRaisesRegex(DataError, "cannot be started"):
+            runs.Program(self.folder / "nothing")
+
+
+class Gates(unittest.TestCase):
+    def test_runs_of_one_name_are_one_run(self):
+        for is_full in (False, True):
+            every = [run for gate in robustness.gates(robustness.Bench((), is_full)).values() for run in gate.runs]
+            self.assertEqual(len({run.name for run in every}), len(set(every)))
+
+    def test_cases_are_there_and_have_what_is_scored(self):
+        for run in {run.case: run for gate in robustness.gates(robustness.Bench()).values() for run in gate.runs}.values():
+            case = tomllib.loads(run.case.read_text())
+            self.assertIn(case["time"]["end"].__class__, (str, float), run.case)
+            if "tank" in run.case.name or run.case.parent.name == "tank":
+                self.assertIn("depth", case["parameters"], run.case)
+                self.assertIn("level", [probe["name"] for probe in case["probe"]], run.case)
+
+    def test_settings_of_a_gate_win_over_those_under_test_and_c1_has_none(self):
+        bench = robustness.Bench(("scheme.courant=0.1",), False)
+        gate = robustness.gates(bench)["consistency"]
+        for run in gate.runs:
+            self.assertEqual("scheme.courant=0.1" in run.settings, not run.name.endswith("_c1"), run.name)
+        self.assertEqual(bench.zhou(0.02, 8).settings[0], "scheme.courant=0.1")
+
+    def test_the_full_matrix_is_that_of_the_table(self):
+        gate = robustness.gates(robustness.Bench((), True))["dam-break"]
+        self.assertEqual(len(gate.runs), 3 * 5 * 2 * 2)  # spacings, starts, with and without viscosity, integrators
+
+
+class Report(unittest.TestCase):
+    RESULT = {"version": "1", "commit": "abc", "date": "now", "level": "quick", "settings": ["a=1"],
+              "gates": [{"name": "g", "what": "w", "metrics": [
+                  {"name": "g.a", "what": "first | one", "value": 0.12345, "low": None, "high": 0.2, "unit": "s",
+                   "verdict": "met", "reference": "C1 0.3", "note": "", "runs": ["r"]},
+                  {"name": "g.b", "what": "second", "value": None, "low": 1.0, "high": None, "unit": "",
+                   "verdict": "missed", "reference": "C1", "note": "it broke", "runs": ["r"]}]}]}
+
+    def test_table(self):
+        text = report.table(self.RESULT)
+        self.assertRegex(text, r"first \| one +<= 0\.2 +0\.123 +s +met +C1 0\.3")
+        self.assertRegex(text, r"second +>= 1 +- +missed +it broke")
+        self.assertIn("--set a=1", text)
+        self.assertTrue(text.endswith("1 met, 1 missed"))
+
+    def test_markdown_has_one_row_per_number(self):
+        lines = report.markdown(self.RESULT).splitlines()
+        self.assertEqual(sum(line.startswith("| g |") for line in lines), 2)
+        self.assertIn("first \\| one", lines[-2])
+
+
+class Command(BenchTest):
+    def test_numbers_verdicts_and_files(self):
+        self.fake(FAKE_FAILS="no-slip")
+        code, out, err = self.bench("--gate", "slip", "--gate", "density")
+        self.assertEqual(code, 0, err)
+        result = json.loads((self.folder / "out/bench.json").read_text())
+        metrics = {metric["name"]: metric for gate in result["gates"] for metric in gate["metrics"]}
+        self.assertEqual((metrics["density.explicit.mean"]["value"], metrics["density.explicit.mean"]["verdict"]),
+                         (0.001, "met"))
+        self.assertEqual(metrics["density.explicit.rms"]["verdict"], "missed")
+        self.assertEqual((metrics["slip.no-slip.explicit.finished"]["value"],
+                          metrics["slip.no-slip.explicit.finished"]["verdict"]), (0, "missed"))
+        self.assertIn("made to fail", metrics["slip.no-slip.explicit.delay"]["note"])
+        self.assertEqual(metrics["slip.partial.explicit.finished"]["verdict"], "met")
+        self.assertEqual((result["commit"], result["version"]), ("abc", "9.9.9"))
+        self.assertIn("made to fail", out)
+        self.assertIn("| density |", (self.folder / "out/bench.md").read_text())
+
+    def test_interventions_count_each_kind_but_no_rates(self):
+        self.make(run := runs.Run("a", self.case))
+        self.assertEqual(robustness.interventions(runs.finished(run, self.folder / "out")), 4 / (100 * 50))
+
+    def test_list_does_nothing(self):
+        code, out, _ = self.bench("--list")
+        self.assertEqual(code, 0)
+        self.assertEqual([line.split()[0] for line in out.splitlines()], list(robustness.gates(robustness.Bench())))
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_bad_input_is_refused_before_anything_runs(self):
+        for arguments, part in ((("--gate", "tnak"), "did you mean tank?"), (("--jobs", "0"), "at least 1"),
+                                (("--set", "x"), "key=value"), (("--level", "some"), "quick"),
+                                (("--set", "bogus=1"), "unknown key bogus"), (("--bogus",), "--help")):
+            with self.subTest(arguments):
+                code, out, err = self.bench(*arguments)
+                self.assertEqual((code, out), (2, ""))
+                self.assertRegex(err, "^error: ")
+                self.assertIn(part, err)
+        self.assertEqual(self.calls(), [])
+
+    def test_interrupted_runs_are_made_again_and_finished_ones_kept(self):
+        command = [sys.executable, "-B", "-m", "tailwater_validation.robustness", "--program", str(self.program),
+                   "--out", str(self.folder / "out"), "--gate", "slip"]
+        process = subprocess.Popen(command, env={**os.environ, "FAKE_WAITS": "partial"}, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        deadline = time.monotonic() + 60
+        while len(self.calls()) < 3 and time.monotonic() < deadline:  # no-slip, free slip, then the one that waits
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, err)
+        self.assertEqual(len(self.calls()), 3)
+        self.assertEqual(self.bench("--gate", "slip")[0], 0)
+        made = self.calls()
+        self.assertEqual(len(made), 4)
+        self.assertEqual(made[3], made[2])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,523 @@
+"""The gates of the robust core: which runs they need, what is read from them, and the bars.
+
+`tailwater bench robustness` runs this module: it makes the runs, scores them and writes OUT/bench.json and OUT/bench.md.
+Both integrators and all cases run with the program's defaults; `--set` changes the default under test, but neither what
+a gate is about (its start, its spacing) nor the conservative formulation C1 it is compared with.
+
+Usage: python -m tailwater_validation.robustness --program FILE [--out DIR] [--level quick|full] [--gate NAME]...
+Exit codes: 0 all was run and scored (whatever the verdicts are), 2 bad input, 4 a file cannot be written, 130 interrupted.
+"""
+
+import argparse
+import difflib
+import signal
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from pathlib import Path
+
+import numpy as np
+
+from . import exact_flows, report, zhou1999
+from .curves import DataError
+from .metric import Metric, measure
+from .runs import INTERRUPTED, Program, Run, duration, finished, make, outcome, require_accepted
+
+CASES = Path(__file__).resolve().parents[2] / "cases"
+EXPLICIT, IMPLICIT = (), ("scheme.integrator=implicit",)
+# C1 of reference/method.md: the conservative formulation as it was before this work.
+C1 = ("scheme.laplacian=morris", "scheme.gradient=conservative", "scheme.divergence=standard",
+      "scheme.divergence_free=start", "scheme.displacement=mean-velocity", "scheme.artificial_viscosity=0.02",
+      "scheme.viscosity_floor=0.02", "scheme.noise_viscosity=0")
+INVISCID = ("scheme.artificial_viscosity=0", "scheme.viscosity_floor=0", "scheme.noise_viscosity=0")
+STARTS = {
+    "regular": (),
+    "shifted": ('fluid[0].min=["dx/2", "dx/2"]', 'fluid[0].max=["2*H+dx/2", "H+dx/2"]'),
+    "jitter0.02": ("particles.jitter=0.02",),
+    "jitter0.1": ("particles.jitter=0.1",),
+    "jitter0.15": ("particles.jitter=0.15",),
+}
+IMPLICIT_COST = 2.5  # CPU time of the implicit integrator over that of the explicit one, for estimates
+
+
+@dataclass(frozen=True)
+class Check:
+    """One number of a gate: `compute` takes the folders of `runs`. With `also_failed` it takes the runs themselves and
+    the bench's folder instead, whatever became of them."""
+
+    metric: Metric
+    runs: tuple
+    compute: Callable
+    also_failed: bool = False
+
+    def score(self, out):
+        if self.also_failed:
+            return measure(self.metric, value=lambda: self.compute(self.runs, out))
+        return measure(self.metric, value=lambda: self.compute(*(finished(run, out) for run in self.runs)))
+
+
+@dataclass(frozen=True)
+class Gate:
+    name: str
+    what: str
+    checks: tuple
+
+    @property
+    def runs(self):
+        """Without repetition, in order."""
+        return list(dict.fromkeys(run for check in self.checks for run in check.runs))
+
+
+@dataclass(frozen=True)
+class Bench:
+    """How the gates' runs are made: the settings under test, and whether all of the table is."""
+
+    settings: tuple = ()
+    is_full: bool = False
+
+    def run(self, name, case, settings=(), seconds=10.0, is_baseline=False):
+        """Settings of the run itself come last: they win."""
+        under_test = () if is_baseline else self.settings
+        return Run(name, CASES / case, (*under_test, *settings), seconds)
+
+    def zhou(self, dx, T, start="regular", integrator="explicit", variant="", settings=()):
+        """Zhou's dam break to T = t sqrt(g/H); costs 11 CPU s to T = 8 at dx = 0.02."""
+        seconds = 11 * (0.02 / dx) ** 3.2 * T / 8 * (IMPLICIT_COST if integrator == "implicit" else 1)
+        name = f"zhou_dx{dx:g}_T{T:g}_{start}_{integrator}" + (f"_{variant}" if variant else "")
+        return self.run(name, "zhou1999/case.toml",
+                        (f"particles.spacing={dx:g}", f"time.end={T:g}*sqrt(H/g)", f"scheme.integrator={integrator}",
+                         "output.fields_interval=sqrt(H/g)", *STARTS[start], *settings), seconds)
+
+    @property
+    def integrators(self):
+        return ("explicit", "implicit")
+
+
+# ---------------------------------------------------------------------------------------------------- what is read
+
+
+@lru_cache(maxsize=None)
+def flow_numbers(flow, path):
+    return exact_flows.FLOWS[flow](exact_flows.RunFolder(path))
+
+
+@lru_cache(maxsize=None)
+def zhou_metrics(path):
+    return {metric["name"]: metric for metric in zhou1999.score(path)["metrics"]}
+
+
+def exact(flow, name, run):
+    return abs(flow_numbers(flow, run.path)[name])
+
+
+def zhou(name, run, field="value"):
+    metric = zhou_metrics(run.path)[name]
+    if metric[field] is None:
+        raise DataError(f"{run.path.name}: {metric['note']}")
+    return metric[field]
+
+
+def summary(block, name, run):
+    return run.summary[block][name]
+
+
+def interventions(run):
+    """Clamps, limiters and fallbacks of all kinds, per particle and step."""
+    counts = [count for count in run.summary["interventions"].values() if isinstance(count, int)]
+    return sum(counts) / (run.summary["particles"]["fluid"] * run.summary["steps"]["count"])
+
+
+def energy_at(T, run):
+    """Total energy at a time T over that of the start."""
+    kinetic, potential = run.step_curve("kinetic_J"), run.step_curve("potential_J")
+    return float(np.interp(T * zhou1999.TIME_SCALE, kinetic.time, kinetic.value + potential.value)
+                 / run.summary["energy"]["start_J"])
+
+
+def divergence(positions, run):
+    """Rms over the run, in sqrt(g/H), at the "old" or "new" positions."""
+    return run.summary["divergence"][f"rms_at_{positions}_positions_per_s"] * zhou1999.TIME_SCALE
+
+
+def divergence_of_old_positions(run):
+    """What the motion of a step adds: the part of the divergence that is at the new positions only, in quadrature."""
+    return max(divergence("new", run) ** 2 - divergence("old", run) ** 2, 0.0) ** 0.5
+
+
+def order(flow, name, *runs):
+    """Observed order: slope of log error over log dx, least squares."""
+    spacings = [run.spacing for run in runs]
+    return float(np.polyfit(np.log(spacings), np.log([exact(flow, name, run) for run in runs]), 1)[0])
+
+
+def worst_ratio(flow, name, *runs):
+    """Largest ratio of errors at equal dx: the first half of the runs over the second."""
+    half = len(runs) // 2
+    return max(exact(flow, name, run) / exact(flow, name, other) for run, other in zip(runs[:half], runs[half:]))
+
+
+def mean_level(run):
+    """Mean height of the water over the floor at the end (m): the highest particle of each column of two spacings."""
+    position = exact_flows.frames(run)[-1].position.astype(float)
+    dx = run.spacing
+    column = (position[:, 0] // (2 * dx)).astype(int)
+    highest = np.full(column.max() + 1, np.nan)
+    for k in range(highest.size):
+        if (column == k).any():
+            highest[k] = position[column == k, 1].max() + 0.5 * dx
+    return float(np.nanmean(highest))
+
+
+# --------------------------------------------------------------------------------------------------------- gates
+
+
+def tank_gate(bench, name, what, case, dx, end, seconds, factor=1.0, is_implicit_quick=False):
+    """Still water; with `factor` times the bars."""
+    checks = []
+    for integrator in bench.integrators if bench.is_full or is_implicit_quick else ("explicit",):
+        run = bench.run(f"{name}_{integrator}", case,
+                        (f"particles.spacing={dx:g}", "particles.jitter=0.2", f"time.end={end:g}",
+                         f"scheme.integrator={integrator}", "output.fields_interval=1.0"),
+                        seconds * (IMPLICIT_COST if integrator == "implicit" else 1))
+        for number, text, unit, high, reference in (
+                ("u_rms", "rms speed from 5 s on, largest" if end > 5 else "rms speed in the second half, largest",
+                 "sqrt(g H)", 3e-4, "C1 2.9e-4"),
+                ("pressure_error", "rms pressure error at the end", "rho g H", 3e-3, "C1 0.003"),
+                ("level_error_dx", "level, largest error", "dx", 0.25, ""),
+                ("bottom_density", "density error within 4 dx of the bottom", "", 2e-3, "C1 0.002 (bulk)")):
+            checks.append(Check(Metric(f"{name}.{integrator}.{number}", f"{text}, {integrator}", unit, reference,
+                                       high=factor * high), (run,), partial(exact, "tank", number)))
+    return Gate(name, what, tuple(checks))
+
+
+def matrix_gate(bench):
+    """Zhou's dam break from five starts, with and without numerical viscosity."""
+    T = 20 if bench.is_full else 8
+    groups = []  # (dx, integrator, [(start, variant, settings)])
+    both = [(start, variant, settings) for variant, settings in (("", ()), ("inviscid", INVISCID)) for start in STARTS]
+    if bench.is_full:
+        groups = [(dx, integrator, both) for dx in (0.02, 0.012, 0.006) for integrator in bench.integrators]
+    else:
+        groups = [(0.02, "explicit", [*both[:5], both[5], both[9]]), (0.02, "implicit", [both[0], both[9]])]
+    checks = []
+    for dx, integrator, starts in groups:
+        runs = tuple(bench.zhou(dx, T, start, integrator, variant, settings) for start, variant, settings in starts)
+        label, text = f"dam_break.dx{dx:g}.{integrator}", f"dx = {dx:g}, {integrator}"
+        checks += [
+            Check(Metric(f"{label}.finished", f"runs that reach T = {T}, {text}", f"of {len(runs)}",
+                         "C1: 5 of 5 at dx = 0.02; published: none", low=len(runs)), runs, count_finished, True),
+            Check(Metric(f"{label}.outside", f"particles outside the tank, most, {text}", "", "", high=0), runs,
+                  partial(largest, partial(summary, "volume", "outside_the_walls_most")), True),
+            Check(Metric(f"{label}.energy_rise", f"largest rise of the total energy, {text}", "of the start",
+                         "C1 2e-4", high=1e-4), runs,
+                  partial(largest, partial(summary, "energy", "largest_rise_over_start")), True),
+        ]
+    return Gate("dam-break", f"Zhou to T = {T} from five starts, with and without numerical viscosity", tuple(checks))
+
+
+def count_finished(runs, out):
+    return sum(outcome(out / "runs" / run.name).get("exit_code") == 0 for run in runs)
+
+
+def largest(read, runs, out):
+    """Over those that finished; the others are missed already."""
+    values = [read(finished(run, out)) for run in runs if outcome(out / "runs" / run.name).get("exit_code") == 0]
+    if not values:
+        raise DataError("none of the runs finished")
+    return max(values)
+
+
+def slip_gate(bench):
+    T = 20 if bench.is_full else 8
+    free = bench.zhou(0.02, T)
+    checks = []
+    for name, settings in (("no-slip", ("wall[0].slip=no-slip",)),
+                           ("partial", ("wall[0].slip=partial", "wall[0].friction=0.5"))):
+        for integrator in bench.integrators if bench.is_full else ("explicit",):
+            run = bench.zhou(0.02, T, integrator=integrator, variant=name, settings=settings)
+            label, text = f"slip.{name}.{integrator}", f"{name}, {integrator}"
+            checks.append(Check(Metric(f"{label}.finished", f"reaches T = {T}, {text}", "of 1",
+                                       "C1 with a smaller leak: to T = 8", low=1), (run,), count_finished, True))
+            checks.append(Check(Metric(f"{label}.delay", f"front at the wall later than with free slip, {text}", "s",
+                                       "to be explained: C1 0.06..0.08"), (run, free),
+                                lambda run, free: zhou("arrival_front", run) - zhou("arrival_front", free)))
+    return Gate("slip", f"no slip and partial slip, Zhou to T = {T}", tuple(checks))
+
+
+def density_gate(bench):
+    dx, T = (0.012, 20) if bench.is_full else (0.02, 8)
+    checks = []
+    for integrator in bench.integrators:
+        run = bench.zhou(dx, T, integrator=integrator)
+        label, text = f"density.{integrator}", f"dx = {dx:g}, to T = {T}, {integrator}"
+        checks += [
+            Check(Metric(f"{label}.mean", f"mean density error, {text}", "", "C1 0.002", -2e-3, 2e-3), (run,),
+                  partial(summary, "volume", "density_error_mean")),
+            Check(Metric(f"{label}.rms", f"rms density error, {text}", "", "C1 0.010..0.015", high=1e-2), (run,),
+                  partial(summary, "volume", "density_error_rms")),
+        ]
+        if bench.is_full:
+            rest = bench.zhou(0.02, 80, integrator=integrator)
+            exact_level = 2 * zhou1999.H**2 / zhou1999.TANK
+            checks.append(Check(Metric(f"{label}.level", f"mean level at T = 80, error, {integrator}", "of the level", "",
+                                       -5e-3, 5e-3), (rest,), lambda run: mean_level(run) / exact_level - 1))
+    return Gate("density", "volume of the dam break", tuple(checks))
+
+
+def pressure_gate(bench):
+    """Noise, laboratory pressure, arrival, interventions and cost, of the runs at dx = 0.015."""
+    checks = []
+    for integrator in bench.integrators:
+        run = bench.zhou(0.015, 8, integrator=integrator)
+        noise_reference = "C1/C2 0.005-0.015; SISPH 0.015-0.020, DFSPH 0.04, SPHinXsys 0.17, DualSPHysics 0.22"
+        arrival_reference = "C1 0.59-0.61; SISPH 0.62"
+        checks += [
+            Check(Metric(f"noise.{integrator}", f"wall pressure noise, z = 0.16 m, {integrator}", "rho g H",
+                         noise_reference, high=6e-3), (run,), partial(zhou, "noise")),
+            Check(Metric(f"arrival.{integrator}", f"arrival at the wall, z = 0.12 m, {integrator}", "s",
+                         arrival_reference, 0.61, 0.64), (run,), partial(zhou, f"arrival_{zhou1999.READ_AT}")),
+            Check(Metric(f"arrival.front.{integrator}", f"arrival, front at the wall, {integrator}", "s", ""), (run,),
+                  partial(zhou, "arrival_front")),
+            Check(Metric(f"interventions.{integrator}", f"clamps, limiters, fallbacks per particle and step, {integrator}",
+                         "", "C1 1e-4..3e-4", high=1e-5), (run,), interventions),
+            Check(Metric(f"cost.{integrator}", f"CPU time per simulated second, {integrator}", "s",
+                         "SISPH 36-45, DFSPH 2.0, SPHinXsys 7, DualSPHysics 28",
+                         high=8.0 if integrator == "explicit" else None), (run,),
+                  partial(summary, "cost", "cpu_s_per_simulated_s")),
+        ]
+    return Gate("noise", "noise, arrival, interventions and cost of the dam break, dx = 0.015", tuple(checks))
+
+
+READINGS = {"z = 0.06 m": "point z = 0.06 m", "z = 0.115 m": "point z = 0.115 m", "z = 0.12 m": "point z = 0.12 m",
+            "z = 0.16 m": "point z = 0.16 m", "mean of 0.115..0.205 m": "P2"}
+
+
+def laboratory_rms(reading, run):
+    """RMS difference from the laboratory at the best shift, T = 2.4..7; the mean of both digitisations."""
+    return sum(zhou(f"rms {reading} T 2.4..7 {digitisation}", run, "shifted_value")
+               for digitisation in zhou1999.DIGITISATIONS) / len(zhou1999.DIGITISATIONS)
+
+
+def laboratory_gate(bench):
+    spacings = (0.02, 0.015, 0.012, 0.006) if bench.is_full else (0.02, 0.015)
+    reference = "SISPH 0.21, SPHinXsys 0.29, DFSPH 0.31, DualSPHysics 0.38"
+    checks = []
+    for integrator in bench.integrators if bench.is_full else ("explicit",):
+        runs = {dx: bench.zhou(dx, 20 if bench.is_full and dx in (0.02, 0.012, 0.006) else 8, integrator=integrator)
+                for dx in spacings}
+        label = f"laboratory.{integrator}"
+        checks.append(Check(Metric(f"{label}.best", f"RMS of the wall pressure, the best reading, dx = {spacings[-1]:g}, "
+                                   f"{integrator}", "rho g H", reference, high=0.20), (runs[spacings[-1]],),
+                            lambda run: min(laboratory_rms(reading, run) for reading in READINGS.values())))
+        for text, reading in READINGS.items():
+            for dx, run in runs.items():
+                checks.append(Check(Metric(f"{label}.{reading}.dx{dx:g}", f"RMS, {text}, dx = {dx:g}, {integrator}",
+                                           "rho g H", reference), (run,), partial(laboratory_rms, reading)))
+            checks.append(Check(
+                Metric(f"{label}.{reading}.falls", f"RMS at dx = {spacings[-1]:g} over that at {spacings[0]:g}, {text}, "
+                       f"{integrator}", "", "should fall: below 1"), (runs[spacings[0]], runs[spacings[-1]]),
+                lambda coarse, fine, reading=reading: laboratory_rms(reading, fine) / laboratory_rms(reading, coarse)))
+    return Gate("laboratory", "wall pressure against Zhou, T = 2.4..7, shift within 0.12", tuple(checks))
+
+
+# flow: (case, settings, spacings of quick, one more for full, CPU s at the coarsest, power of the cost, quantities)
+CONSISTENCY = {
+    "taylor-green": ("robustness/taylor_green.toml", (), (0.04, 0.02), 0.01, 0.4, 3.4,
+                     ("velocity_error", "pressure_error", "decay_error")),
+    "standing-wave": ("robustness/standing_wave.toml", (), (0.05, 0.025), 0.0125, 1.5, 3.2,
+                      ("wave_error", "period_error", "decay_error")),
+    "drop": ("robustness/drop.toml", (), (0.1, 0.05), 0.025, 0.2, 3.2,
+             ("velocity_error", "pressure_error", "axes_error", "energy_error")),
+    "tank": ("tank/case.toml", ("particles.jitter=0.2", "time.end=5", "output.fields_interval=1.0"), (0.05, 0.025),
+             0.0125, 1.5, 3.2, ("pressure_error", "u_rms")),
+}
+
+
+def consistency_gate(bench):
+    """The default against C1, at equal dx and by order."""
+    checks = []
+    for flow, (case, settings, spacings, finest, seconds, power, quantities) in CONSISTENCY.items():
+        if bench.is_full:
+            spacings = (*spacings, finest)
+
+        def runs(variant, scheme, is_baseline=False):
+            return tuple(bench.run(f"{flow}_dx{dx:g}_{variant}", case, (f"particles.spacing={dx:g}", *settings, *scheme),
+                                   seconds * (spacings[0] / dx) ** power, is_baseline) for dx in spacings)
+
+        ours, c1 = runs("default", EXPLICIT), runs("c1", C1, True)
+        for rank, quantity in enumerate(quantities):
+            label = f"consistency.{flow}.{quantity}"
+            text = f"{flow}, {quantity.replace('_', ' ')}"
+            is_gate = rank == 0  # the others are shown
+            checks.append(Check(Metric(f"{label}.ratio", f"{text}: over that of C1 at equal dx, worst", "",
+                                       "not shown by anyone", high=0.5 if is_gate else None), ours + c1,
+                                partial(worst_ratio, flow, quantity)))
+            for name, chosen, low in (("default", ours, 1.5 if is_gate else None), ("C1", c1, None)):
+                checks.append(Check(Metric(f"{label}.order.{name}", f"{text}: observed order, {name}", "", "", low=low),
+                                    chosen, partial(order, flow, quantity)))
+            for name, chosen in (("default", ours), ("C1", c1)):
+                for dx, run in zip(spacings, chosen):
+                    checks.append(Check(Metric(f"{label}.dx{dx:g}.{name}", f"{text}, dx = {dx:g}, {name}", "", ""),
+                                        (run,), partial(exact, flow, quantity)))
+    return Gate("consistency", "the default against the conservative C1: half the error, order 1.5", tuple(checks))
+
+
+def implicit_gate(bench):
+    explicit, implicit = bench.zhou(0.015, 8), bench.zhou(0.015, 8, integrator="implicit")
+    both = (implicit, explicit)
+    checks = [
+        Check(Metric("implicit.passes", "passes per step, median", "", "C2 4", high=3), (implicit,),
+              lambda run: float(np.median(run.steps()["passes"]))),
+        Check(Metric("implicit.old_part", "divergence from the old positions, over the explicit scheme's", "",
+                     "C2: the small part", high=0.1), both,
+              lambda run, other: divergence_of_old_positions(run) / divergence_of_old_positions(other)),
+        Check(Metric("implicit.whole", "divergence at the new positions, over the explicit scheme's", "",
+                     "C2 0.03/0.04 = 0.75", high=1 / 3), both,
+              lambda run, other: divergence("new", run) / divergence("new", other)),
+        Check(Metric("implicit.energy", "energy at T = 4, less the explicit scheme's", "of the start",
+                     "C2 0.975 - 0.992 = -0.017", low=-2e-3), both,
+              lambda run, other: energy_at(4, run) - energy_at(4, other)),
+    ]
+    for name, run in (("explicit", explicit), ("implicit", implicit)):
+        for positions in ("old", "new"):
+            checks.append(Check(Metric(f"implicit.divergence.{name}.{positions}",
+                                       f"rms divergence at the {positions} positions, {name}", "sqrt(g/H)",
+                                       "C2 0.03..0.04"), (run,), partial(divergence, positions)))
+        checks.append(Check(Metric(f"implicit.energy.{name}", f"energy at T = 4, {name}", "of the start", ""), (run,),
+                            partial(energy_at, 4)))
+    return Gate("implicit", "divergence left and energy lost, Zhou, dx = 0.015", tuple(checks))
+
+
+# Of equal cost: explicit at dx, implicit at 4/3 dx, since the cost is as dx^-3.2.
+EQUAL_COST_SPACINGS = {"explicit": 0.015, "implicit": 0.02}
+
+
+def wins(ours, other):
+    """In how many of noise, volume and energy `ours` is better."""
+    return (int(zhou("noise", ours) < zhou("noise", other))
+            + int(abs(summary("volume", "density_error_rms", ours)) < abs(summary("volume", "density_error_rms", other)))
+            + int(energy_at(4, ours) > energy_at(4, other)))
+
+
+def equal_cost_gate(bench):
+    explicit, implicit = (bench.zhou(dx, 8, integrator=name) for name, dx in EQUAL_COST_SPACINGS.items())
+    checks = [
+        Check(Metric("equal_cost.wins", "implicit at dx = 0.02 better than explicit at 0.015 in noise, volume, energy",
+                     "of 3", "mixed", low=1), (implicit, explicit), wins),
+        Check(Metric("equal_cost.cpu", "CPU time of the two, implicit over explicit", "", "should be 1"),
+              (implicit, explicit),
+              lambda run, other: summary("cost", "cpu_s", run) / summary("cost", "cpu_s", other)),
+    ]
+    for name, run in (("explicit", explicit), ("implicit", implicit)):
+        for what, unit, read in (("noise", "rho g H", partial(zhou, "noise")),
+                                 ("rms density error", "", partial(summary, "volume", "density_error_rms")),
+                                 ("energy at T = 4", "of the start", partial(energy_at, 4))):
+            checks.append(Check(Metric(f"equal_cost.{name}.{what}", f"{what}, {name} at dx = {EQUAL_COST_SPACINGS[name]}",
+                                       unit, ""), (run,), read))
+    return Gate("equal-cost", "implicit against explicit at equal CPU time, Zhou", tuple(checks))
+
+
+def gates(bench):
+    """All gates in the order of the table, by name."""
+    found = [
+        tank_gate(bench, "tank", "tank 1 m x 0.5 m at rest, jitter 0.2, 10 s", "tank/case.toml", 0.02, 10, 18,
+                  is_implicit_quick=True),
+        tank_gate(bench, "tank-tilted", "the same with a tilted bottom", "robustness/tank_tilted.toml", 0.02, 10, 15),
+        tank_gate(bench, "tank-step", "the same with a step", "robustness/tank_step.toml", 0.02, 10, 15),
+        tank_gate(bench, "tank-corner", "the same with a corner of 45 degrees", "robustness/tank_corner.toml", 0.02, 10,
+                  16),
+        tank_gate(bench, "tank-deep", "2 m deep", "robustness/tank_deep.toml", 0.02, 10, 80),
+        tank_gate(bench, "tank-3d", "3D tank, 5 s, twice the bars", "robustness/tank_3d.toml", 0.025, 5, 80, factor=2.0),
+        matrix_gate(bench), slip_gate(bench), density_gate(bench), pressure_gate(bench), laboratory_gate(bench),
+        consistency_gate(bench), implicit_gate(bench), equal_cost_gate(bench),
+    ]
+    return {gate.name: gate for gate in found}
+
+
+def chosen_gates(bench, names):
+    """Throws DataError for a name that no gate has."""
+    every = gates(bench)
+    for name in names:
+        if name not in every:
+            near = difflib.get_close_matches(name, every, 1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise DataError(f"--gate {name}: there is no such gate; {hint}Gates: {', '.join(every)}")
+    return [gate for name, gate in every.items() if not names or name in names]
+
+
+def seconds_of(runs):
+    return sum(run.seconds for run in runs)
+
+
+def list_gates(chosen):
+    width = max(len(gate.name) for gate in chosen)
+    for gate in chosen:
+        print(f"{gate.name.ljust(width)}  {len(gate.runs):3} runs  {duration(seconds_of(gate.runs)):>7}  {gate.what}")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+class Parser(argparse.ArgumentParser):
+    """Complains like the rest of the program."""
+
+    def error(self, message):
+        print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
+        sys.exit(2)
+
+
+def main(arguments=None):
+    parser = Parser(prog="tailwater bench robustness", allow_abbrev=False,
+                    description="Runs and scores every gate of the robust core.",
+                    epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
+    parser.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--out", type=Path, default=Path("bench"), metavar="DIR", help="folder for runs and results (bench)")
+    parser.add_argument("--level", choices=("quick", "full"), default="quick",
+                        help="quick: a subset in about ten minutes; full: the whole table, many hours")
+    parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (1)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+                        help="change the default under test, as in --set scheme.courant=0.2; may be repeated")
+    parser.add_argument("--list", action="store_true", help="show gates, number of runs and estimates, and do nothing")
+    options = parser.parse_args(arguments)
+    signal.signal(signal.SIGTERM, interrupt)
+    bench = Bench(tuple(options.settings), options.level == "full")
+    try:
+        if options.jobs < 1:
+            raise DataError(f"--jobs {options.jobs}: give a number of runs at a time, at least 1")
+        if wrong := [setting for setting in options.settings if "=" not in setting]:
+            raise DataError(f"--set {wrong[0]}: write key=value, as in --set scheme.courant=0.2")
+        chosen = chosen_gates(bench, options.gate)
+        if options.list:
+            list_gates(chosen)
+            return 0
+        program = Program(options.program)
+        runs = list(dict.fromkeys(run for gate in chosen for run in gate.runs))
+        (options.out / "runs").mkdir(parents=True, exist_ok=True)
+        if options.settings:
+            require_accepted(runs[0], program, options.out)
+    except (DataError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2 if isinstance(error, DataError) else 4
+    print(f"{len(chosen)} gates, {len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all",
+          file=sys.stderr)
+    try:
+        make(runs, program, options.out, options.jobs)
+    except KeyboardInterrupt:
+        print("interrupted: the runs that have finished will not be made again", file=sys.stderr)
+        return INTERRUPTED
+    try:
+        result = report.collect([(gate, [(check, check.score(options.out)) for check in gate.checks]) for gate in chosen],
+                                program, options.level, options.settings)
+        report.write(result, options.out)
+    except OSError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 4
+    print(report.table(result))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
