@@ -206,7 +206,7 @@ struct SchemeTable {
   double smagorinsky = 0.0;
 
   ShiftingKind shifting = ShiftingKind::lind;
-  double shifting_strength = 2.0;
+  double shifting_strength = 3.0;
   double shifting_cap = 0.1;
 
   double density_relaxation = 0.01;

@@ -1,5 +1,6 @@
 #include "closures/shifting.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/for_each.h"
@@ -58,7 +59,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     shift[i].setZero();
     if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
     if (law.kind == ShiftingKind::lind) {
-      shift[i] = law.strength * largest_speed * dt * lind_direction(law, pairs, particles, i);
+      shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind_direction(law, pairs, particles, i);
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
