@@ -31,8 +31,15 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<co
     const auto j = pairs.j[k];
     if (!takes_part[j]) continue;
     const Vec<Dim> weight = volume[j] * pairs.dW[k] * pairs.e[k];
-    sum += (field[j] - field[i]) * weight.transpose();
-    M -= pairs.r[k] * weight * pairs.e[k].transpose();
+    const Vec<Dim> difference = field[j] - field[i];
+    const Vec<Dim> arm = -pairs.r[k] * pairs.e[k];
+    // Entry by entry, so that the sums stay in registers: as whole matrices they would go through memory.
+    for (int b = 0; b < Dim; ++b) {
+      for (int a = 0; a < Dim; ++a) {
+        sum(a, b) += difference[a] * weight[b];
+        M(a, b) += arm[a] * weight[b];
+      }
+    }
   }
   const double share = correction_share(least_eigenvalue<Dim>(M));
   if (share == 0.0) return sum;
