@@ -14,7 +14,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/tailwater"
 CASE = ROOT / "cases/zhou1999/case.toml"
-SOLVERS = [("bicgstab", "ilu"), ("gmres", "boomeramg"), ("gmres", "gamg")]
+SOLVERS = [("bicgstab", "ssor"), ("bicgstab", "ilu"), ("gmres", "boomeramg")]
 STEPS = 30
 COURANT, REFERENCE_SPEED = 0.25, (2 * 9.81 * 0.6) ** 0.5  # the first steps are all this long
 

@@ -9,14 +9,15 @@ namespace tailwater {
 namespace {
 
 /// A particle with fewer neighbours is spray: there is no evenness to keep.
-constexpr int fewest_neighbours = 8;
+constexpr std::size_t fewest_neighbours = 8;
 
 template <int Dim>
 Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                         std::size_t i) {
+  const double inverse_W = 1.0 / law.W_spacing;
   Vec<Dim> gradient = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double ratio = pairs.W[k] / law.W_spacing;
+    const double ratio = pairs.W[k] * inverse_W;
     const double tensile = 1.0 + 0.2 * ratio * ratio * ratio * ratio;
     gradient += particles.volume[pairs.j[k]] * tensile * pairs.dW[k] * pairs.e[k];
   }
@@ -26,27 +27,14 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
 template <int Dim>
 Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   double sum = 0.0;
-  int count = 0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (pairs.W[k] == 0.0) continue;
-    sum += pairs.r[k];
-    ++count;
-  }
-  const double mean_distance = sum / count;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r[k];
+  const double mean_distance = sum / static_cast<double>(pairs.end(i) - pairs.begin(i));
   Vec<Dim> direction = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (pairs.W[k] == 0.0) continue;
     const double ratio = mean_distance / pairs.r[k];
     direction += ratio * ratio * ratio * pairs.e[k];
   }
   return direction;
-}
-
-template <int Dim>
-int neighbours_in_support(const Pairs<Dim>& pairs, std::size_t i) {
-  int count = 0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) count += pairs.W[k] > 0.0;
-  return count;
 }
 
 }  // namespace
@@ -57,7 +45,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || neighbours_in_support(pairs, i) < fewest_neighbours) return false;
+    if (!particles.is_fluid(i) || pairs.end(i) - pairs.begin(i) < fewest_neighbours) return false;
     if (law.kind == ShiftingKind::lind) {
       shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind_direction(law, pairs, particles, i);
     } else {

@@ -1,6 +1,8 @@
 #include "closures/viscosity.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/for_each.h"
 #include "operators/laplacian_consistent.h"
@@ -70,8 +72,9 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
       const Vec<Dim> difference = velocity[j] - velocity[i];
       // r_j - r_i = -r e
       Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
-      const double work = noise.dot(difference);
-      if (work < 0.0) noise -= work / difference.squaredNorm() * difference;
+      // Written without a branch: the sign is a coin toss, and 0/0 cannot be.
+      const double work = std::min(0.0, noise.dot(difference));
+      noise -= work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
       sum += morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * noise;
     }
     acceleration[i] += viscosity * sum;

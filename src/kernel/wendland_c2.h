@@ -12,21 +12,24 @@ namespace tailwater {
 template <int Dim>
 struct WendlandC2 {
   explicit WendlandC2(double support_radius)
-      : radius(support_radius), scale((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+      : radius(support_radius),
+        inverse_radius(1.0 / support_radius),
+        scale((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
 
   double value(double r) const {
-    const double q = r / radius;
-    const double a = std::max(0.0, 1.0 - q);
+    const double q = r * inverse_radius;
+    const double a = std::max(0.0, radius - r) * inverse_radius;  // 1 - q, and 0 exactly at the rim
     return scale * a * a * a * a * (1.0 + 4.0 * q);
   }
 
   double derivative(double r) const {
-    const double q = r / radius;
-    const double a = std::max(0.0, 1.0 - q);
-    return -20.0 * scale / radius * q * a * a * a;
+    const double q = r * inverse_radius;
+    const double a = std::max(0.0, radius - r) * inverse_radius;
+    return -20.0 * scale * inverse_radius * q * a * a * a;
   }
 
   double radius;
+  double inverse_radius;
   double scale;
 };
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "neighbours/pairs.h"
@@ -25,14 +26,27 @@ inline double correction_share(double least_eigenvalue_M) {
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                             std::span<const std::uint8_t> takes_part, std::span<const Vec<Dim>> field) {
-  Mat<Dim> sum = Mat<Dim>::Zero();
-  Mat<Dim> M = Mat<Dim>::Zero();
+  // Column by column: vectors stay in registers through the loop, whole matrices do not.
+  std::array<Vec<Dim>, Dim> sum_columns;
+  std::array<Vec<Dim>, Dim> M_columns;
+  sum_columns.fill(Vec<Dim>::Zero());
+  M_columns.fill(Vec<Dim>::Zero());
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
     if (!takes_part[j]) continue;
     const Vec<Dim> weight = volume[j] * pairs.dW[k] * pairs.e[k];
-    sum += (field[j] - field[i]) * weight.transpose();
-    M -= pairs.r[k] * weight * pairs.e[k].transpose();
+    const Vec<Dim> difference = field[j] - field[i];
+    const Vec<Dim> arm = -pairs.r[k] * pairs.e[k];
+    for (int b = 0; b < Dim; ++b) {
+      sum_columns[b] += weight[b] * difference;
+      M_columns[b] += weight[b] * arm;
+    }
+  }
+  Mat<Dim> sum;
+  Mat<Dim> M;
+  for (int b = 0; b < Dim; ++b) {
+    sum.col(b) = sum_columns[b];
+    M.col(b) = M_columns[b];
   }
   const double share = correction_share(least_eigenvalue<Dim>(M));
   if (share == 0.0) return sum;

@@ -1,6 +1,8 @@
 // Symmetric Dim x Dim tensors as packed vectors: xx, xy, yy in 2D; xx, xy, xz, yy, yz, zz in 3D.
 #pragma once
 
+#include <cmath>
+
 #include "base/vec.h"
 
 namespace tailwater {
@@ -56,9 +58,16 @@ Mat<Dim> unpacked(const Packed<Dim>& packed) {
 /// Least eigenvalue of a symmetric matrix.
 template <int Dim>
 double least_eigenvalue(const Mat<Dim>& matrix) {
-  Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
-  solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
+  if constexpr (Dim == 2) {
+    const double half_difference = 0.5 * (matrix(0, 0) - matrix(1, 1));
+    const double off_diagonal = matrix(1, 0);
+    return 0.5 * (matrix(0, 0) + matrix(1, 1)) -
+           std::sqrt(half_difference * half_difference + off_diagonal * off_diagonal);
+  } else {
+    Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
+    solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()[0];
+  }
 }
 
 }  // namespace tailwater

@@ -8,9 +8,10 @@
 namespace tailwater {
 namespace {
 
-/// Lists reach this far beyond the support [dx]. The list made after the move also serves after the shift (at most
-/// half of this), so at the start of the next step; a wider skin would add idle entries to every loop.
-constexpr double skin_over_spacing = 0.2;
+/// Lists reach this far beyond the support [dx]: half of it is what the fastest particle moves in a step, so that a
+/// list lasts for about one and every pass of the implicit iteration. Wider lists cost more at each evaluation than
+/// they save searches (docs/theory/neighbours.md).
+constexpr double skin_over_spacing = 0.6;
 
 /// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
 constexpr double wall_law_distance_over_spacing = 0.6;
