@@ -24,6 +24,7 @@ void apply_formulation(SchemeTable& scheme) {
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
   scheme.shifting_cap = 0.05;
   scheme.density_relaxation = 0.0;
+  scheme.implicit_form = ImplicitForm::repeated;
   scheme.max_passes = 30;
   scheme.relax_pressure = 0.4;
   scheme.relax_velocity = 0.3;

@@ -73,9 +73,11 @@ StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
-  const StepReport report = flow.scheme.integrator == Integrator::explicit_projection
-                                ? explicit_projection_step(flow, dt)
-                                : implicit_projection_step(flow, dt);
+  const StepReport report = [&] {
+    if (flow.scheme.integrator == Integrator::explicit_projection) return explicit_projection_step(flow, dt);
+    if (flow.scheme.implicit_form == ImplicitForm::residual) return two_projections_step(flow, dt);
+    return implicit_projection_step(flow, dt);
+  }();
   flow.time += dt;
   ++flow.step;
   return report;

@@ -13,6 +13,12 @@ StepReport explicit_projection_step(Flow<Dim>& flow, double dt);
 template <int Dim>
 StepReport implicit_projection_step(Flow<Dim>& flow, double dt);
 
+/// Implicit projection in residual form: the explicit step, then a second projection of the velocity at the new
+/// positions, of what the move and the first projection left (F19). The velocity is divergence-free at both ends of the
+/// step, and midway while it moves the particles: the velocity half of RATTLE (Andersen 1983), symmetric in time.
+template <int Dim>
+StepReport two_projections_step(Flow<Dim>& flow, double dt);
+
 /// Finds the pressure at the start, so that the first measurements show it and the first step starts from it. Nothing
 /// moves.
 template <int Dim>
