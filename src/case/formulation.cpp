@@ -3,10 +3,11 @@
 namespace tailwater {
 
 void apply_formulation(SchemeTable& scheme) {
+  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   if (scheme.formulation == Formulation::robust) {
+    if (!is_explicit) scheme.courant = 0.5;
     return;
   }
-  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   scheme.kernel = KernelName::farzin;
   scheme.laplacian = LaplacianKind::consistent;
   scheme.gradient = GradientKind::consistent;

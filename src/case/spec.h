@@ -212,7 +212,7 @@ struct SchemeTable {
   double density_relaxation = 0.01;
 
   ImplicitForm implicit_form = ImplicitForm::residual;
-  int corrections = 5;
+  int corrections = 2;
   int max_passes = 3;
   double pass_tolerance = 1e-3;
   double relax_pressure = 1.0;

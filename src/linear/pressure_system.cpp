@@ -198,7 +198,7 @@ void PressureSystem::make_rhs_consistent() {
   // The unscaled operator is symmetric, so its right-hand side must sum to zero.
   double sum = 0.0;
   for (std::size_t i = 0; i < rhs_.size(); ++i) {
-    if (scale_[i] > 0.0) sum += rhs_[i] / scale_[i];
+    if (scale_[i] != 0.0) sum += rhs_[i] / scale_[i];
   }
   const double mean = sum / static_cast<double>(rhs_.size());
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];

@@ -1,9 +1,8 @@
-// Minimal-residual iteration (GCR kept to one earlier direction; Eisenstat, Elman & Schultz 1983) for D G dp = rho/dt D
+// Minimal-residual iteration (Orthomin(1): Vinsome 1976) for D G dp = rho/dt D
 // u, D the divergence and G the pressure gradient of the scheme, whatever they are, and the pressure equation's matrix
 // the preconditioner. A step of length 1, as if the Laplacian were D G, diverges: D G exceeds twice the Laplacian in
 // places.
 #include <cmath>
-#include <cstdlib>
 
 #include "base/for_each.h"
 #include "schemes/velocity_divergence.h"
@@ -14,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// Of the first correction, which finds what the move changed at large scale; the others are about single particles.
-const double coarse_tolerance = std::getenv("X_TOL") ? std::atof(std::getenv("X_TOL")) : 0.03;
+constexpr double coarse_tolerance = 0.03;
 
 /// One correction of the pressure and what it does; owned entries count.
 template <int Dim>

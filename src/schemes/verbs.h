@@ -66,9 +66,13 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions);
 template <int Dim>
 void shift(Flow<Dim>& flow, double dt, Interventions& interventions);
 
-/// rms of div u over bulk fluid particles at the present positions [1/s].
+/// Sets flow.divergence at the present positions and returns its rms over bulk fluid particles [1/s].
 template <int Dim>
 double bulk_divergence(Flow<Dim>& flow);
+
+/// Reports the divergence at the present positions, and what the move since the last `bulk_divergence` made of it.
+template <int Dim>
+void measure_after_move(Flow<Dim>& flow, StepReport& report);
 
 /// The fluid's largest speed [m/s].
 template <int Dim>
