@@ -25,6 +25,7 @@ enum class SurfaceTreatment { air, cone, farzin };
 enum class WallTreatment { dummies, pressure_rows };
 enum class ShiftingKind { none, lind, farzin };
 enum class DivergenceFree { start, midway };
+enum class ImplicitForm { residual, repeated };
 enum class Displacement { new_velocity, mean_velocity };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
@@ -104,6 +105,10 @@ struct Choices<ShiftingKind> {
 template <>
 struct Choices<DivergenceFree> {
   static constexpr std::array<std::string_view, 2> names{"start", "midway"};
+};
+template <>
+struct Choices<ImplicitForm> {
+  static constexpr std::array<std::string_view, 2> names{"residual", "repeated"};
 };
 template <>
 struct Choices<Displacement> {

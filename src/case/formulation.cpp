@@ -3,10 +3,11 @@
 namespace tailwater {
 
 void apply_formulation(SchemeTable& scheme) {
+  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   if (scheme.formulation == Formulation::robust) {
+    if (!is_explicit) scheme.courant = 0.5;
     return;
   }
-  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   scheme.kernel = KernelName::farzin;
   scheme.laplacian = LaplacianKind::consistent;
   scheme.gradient = GradientKind::consistent;
@@ -24,6 +25,7 @@ void apply_formulation(SchemeTable& scheme) {
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
   scheme.shifting_cap = 0.05;
   scheme.density_relaxation = 0.0;
+  scheme.implicit_form = ImplicitForm::repeated;
   scheme.max_passes = 30;
   scheme.relax_pressure = 0.4;
   scheme.relax_velocity = 0.3;

@@ -12,9 +12,9 @@ namespace tailwater {
 
 namespace {
 
-/// Defaults of [scheme] with formulation = "published".
-std::vector<KeyInfo> published_keys(Integrator integrator) {
-  SchemeTable scheme{.formulation = Formulation::published, .integrator = integrator};
+/// Defaults of [scheme].
+std::vector<KeyInfo> defaults(Formulation formulation, Integrator integrator) {
+  SchemeTable scheme{.formulation = formulation, .integrator = integrator};
   apply_formulation(scheme);
   return keys_of(scheme);
 }
@@ -28,15 +28,18 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   if (row.value == "[]" || row.value == "\"\"") {
     return "";
   }
-  static const auto published_explicit = published_keys(Integrator::explicit_projection);
-  static const auto published_implicit = published_keys(Integrator::implicit_projection);
+  static const auto published_explicit = defaults(Formulation::published, Integrator::explicit_projection);
+  static const auto robust_implicit = defaults(Formulation::robust, Integrator::implicit_projection);
+  static const auto published_implicit = defaults(Formulation::published, Integrator::implicit_projection);
   if (table.name != "scheme" || row.key == "formulation" || row.key == "integrator" ||
       published_explicit[index].value == row.value) {
     return row.value;
   }
   const std::string& with_explicit = published_explicit[index].value;
   const std::string& with_implicit = published_implicit[index].value;
-  return fmt::format("{} (published: {}{})", row.value, with_explicit,
+  const std::string& robust = robust_implicit[index].value;
+  return fmt::format("{} ({}published: {}{})", row.value,
+                     robust == row.value ? "" : fmt::format("implicit {}; ", robust), with_explicit,
                      with_implicit == with_explicit ? "" : fmt::format(", implicit {}", with_implicit));
 }
 

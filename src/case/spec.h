@@ -211,6 +211,8 @@ struct SchemeTable {
 
   double density_relaxation = 0.01;
 
+  ImplicitForm implicit_form = ImplicitForm::residual;
+  int corrections = 2;
   int max_passes = 3;
   double pass_tolerance = 1e-3;
   double relax_pressure = 1.0;
@@ -264,6 +266,13 @@ struct SchemeTable {
              "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
              "Share of the density error corrected per step by the source of the pressure equation (formulation)");
+    v.choice(
+        "implicit_form", self.implicit_form,
+        "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "
+        "the whole step repeated (F20-F27) (formulation)");
+    v.integer(
+        "corrections", self.corrections, "", Range::between(1, 100),
+        "Corrections of the second projection; each takes the Laplacian nearer to the divergence of the gradient");
     v.integer("max_passes", self.max_passes, "", Range::between(1, 100),
               "Most passes of the implicit iteration (formulation)");
     v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),

@@ -191,12 +191,15 @@ void PressureSystem::Row::finish(double diagonal, double rhs) {
 void PressureSystem::Row::finish_as_zero() {
   std::fill(value_ + system_.csr_begin_[i_], value_ + system_.csr_begin_[i_ + 1], 0.0);
   finish(1.0, 0.0);
+  system_.scale_[i_] = 0.0;
 }
 
 void PressureSystem::make_rhs_consistent() {
   // The unscaled operator is symmetric, so its right-hand side must sum to zero.
   double sum = 0.0;
-  for (std::size_t i = 0; i < rhs_.size(); ++i) sum += rhs_[i] / scale_[i];
+  for (std::size_t i = 0; i < rhs_.size(); ++i) {
+    if (scale_[i] != 0.0) sum += rhs_[i] / scale_[i];
+  }
   const double mean = sum / static_cast<double>(rhs_.size());
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];
 }
@@ -213,7 +216,22 @@ double PressureSystem::residual_norm(std::span<const double> solution) const {
   return std::sqrt(squares);
 }
 
-SolveReport PressureSystem::solve(std::span<double> solution) {
+void PressureSystem::sweep(std::span<double> solution) const {
+  TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
+  std::fill(solution.begin(), solution.end(), 0.0);
+  const auto relax_row = [&](std::size_t i) {
+    double rest = rhs_[i] + solution[i];  // the diagonal is 1
+    for (int slot = csr_begin_[i]; slot < csr_begin_[i + 1]; ++slot) {
+      rest -= csr_value_[slot] * solution[csr_column_[slot]];
+    }
+    solution[i] = rest;
+  };
+  for (std::size_t i = 0; i < size(); ++i) relax_row(i);
+  for (std::size_t i = size(); i-- > 0;) relax_row(i);
+}
+
+SolveReport PressureSystem::solve(std::span<double> solution, std::optional<double> tolerance_asked) {
+  const double tolerance_wanted = tolerance_asked.value_or(settings_.tolerance);
   const SuspendFpTraps suspended;
   TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
   const auto rows = static_cast<PetscInt>(size());
@@ -229,7 +247,7 @@ SolveReport PressureSystem::solve(std::span<double> solution) {
 
   SolveReport report;
   report.residual = residual_norm(solution) / rhs_norm;
-  if (report.residual <= settings_.tolerance) return report;
+  if (report.residual <= tolerance_wanted) return report;
 
   Petsc& petsc = *petsc_;
   if (pattern_is_new_) {
@@ -257,8 +275,8 @@ SolveReport PressureSystem::solve(std::span<double> solution) {
   KSP solver = petsc.solver.get();
   check_petsc(KSPSetOperators(solver, petsc.matrix.get(), petsc.matrix.get()));
   // The solver measures the preconditioned residual; where that ends too early it goes on from there.
-  for (double tolerance = settings_.tolerance; report.residual > settings_.tolerance;
-       tolerance *= 0.5 * settings_.tolerance / report.residual) {
+  for (double tolerance = tolerance_wanted; report.residual > tolerance_wanted;
+       tolerance *= 0.5 * tolerance_wanted / report.residual) {
     const double residual_before = report.residual;
     check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings_.max_iterations));
     check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
@@ -279,7 +297,7 @@ SolveReport PressureSystem::solve(std::span<double> solution) {
         "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
         "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
         "another pressure_solver.method or preconditioner",
-        KSPConvergedReasons[reason], report.iterations, report.residual, settings_.tolerance, rows,
+        KSPConvergedReasons[reason], report.iterations, report.residual, tolerance_wanted, rows,
         fmt::join(shown, ", ")));
   }
   if (constant_is_free_) {

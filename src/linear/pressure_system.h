@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,13 +50,19 @@ class PressureSystem {
   };
   Row row(std::size_t i) { return {*this, i}; }
 
+  /// Changes the right-hand side of a finished row, whose weights stay; a row that was finished as zero stays zero.
+  void set_rhs(std::size_t i, double rhs) { rhs_[i] = scale_[i] * rhs; }
+
   /// Tells that only differences of x are determined (no surface, no air). The right-hand side is then made consistent
   /// and the solution gets mean 0.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
 
   /// Solves; `solution` is the starting guess on entry. Throws SolverError with the residual history when the tolerance
-  /// is not reached.
-  SolveReport solve(std::span<double> solution);
+  /// is not reached. `tolerance` overrides the settings' own.
+  SolveReport solve(std::span<double> solution, std::optional<double> tolerance = {});
+
+  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back.
+  void sweep(std::span<double> solution) const;
 
   std::size_t size() const { return rhs_.size(); }
 
@@ -75,7 +82,7 @@ class PressureSystem {
   std::vector<int> slot_;           ///< where the k-th entry of the pattern stands in csr_value_
   std::vector<int> diagonal_slot_;  ///< and the diagonal of row i
   std::vector<double> rhs_;
-  std::vector<double> scale_;  ///< 1/diagonal of each row before scaling
+  std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };
 
 }  // namespace tailwater

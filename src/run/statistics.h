@@ -30,6 +30,7 @@ class RunStatistics {
   double dt_largest_ = 0.0;
   double divergence_old_squares_ = 0.0;
   double divergence_new_squares_ = 0.0;
+  double divergence_moved_squares_ = 0.0;
   double density_error_sum_ = 0.0;
   double density_error_squares_ = 0.0;
   double energy_start_;

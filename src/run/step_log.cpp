@@ -5,20 +5,49 @@
 namespace tailwater {
 
 StepLog::StepLog(const std::filesystem::path& path)
-    : csv_(path, {"time_s", "step", "dt_s", "passes", "iterations", "residual", "pressure_change",
-                  "divergence_old_per_s", "divergence_new_per_s", "speed_max_m_per_s", "kinetic_J", "potential_J",
-                  "density_error_mean", "density_error_rms", "density_error_max", "put_back", "capped_shifts",
-                  "clamped_pressures", "fallback_rows"}) {}
+    : csv_(path, {"time_s",
+                  "step",
+                  "dt_s",
+                  "passes",
+                  "iterations",
+                  "residual",
+                  "pressure_change",
+                  "divergence_old_per_s",
+                  "divergence_new_per_s",
+                  "divergence_moved_per_s",
+                  "speed_max_m_per_s",
+                  "kinetic_J",
+                  "potential_J",
+                  "density_error_mean",
+                  "density_error_rms",
+                  "density_error_max",
+                  "put_back",
+                  "capped_shifts",
+                  "clamped_pressures",
+                  "fallback_rows"}) {}
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
-  csv_.write(std::array<double, 19>{
-      time, static_cast<double>(step), report.dt, static_cast<double>(report.passes),
-      static_cast<double>(report.iterations), report.residual, report.pressure_change, report.divergence_old,
-      report.divergence_new, measures.largest_speed, measures.kinetic_energy, measures.potential_energy,
-      measures.density_error_mean, measures.density_error_rms, measures.density_error_largest,
-      static_cast<double>(counts.put_back), static_cast<double>(counts.capped_shifts),
-      static_cast<double>(counts.clamped_pressures), static_cast<double>(counts.fallback_rows)});
+  csv_.write(std::array<double, 20>{time,
+                                    static_cast<double>(step),
+                                    report.dt,
+                                    static_cast<double>(report.passes),
+                                    static_cast<double>(report.iterations),
+                                    report.residual,
+                                    report.pressure_change,
+                                    report.divergence_old,
+                                    report.divergence_new,
+                                    report.divergence_moved,
+                                    measures.largest_speed,
+                                    measures.kinetic_energy,
+                                    measures.potential_energy,
+                                    measures.density_error_mean,
+                                    measures.density_error_rms,
+                                    measures.density_error_largest,
+                                    static_cast<double>(counts.put_back),
+                                    static_cast<double>(counts.capped_shifts),
+                                    static_cast<double>(counts.clamped_pressures),
+                                    static_cast<double>(counts.fallback_rows)});
 }
 
 }  // namespace tailwater

@@ -4,12 +4,9 @@
 #include "schemes/verbs.h"
 
 namespace tailwater {
-namespace {
-
 /// By the scheme's choice of operator. Where the consistent gradient does not exist there is none: spray falls freely.
 template <int Dim>
-Vec<Dim> pressure_gradient(const Flow<Dim>& flow, std::size_t i) {
-  const std::vector<double>& pressure = flow.particles.pressure;
+Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
   if (flow.scheme.gradient == GradientKind::conservative) {
     return conservative_gradient<Dim>(flow.pairs(), i, flow.particles.volume, pressure);
   }
@@ -18,16 +15,17 @@ Vec<Dim> pressure_gradient(const Flow<Dim>& flow, std::size_t i) {
                                   std::span<const double>(pressure));
 }
 
-}  // namespace
-
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt) {
   for_each(flow.particles.owned, [&](std::size_t i) {
     if (!flow.particles.is_fluid(i)) return;
-    flow.particles.velocity[i] = flow.u_star[i] + dt * (flow.gravity - pressure_gradient(flow, i) / flow.density);
+    flow.particles.velocity[i] =
+        flow.u_star[i] + dt * (flow.gravity - gradient_at(flow, i, flow.particles.pressure) / flow.density);
   });
 }
 
+template Vec<2> gradient_at<2>(const Flow<2>&, std::size_t, const std::vector<double>&);
+template Vec<3> gradient_at<3>(const Flow<3>&, std::size_t, const std::vector<double>&);
 template void correct<2>(Flow<2>&, double);
 template void correct<3>(Flow<3>&, double);
 

@@ -4,7 +4,7 @@
 namespace tailwater {
 
 template <int Dim>
-StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
+StepReport project_and_move(Flow<Dim>& flow, double dt) {
   StepReport report;
   report.dt = dt;
   report.passes = 1;
@@ -17,16 +17,22 @@ StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
   correct(flow, dt);                              // (F16)
   report.divergence_old = bulk_divergence(flow);  // (F18): what is left at the old positions
   move(flow, dt, report.interventions);           // (F17)
-
   locate(flow);
-  report.divergence_new = bulk_divergence(flow);  // (F19): and at the new ones
-  shift(flow, dt, report.interventions);          // (F28)-(F32)
-
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   return report;
 }
 
+template <int Dim>
+StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
+  StepReport report = project_and_move(flow, dt);
+  measure_after_move(flow, report);
+  shift(flow, dt, report.interventions);  // (F28)-(F32)
+  return report;
+}
+
+template StepReport project_and_move<2>(Flow<2>&, double);
+template StepReport project_and_move<3>(Flow<3>&, double);
 template StepReport explicit_projection_step<2>(Flow<2>&, double);
 template StepReport explicit_projection_step<3>(Flow<3>&, double);
 

@@ -33,12 +33,13 @@ struct Interventions {
 /// What one step reports.
 struct StepReport {
   double dt = 0.0;
-  int passes = 0;                ///< of the implicit iteration; 1 for the explicit projection
-  int iterations = 0;            ///< of the pressure solves, all passes
-  double residual = 0.0;         ///< of the last solve
-  double pressure_change = 0.0;  ///< rms change of p in the last pass over rms p; 0 for one pass
-  double divergence_old = 0.0;   ///< 1/s; rms of div u in the bulk at the positions of the last solve
-  double divergence_new = 0.0;   ///< 1/s; the same at the new positions
+  int passes = 0;                 ///< of the implicit iteration; 1 for the explicit projection
+  int iterations = 0;             ///< of the pressure solves, all passes
+  double residual = 0.0;          ///< of the last solve
+  double pressure_change = 0.0;   ///< rms change of p in the last pass over rms p; 0 for one pass
+  double divergence_old = 0.0;    ///< 1/s; rms of div u in the bulk at the positions of the last solve
+  double divergence_new = 0.0;    ///< 1/s; the same at the new positions
+  double divergence_moved = 0.0;  ///< 1/s; rms of the difference: the part that comes from the old positions
   Interventions interventions;
 };
 
@@ -89,6 +90,7 @@ struct Flow {
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
+  std::vector<double> divergence;           ///< 1/s; as last measured, owned
   std::vector<double> viscosity;
   std::vector<Mat<Dim>> stress;
   std::vector<Vec<Dim>> shift;

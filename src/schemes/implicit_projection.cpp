@@ -34,10 +34,18 @@ std::vector<Value> owned_part(const std::vector<Value>& field, std::size_t owned
   return {field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned)};
 }
 
-}  // namespace
+template <int Dim>
+StepReport two_projections_step(Flow<Dim>& flow, double dt) {
+  StepReport report = project_and_move(flow, dt);
+  report.iterations += reproject(flow, dt, report.interventions).iterations;
+  report.passes = 2;
+  report.divergence_new = report.divergence_old = bulk_divergence(flow);  // the solve was at the new positions
+  shift(flow, dt, report.interventions);
+  return report;
+}
 
 template <int Dim>
-StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
+StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
   StepReport report;
   report.dt = dt;
   Particles<Dim>& particles = flow.particles;
@@ -66,9 +74,17 @@ StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
     settled = report.pressure_change < flow.scheme.pass_tolerance;
   }
   locate(flow);
-  report.divergence_new = bulk_divergence(flow);  // (F19)
-  shift(flow, dt, report.interventions);          // (F28)-(F32)
+  measure_after_move(flow, report);       // (F19)
+  shift(flow, dt, report.interventions);  // (F28)-(F32)
   return report;
+}
+
+}  // namespace
+
+template <int Dim>
+StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
+  return flow.scheme.implicit_form == ImplicitForm::residual ? two_projections_step(flow, dt)
+                                                             : repeated_projection_step(flow, dt);
 }
 
 template <int Dim>

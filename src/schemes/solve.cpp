@@ -37,9 +37,8 @@ void refresh_dummies(Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
+void finish_pressure(Flow<Dim>& flow, Interventions& interventions) {
   std::vector<double>& pressure = flow.particles.pressure;
-  const SolveReport report = flow.pressure_system.solve(std::span(pressure).first(flow.particles.owned));
   const Halo<Dim>& halo = flow.neighbourhood.halo();
   if (flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed) {
     interventions.clamped_pressures += limit_suction(flow);
@@ -47,9 +46,17 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
     if (flow.walls.treatment == WallTreatment::dummies) refresh_dummies(flow);
   }
   halo.exchange(pressure);
+}
+
+template <int Dim>
+SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
+  const SolveReport report = flow.pressure_system.solve(std::span(flow.particles.pressure).first(flow.particles.owned));
+  finish_pressure(flow, interventions);
   return report;
 }
 
+template void finish_pressure<2>(Flow<2>&, Interventions&);
+template void finish_pressure<3>(Flow<3>&, Interventions&);
 template SolveReport solve<2>(Flow<2>&, Interventions&);
 template SolveReport solve<3>(Flow<3>&, Interventions&);
 

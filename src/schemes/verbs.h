@@ -40,9 +40,23 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 
+/// What follows a change of the fluid's pressure: suction limited near the surface, dummies and ghosts brought up to
+/// date.
+template <int Dim>
+void finish_pressure(Flow<Dim>& flow, Interventions& interventions);
+
 /// (F16), (F24): u = u_star + dt (g - grad p/rho).
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt);
+
+/// The scheme's pressure gradient of any field at fluid particle i.
+template <int Dim>
+Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
+
+/// A second projection, at the present positions: takes div u out of the velocity as far as `corrections` reach, and
+/// adds what does it to the pressure. The particles stay. Needs `locate`. Reports its one solve.
+template <int Dim>
+SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions);
 
 /// r = r^n + dt u, or as published (F17), (F25): r = r^n + dt/2 (u^n + u); nobody passes a wall.
 template <int Dim>
@@ -52,9 +66,13 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions);
 template <int Dim>
 void shift(Flow<Dim>& flow, double dt, Interventions& interventions);
 
-/// rms of div u over bulk fluid particles at the present positions [1/s].
+/// Sets flow.divergence at the present positions and returns its rms over bulk fluid particles [1/s].
 template <int Dim>
 double bulk_divergence(Flow<Dim>& flow);
+
+/// Reports the divergence at the present positions, and what the move since the last `bulk_divergence` made of it.
+template <int Dim>
+void measure_after_move(Flow<Dim>& flow, StepReport& report);
 
 /// The fluid's largest speed [m/s].
 template <int Dim>

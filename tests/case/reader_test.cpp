@@ -104,6 +104,7 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.shifting_strength = 0.10;
   expected.shifting_cap = 0.05;
   expected.density_relaxation = 0.0;
+  expected.implicit_form = ImplicitForm::repeated;
   expected.max_passes = 30;
   expected.relax_pressure = 0.4;
   expected.relax_velocity = 0.3;
@@ -123,6 +124,14 @@ TEST(Formulation, RobustIsTheStructsOwnDefaults) {
   SchemeTable scheme;
   apply_formulation(scheme);
   EXPECT_EQ(scheme, SchemeTable{});
+}
+
+TEST(Formulation, RobustImplicitTakesLongerSteps) {
+  SchemeTable scheme{.integrator = Integrator::implicit_projection};
+  SchemeTable expected = scheme;
+  expected.courant = 0.5;
+  apply_formulation(scheme);
+  EXPECT_EQ(scheme, expected);
 }
 
 TEST(Reader, SaysThatAFileCannotBeRead) {

@@ -103,6 +103,35 @@ TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
   }
 }
 
+TEST(PressureSystem, ASweepQuartersTheError) {
+  // Off-diagonal sums are <= 1/2 of the diagonal, so a Gauss-Seidel pass halves the largest error, a pair quarters it.
+  const SmallSystem small = random_system(60, 2);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> rough(small.size(), 1.0);  // no starting guess: it starts from 0
+  system.sweep(rough);
+  const Eigen::VectorXd exact = small.dense_solution();
+  expect_near(rough, exact, 0.25 * exact.cwiseAbs().maxCoeff());
+}
+
+TEST(PressureSystem, TakesANewRightHandSideAlone) {
+  SmallSystem small = random_system(60, 3);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  system.row(5).finish_as_zero();
+  std::vector<double> solution(small.size(), 0.0);
+  system.solve(solution);
+  const std::vector<double> before = solution;
+  for (std::size_t i = 0; i < small.size(); ++i) system.set_rhs(i, 2.0 * small.rhs[i]);
+  system.solve(solution);
+  EXPECT_EQ(solution[5], 0.0);
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    EXPECT_NEAR(solution[i], 2.0 * before[i], 3.0 * error_bound(1e-10, small.size())) << "row " << i;
+  }
+}
+
 TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
   const double tolerance = 1e-10;
   PressureSystem system(solver_settings(tolerance));

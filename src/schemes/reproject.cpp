@@ -1,0 +1,113 @@
+// Minimal-residual iteration (Orthomin(1): Vinsome 1976) for D G dp = rho/dt D
+// u, D the divergence and G the pressure gradient of the scheme, whatever they are, and the pressure equation's matrix
+// the preconditioner. A step of length 1, as if the Laplacian were D G, diverges: D G exceeds twice the Laplacian in
+// places.
+#include <cmath>
+
+#include "base/for_each.h"
+#include "schemes/velocity_divergence.h"
+#include "schemes/verbs.h"
+#include "schemes/wall_state.h"
+
+namespace tailwater {
+namespace {
+
+/// Of the first correction, which finds what the move changed at large scale; the others are about single particles.
+constexpr double coarse_tolerance = 0.03;
+
+/// One correction of the pressure and what it does; owned entries count.
+template <int Dim>
+struct Correction {
+  std::vector<double> pressure;    ///< dp, Pa
+  std::vector<Vec<Dim>> velocity;  ///< -dt/rho grad dp, m/s
+  std::vector<double> source;      ///< rho/dt div of that velocity, Pa/m^2
+
+  void resize(std::size_t count) {
+    pressure.resize(count, 0.0);
+    velocity.resize(count, Vec<Dim>::Zero());
+    source.resize(count, 0.0);
+  }
+};
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Velocity and source of `correction` from its pressure.
+template <int Dim>
+void follow(Flow<Dim>& flow, double dt, Correction<Dim>& correction) {
+  const Particles<Dim>& particles = flow.particles;
+  flow.neighbourhood.halo().exchange(correction.pressure);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) {
+      correction.velocity[i] = -dt / flow.density * gradient_at(flow, i, correction.pressure);
+    }
+  });
+  update_wall_velocity(flow, correction.velocity);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) {
+      correction.source[i] = flow.density / dt * divergence_at(flow, i, correction.velocity);
+    }
+  });
+}
+
+/// y <- y + factor x
+template <int Dim>
+void add(double factor, const Correction<Dim>& x, Correction<Dim>& y) {
+  for_each(y.source.size(), [&](std::size_t i) {
+    y.pressure[i] += factor * x.pressure[i];
+    y.velocity[i] += factor * x.velocity[i];
+    y.source[i] += factor * x.source[i];
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) {
+  Particles<Dim>& particles = flow.particles;
+  assemble(flow, dt, interventions);
+
+  update_wall_velocity(flow, particles.velocity);
+  std::vector<double> source(particles.size(), 0.0);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
+  });
+
+  SolveReport report;
+  Correction<Dim> next;
+  Correction<Dim> last;
+  next.resize(particles.size());
+  last.resize(particles.size());
+  for (int n = 0; n < flow.scheme.corrections; ++n) {
+    for_each(particles.owned, [&](std::size_t i) { flow.pressure_system.set_rhs(i, source[i]); });
+    const std::span<double> guess = std::span(next.pressure).first(particles.owned);
+    if (n == 0) {
+      report = flow.pressure_system.solve(guess, coarse_tolerance);
+    } else {
+      flow.pressure_system.sweep(guess);
+    }
+    follow(flow, dt, next);
+    const double last_square = dot(last.source, last.source);
+    if (last_square > 0.0) add(-dot(next.source, last.source) / last_square, last, next);
+    const double square = dot(next.source, next.source);
+    if (square == 0.0) break;  // nothing is left
+    const double length = dot(source, next.source) / square;
+    for_each(particles.owned, [&](std::size_t i) {
+      source[i] -= length * next.source[i];
+      if (!particles.is_fluid(i)) return;
+      particles.velocity[i] += length * next.velocity[i];
+      particles.pressure[i] += length * next.pressure[i];
+    });
+    std::swap(next, last);
+  }
+  finish_pressure(flow, interventions);
+  return report;
+}
+
+template SolveReport reproject<2>(Flow<2>&, double, Interventions&);
+template SolveReport reproject<3>(Flow<3>&, double, Interventions&);
+
+}  // namespace tailwater
