@@ -119,7 +119,8 @@ std::string case_reference_markdown() {
       "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
       "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
-      "`particles.spacing`, `g` = the magnitude of `physics.gravity`\n"
+      "`particles.spacing`, `g` = the magnitude of `physics.gravity`; in `fluid.velocity` also `x`, `y`, `z`, the "
+      "particle's position, which no parameter can be called\n"
       "- functions: " +
       functions_text() +
       "\n\n"

@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 from program import SMALL_CASE, ProgramTest
 
-COMMANDS = ("new", "check", "run", "info")
+COMMANDS = ("new", "check", "run", "info", "bench")
 TEMPLATES = ("dam-break", "tank")
 
 
@@ -51,6 +51,12 @@ class CommandLine(ProgramTest):
                 self.assertEqual(result.stdout, "")
                 for part in parts:
                     self.assertIn(part, result.stderr)
+        self.assertEqual(list(self.listing()), ["small.toml"])
+
+    def test_bench_is_the_python_package_beside_the_sources(self):
+        self.assertIn("tailwater bench robustness", self.call("bench", "robustness", "--help").stdout)
+        self.assertIn("dam-break", self.call("bench", "robustness", "--list").stdout)
+        self.assertIn("did you mean tank?", self.call("bench", "robustness", "--gate", "tnak", expect=2).stderr)
         self.assertEqual(list(self.listing()), ["small.toml"])
 
     def test_help_case_explains_every_key_of_the_effective_case(self):

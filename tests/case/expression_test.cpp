@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -61,6 +62,29 @@ TEST(Expression, WithoutAValueSaysWhyAndWhere) {
             << '"' << text << "\": " << error.what() << "\nmisses: " << part;
       }
     }
+  }
+}
+
+TEST(Formula, TakesItsVariablesAtEachEvaluation) {
+  constexpr std::array<std::string_view, 2> variables{"x", "y"};
+  Formula formula("H*x - y^2", numbers, variables);
+  EXPECT_TRUE(formula.uses_variables());
+  EXPECT_EQ(formula.at(std::array{4.0, 1.0}), 1.0);
+  EXPECT_EQ(formula.at(std::array{0.0, 3.0}), -9.0);
+  EXPECT_TRUE(std::isinf(Formula("1/x", numbers, variables).at(std::array{0.0, 0.0})));
+  Formula constant("2*H", numbers, variables);
+  EXPECT_FALSE(constant.uses_variables());
+  EXPECT_EQ(constant.at(std::array{4.0, 1.0}), 1.0);
+}
+
+TEST(Formula, NamesItsVariablesWhenANameIsUnknown) {
+  constexpr std::array<std::string_view, 2> variables{"x", "y"};
+  try {
+    const Formula formula("2*w", numbers, variables);
+    FAIL();
+  } catch (const ExpressionError& error) {
+    EXPECT_EQ(error.unknown_name(), "w");
+    EXPECT_NE(std::string(error.what()).find("\"y\""), std::string::npos) << error.what();
   }
 }
 

@@ -43,6 +43,12 @@ TEST(Reader, ReadsEveryKindOfValue) {
   EXPECT_EQ(spec.probes[0].times, (std::vector<double>{0.5, 1.0}));
 }
 
+TEST(Reader, KeepsTheVelocityThatVariesAsItIsWritten) {
+  const CaseSpec spec = read_text("parameters.U = 2\n" + required_keys +
+                                  "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\nvelocity = [\"U*sin(pi*x)\", \"U/dx\"]\n");
+  EXPECT_EQ(spec.fluid[0].velocity, (VectorField{"U*sin(pi*x)", 2.0 / spec.particles.spacing}));
+}
+
 TEST(Reader, EvaluatesExpressionsWhereverANumberMayStand) {
   const CaseSpec spec = read_text(
       "[parameters]\nL = \"2*H\"\nH = 0.5\n"  // L before H in the file and after it in the alphabet

@@ -32,6 +32,7 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
       "[time]\nend = \"T\"\n[scheme]\nformulation = \"published\"\nintegrator = \"implicit\"\n"
       "[pressure_solver]\npetsc_options = \"-pressure_ksp_view\"\n"
       "[[fluid]]\nmin = [0, 0]\nmax = [\"H\", \"H\"]\nvelocity = [0.1, \"T\"]\n"
+      "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\nvelocity = [\"H*sin(x) - dx\", \"g*y\"]\n"
       "[[fluid]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, \"T\"]]\n"
       "[[wall]]\npoints = [[0, 1], [0, 0]]\nfluid_side = \"right\"\nslip = \"partial\"\nfriction = 0.3\n"
       "[[wall]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, 1]]\nfluid_side = \"outside\"\nslip = \"no-slip\"\n"

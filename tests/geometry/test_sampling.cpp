@@ -64,6 +64,33 @@ TEST(FluidLattice, CarriesBlockAndVelocity) {
   EXPECT_EQ(fluid.velocity[2], Vec<3>(1, 2, 3));
 }
 
+TEST(FluidLattice, TakesAVelocityThatVariesWhereTheParticlesAre) {
+  CaseSpec spec = empty_case(0.1);
+  spec.particles.jitter = 0.2;
+  spec.parameters = {{"A", 3.0}};
+  spec.fluid = {box_fluid({0, 0}, {0.3, 0.2})};
+  spec.fluid[0].velocity = {"A*x + dx", 2.0};
+  const FluidParticles<2> fluid = fluid_of(spec);
+  ASSERT_EQ(fluid.position.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(fluid.velocity[i][0], 3.0 * fluid.position[i][0] + 0.1, round_off);
+    EXPECT_EQ(fluid.velocity[i][1], 2.0);
+  }
+}
+
+TEST(FluidLattice, RefusesAVelocityThatIsNotFinite) {
+  CaseSpec spec = empty_case(0.1);
+  spec.fluid = {box_fluid({0, 0}, {0.1, 0.1})};
+  spec.fluid[0].velocity = {1.0, "1/(x - x)"};
+  try {
+    fluid_of(spec);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("velocity[1] = \"1/(x - x)\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("finite"), std::string::npos) << error.what();
+  }
+}
+
 // The particles' volume differs from the polygon's by less than half a cell for each cell that the outline passes; for
 // the triangle with legs on the lattice, whose hypotenuse halves cells, by the one particle that an odd number costs.
 TEST(FluidLattice, PolygonKeepsItsVolume) {

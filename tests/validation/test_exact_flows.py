@@ -53,7 +53,8 @@ class RunTest(unittest.TestCase):
             write_frame(folder / "fields" / f"{k}.vtp", position, fields)
             entries.append(f'<DataSet timestep="{time}" file="{k}.vtp"/>')
         (folder / "fields" / "fields.pvd").write_text(
-            f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>{"".join(entries)}</Collection></VTKFile>\n')
+            f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>{"".join(entries)}</Collection>'
+            "</VTKFile>\n")
         for name, columns in (tables or {}).items():
             np.savetxt(folder / name, np.stack(list(columns.values()), axis=1), delimiter=",", header=",".join(columns),
                        comments="")
@@ -146,8 +147,8 @@ spacing = 0.1
         position = lattice((0, 0), (1, 1), 0.1)
         velocity, pressure = exact_flows.taylor_green_field(position, 0.5, 2.0, 1.0, 0.02, 1000.0)
         rate = 1.1 * 4 * 0.02 * (2 * math.pi) ** 2
-        run = self.write_run(self.CASE, [(0.5, position, {"pressure": 0.9 * pressure + 77,
-                                                          "velocity": np.column_stack([1.2 * velocity, 0 * pressure])})],
+        wrong = {"pressure": 0.9 * pressure + 77, "velocity": np.column_stack([1.2 * velocity, 0 * pressure])}
+        run = self.write_run(self.CASE, [(0.5, position, wrong)],
                              {"probes/energy.csv": {"time_s": np.array([0.0, 0.5]),
                                                     "kinetic_J": np.array([1.0, math.exp(-0.5 * rate)])}})
         numbers = exact_flows.taylor_green(run)

@@ -49,7 +49,7 @@ if failing and failing in line:
     "status": "done", "particles": {"fluid": 100}, "steps": {"count": 50},
     "energy": {"start_J": 1.0, "largest_rise_over_start": 5e-5},
     "volume": {"outside_the_walls_most": 0, "density_error_mean": 0.001, "density_error_rms": 0.02},
-    "interventions": {"put_back": 3, "capped": 1, "per_step": 0.5}}))
+    "interventions": {"put_back_from_walls": 3, "capped_shifts": 1, "per_step": 0.5}}))
 """
 
 
@@ -146,19 +146,29 @@ class Gates(unittest.TestCase):
             self.assertEqual(len({run.name for run in every}), len(set(every)))
 
     def test_cases_are_there_and_have_what_is_scored(self):
-        for run in {run.case: run for gate in robustness.gates(robustness.Bench()).values() for run in gate.runs}.values():
-            case = tomllib.loads(run.case.read_text())
-            self.assertIn(case["time"]["end"].__class__, (str, float), run.case)
-            if "tank" in run.case.name or run.case.parent.name == "tank":
-                self.assertIn("depth", case["parameters"], run.case)
-                self.assertIn("level", [probe["name"] for probe in case["probe"]], run.case)
+        every = robustness.gates(robustness.Bench((), True)).values()
+        for path in {run.case for gate in every for run in gate.runs}:
+            case = tomllib.loads(path.read_text())
+            if "tank" in path.name or path.parent.name == "tank":
+                self.assertIn("depth", case["parameters"], path)
+                self.assertIn("level", [probe["name"] for probe in case["probe"]], path)
 
-    def test_settings_of_a_gate_win_over_those_under_test_and_c1_has_none(self):
-        bench = robustness.Bench(("scheme.courant=0.1",), False)
-        gate = robustness.gates(bench)["consistency"]
-        for run in gate.runs:
-            self.assertEqual("scheme.courant=0.1" in run.settings, not run.name.endswith("_c1"), run.name)
-        self.assertEqual(bench.zhou(0.02, 8).settings[0], "scheme.courant=0.1")
+    def test_settings_of_a_gate_win_over_those_under_test(self):
+        bench = robustness.Bench(("scheme.courant=0.1", "particles.spacing=1"), False)
+        self.assertEqual(bench.zhou(0.02, 8).settings[:3],
+                         ("scheme.courant=0.1", "particles.spacing=1", "particles.spacing=0.02"))
+
+    def test_order_of_a_power_law(self):
+        self.assertAlmostEqual(robustness.order({dx: 3 * dx**1.7 for dx in (0.1, 0.05, 0.02)}), 1.7, places=12)
+
+    def test_the_baseline_has_every_spacing_and_says_where_it_comes_from(self):
+        for flow, (_, _, spacings, finest, *_, quantities) in robustness.CONSISTENCY.items():
+            for quantity in quantities:
+                for dx in (*spacings, finest):
+                    self.assertGreater(robustness.c1_error(flow, quantity, dx), 0)
+            self.assertIn("# WHAT:", (robustness.C1 / f"c1_{flow}.csv").read_text())
+        with self.assertRaisesRegex(DataError, "no spacing of 0.033"):
+            robustness.c1_error("drop", "axes_error", 0.033)
 
     def test_the_full_matrix_is_that_of_the_table(self):
         gate = robustness.gates(robustness.Bench((), True))["dam-break"]
@@ -206,7 +216,9 @@ class Command(BenchTest):
 
     def test_interventions_count_each_kind_but_no_rates(self):
         self.make(run := runs.Run("a", self.case))
-        self.assertEqual(robustness.interventions(runs.finished(run, self.folder / "out")), 4 / (100 * 50))
+        made = runs.finished(run, self.folder / "out")
+        self.assertEqual(robustness.interventions(made), 4 / (100 * 50))
+        self.assertEqual(robustness.interventions(made, "capped_shifts"), 1 / (100 * 50))
 
     def test_list_does_nothing(self):
         code, out, _ = self.bench("--list")
@@ -228,7 +240,8 @@ class Command(BenchTest):
     def test_interrupted_runs_are_made_again_and_finished_ones_kept(self):
         command = [sys.executable, "-B", "-m", "tailwater_validation.robustness", "--program", str(self.program),
                    "--out", str(self.folder / "out"), "--gate", "slip"]
-        process = subprocess.Popen(command, env={**os.environ, "FAKE_WAITS": "partial"}, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(command, env={**os.environ, "FAKE_WAITS": "partial"}, stderr=subprocess.PIPE,
+                                   text=True)
         self.addCleanup(process.communicate)
         deadline = time.monotonic() + 60
         while len(self.calls()) < 3 and time.monotonic() < deadline:  # no-slip, free slip, then the one that waits

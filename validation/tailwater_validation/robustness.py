@@ -1,11 +1,12 @@
 """The gates of the robust core: which runs they need, what is read from them, and the bars.
 
-`tailwater bench robustness` runs this module: it makes the runs, scores them and writes OUT/bench.json and OUT/bench.md.
-Both integrators and all cases run with the program's defaults; `--set` changes the default under test, but neither what
-a gate is about (its start, its spacing) nor the conservative formulation C1 it is compared with.
+`tailwater bench robustness` runs this module: it makes the runs, scores them and writes OUT/bench.json and
+OUT/bench.md. Both integrators and all cases run with the defaults; `--set` changes the default under test, but not what
+a gate is about (its start, its spacing).
 
 Usage: python -m tailwater_validation.robustness --program FILE [--out DIR] [--level quick|full] [--gate NAME]...
-Exit codes: 0 all was run and scored (whatever the verdicts are), 2 bad input, 4 a file cannot be written, 130 interrupted.
+Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
+interrupted.
 """
 
 import argparse
@@ -20,16 +21,12 @@ from pathlib import Path
 import numpy as np
 
 from . import exact_flows, report, zhou1999
-from .curves import DataError
+from .curves import DataError, read_table
 from .metric import Metric, measure
 from .runs import INTERRUPTED, Program, Run, duration, finished, make, outcome, require_accepted
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-EXPLICIT, IMPLICIT = (), ("scheme.integrator=implicit",)
-# C1 of reference/method.md: the conservative formulation as it was before this work.
-C1 = ("scheme.laplacian=morris", "scheme.gradient=conservative", "scheme.divergence=standard",
-      "scheme.divergence_free=start", "scheme.displacement=mean-velocity", "scheme.artificial_viscosity=0.02",
-      "scheme.viscosity_floor=0.02", "scheme.noise_viscosity=0")
+C1 = CASES / "robustness" / "data"  # errors of the conservative formulation C1, which the program no longer has
 INVISCID = ("scheme.artificial_viscosity=0", "scheme.viscosity_floor=0", "scheme.noise_viscosity=0")
 STARTS = {
     "regular": (),
@@ -76,10 +73,9 @@ class Bench:
     settings: tuple = ()
     is_full: bool = False
 
-    def run(self, name, case, settings=(), seconds=10.0, is_baseline=False):
+    def run(self, name, case, settings=(), seconds=10.0):
         """Settings of the run itself come last: they win."""
-        under_test = () if is_baseline else self.settings
-        return Run(name, CASES / case, (*under_test, *settings), seconds)
+        return Run(name, CASES / case, (*self.settings, *settings), seconds)
 
     def zhou(self, dx, T, start="regular", integrator="explicit", variant="", settings=()):
         """Zhou's dam break to T = t sqrt(g/H); costs 11 CPU s to T = 8 at dx = 0.02."""
@@ -122,10 +118,11 @@ def summary(block, name, run):
     return run.summary[block][name]
 
 
-def interventions(run):
-    """Clamps, limiters and fallbacks of all kinds, per particle and step."""
-    counts = [count for count in run.summary["interventions"].values() if isinstance(count, int)]
-    return sum(counts) / (run.summary["particles"]["fluid"] * run.summary["steps"]["count"])
+def interventions(run, *kinds):
+    """Clamps, limiters and fallbacks of these kinds, or of all, per particle and step."""
+    counts = {kind: count for kind, count in run.summary["interventions"].items() if isinstance(count, int)}
+    return (sum(counts[kind] for kind in kinds or counts)
+            / (run.summary["particles"]["fluid"] * run.summary["steps"]["count"]))
 
 
 def energy_at(T, run):
@@ -145,16 +142,32 @@ def divergence_of_old_positions(run):
     return max(divergence("new", run) ** 2 - divergence("old", run) ** 2, 0.0) ** 0.5
 
 
-def order(flow, name, *runs):
-    """Observed order: slope of log error over log dx, least squares."""
-    spacings = [run.spacing for run in runs]
-    return float(np.polyfit(np.log(spacings), np.log([exact(flow, name, run) for run in runs]), 1)[0])
+def order(errors):
+    """Observed order of {dx: error}: slope of log error over log dx, least squares."""
+    return float(np.polyfit(np.log(list(errors)), np.log(list(errors.values())), 1)[0])
+
+
+@lru_cache(maxsize=None)
+def c1_table(flow):
+    return read_table(C1 / f"c1_{flow}.csv")
+
+
+def c1_error(flow, name, dx):
+    """The error that the conservative formulation C1 had. Throws DataError for a spacing it was not measured at."""
+    table = c1_table(flow)
+    at = np.flatnonzero(np.isclose(table["spacing_m"], dx))
+    if at.size == 0:
+        raise DataError(f"c1_{flow}.csv: has no spacing of {dx:g} m")
+    return float(table[name][at[0]])
 
 
 def worst_ratio(flow, name, *runs):
-    """Largest ratio of errors at equal dx: the first half of the runs over the second."""
-    half = len(runs) // 2
-    return max(exact(flow, name, run) / exact(flow, name, other) for run, other in zip(runs[:half], runs[half:]))
+    """Largest ratio of an error to that of C1 at equal dx."""
+    return max(exact(flow, name, run) / c1_error(flow, name, run.spacing) for run in runs)
+
+
+def observed_order(flow, name, *runs):
+    return order({run.spacing: exact(flow, name, run) for run in runs})
 
 
 def mean_level(run):
@@ -260,9 +273,12 @@ def density_gate(bench):
         if bench.is_full:
             rest = bench.zhou(0.02, 80, integrator=integrator)
             exact_level = 2 * zhou1999.H**2 / zhou1999.TANK
-            checks.append(Check(Metric(f"{label}.level", f"mean level at T = 80, error, {integrator}", "of the level", "",
-                                       -5e-3, 5e-3), (rest,), lambda run: mean_level(run) / exact_level - 1))
+            checks.append(Check(Metric(f"{label}.level", f"mean level at T = 80, error, {integrator}", "of the level",
+                                       "", -5e-3, 5e-3), (rest,), lambda run: mean_level(run) / exact_level - 1))
     return Gate("density", "volume of the dam break", tuple(checks))
+
+
+INTERVENTIONS = ("put_back_from_walls", "capped_shifts", "clamped_pressures", "fallback_rows")
 
 
 def pressure_gate(bench):
@@ -279,8 +295,12 @@ def pressure_gate(bench):
                          arrival_reference, 0.61, 0.64), (run,), partial(zhou, f"arrival_{zhou1999.READ_AT}")),
             Check(Metric(f"arrival.front.{integrator}", f"arrival, front at the wall, {integrator}", "s", ""), (run,),
                   partial(zhou, "arrival_front")),
-            Check(Metric(f"interventions.{integrator}", f"clamps, limiters, fallbacks per particle and step, {integrator}",
-                         "", "C1 1e-4..3e-4", high=1e-5), (run,), interventions),
+            Check(Metric(f"interventions.{integrator}",
+                         f"clamps, limiters, fallbacks per particle and step, {integrator}", "",
+                         "C1 1e-4..3e-4 without clamped pressures", high=1e-5), (run,), interventions),
+            *(Check(Metric(f"interventions.{kind}.{integrator}", f"of these, {kind.replace('_', ' ')}, {integrator}",
+                           "", ""), (run,), lambda run, kind=kind: interventions(run, kind))
+              for kind in INTERVENTIONS),
             Check(Metric(f"cost.{integrator}", f"CPU time per simulated second, {integrator}", "s",
                          "SISPH 36-45, DFSPH 2.0, SPHinXsys 7, DualSPHysics 28",
                          high=8.0 if integrator == "explicit" else None), (run,),
@@ -307,16 +327,18 @@ def laboratory_gate(bench):
         runs = {dx: bench.zhou(dx, 20 if bench.is_full and dx in (0.02, 0.012, 0.006) else 8, integrator=integrator)
                 for dx in spacings}
         label = f"laboratory.{integrator}"
-        checks.append(Check(Metric(f"{label}.best", f"RMS of the wall pressure, the best reading, dx = {spacings[-1]:g}, "
-                                   f"{integrator}", "rho g H", reference, high=0.20), (runs[spacings[-1]],),
+        checks.append(Check(Metric(f"{label}.best", "RMS of the wall pressure, the best reading, "
+                                   f"dx = {spacings[-1]:g}, {integrator}", "rho g H", reference, high=0.20),
+                            (runs[spacings[-1]],),
                             lambda run: min(laboratory_rms(reading, run) for reading in READINGS.values())))
         for text, reading in READINGS.items():
             for dx, run in runs.items():
                 checks.append(Check(Metric(f"{label}.{reading}.dx{dx:g}", f"RMS, {text}, dx = {dx:g}, {integrator}",
                                            "rho g H", reference), (run,), partial(laboratory_rms, reading)))
             checks.append(Check(
-                Metric(f"{label}.{reading}.falls", f"RMS at dx = {spacings[-1]:g} over that at {spacings[0]:g}, {text}, "
-                       f"{integrator}", "", "should fall: below 1"), (runs[spacings[0]], runs[spacings[-1]]),
+                Metric(f"{label}.{reading}.falls",
+                       f"RMS at dx = {spacings[-1]:g} over that at {spacings[0]:g}, {text}, {integrator}", "",
+                       "should fall: below 1"), (runs[spacings[0]], runs[spacings[-1]]),
                 lambda coarse, fine, reading=reading: laboratory_rms(reading, fine) / laboratory_rms(reading, coarse)))
     return Gate("laboratory", "wall pressure against Zhou, T = 2.4..7, shift within 0.12", tuple(checks))
 
@@ -335,31 +357,25 @@ CONSISTENCY = {
 
 
 def consistency_gate(bench):
-    """The default against C1, at equal dx and by order."""
+    """The default against C1, at equal dx and by order. The first quantity of each flow has bars, the others are shown.
+    """
     checks = []
     for flow, (case, settings, spacings, finest, seconds, power, quantities) in CONSISTENCY.items():
         if bench.is_full:
             spacings = (*spacings, finest)
-
-        def runs(variant, scheme, is_baseline=False):
-            return tuple(bench.run(f"{flow}_dx{dx:g}_{variant}", case, (f"particles.spacing={dx:g}", *settings, *scheme),
-                                   seconds * (spacings[0] / dx) ** power, is_baseline) for dx in spacings)
-
-        ours, c1 = runs("default", EXPLICIT), runs("c1", C1, True)
+        runs = tuple(bench.run(f"{flow}_dx{dx:g}", case, (f"particles.spacing={dx:g}", *settings),
+                               seconds * (spacings[0] / dx) ** power) for dx in spacings)
         for rank, quantity in enumerate(quantities):
-            label = f"consistency.{flow}.{quantity}"
-            text = f"{flow}, {quantity.replace('_', ' ')}"
-            is_gate = rank == 0  # the others are shown
-            checks.append(Check(Metric(f"{label}.ratio", f"{text}: over that of C1 at equal dx, worst", "",
-                                       "not shown by anyone", high=0.5 if is_gate else None), ours + c1,
-                                partial(worst_ratio, flow, quantity)))
-            for name, chosen, low in (("default", ours, 1.5 if is_gate else None), ("C1", c1, None)):
-                checks.append(Check(Metric(f"{label}.order.{name}", f"{text}: observed order, {name}", "", "", low=low),
-                                    chosen, partial(order, flow, quantity)))
-            for name, chosen in (("default", ours), ("C1", c1)):
-                for dx, run in zip(spacings, chosen):
-                    checks.append(Check(Metric(f"{label}.dx{dx:g}.{name}", f"{text}, dx = {dx:g}, {name}", "", ""),
-                                        (run,), partial(exact, flow, quantity)))
+            label, text = f"consistency.{flow}.{quantity}", f"{flow}, {quantity.replace('_', ' ')}"
+            theirs = {dx: c1_error(flow, quantity, dx) for dx in spacings}
+            checks += [
+                Check(Metric(f"{label}.ratio", f"{text}: over that of C1 at equal dx, worst", "", "not shown by anyone",
+                             high=0.5 if rank == 0 else None), runs, partial(worst_ratio, flow, quantity)),
+                Check(Metric(f"{label}.order", f"{text}: observed order", "", f"C1 {order(theirs):.2f}",
+                             low=1.5 if rank == 0 else None), runs, partial(observed_order, flow, quantity)),
+                *(Check(Metric(f"{label}.dx{dx:g}", f"{text}, dx = {dx:g}", "", f"C1 {theirs[dx]:.3g}"), (run,),
+                        partial(exact, flow, quantity)) for dx, run in zip(spacings, runs)),
+            ]
     return Gate("consistency", "the default against the conservative C1: half the error, order 1.5", tuple(checks))
 
 
@@ -396,26 +412,36 @@ EQUAL_COST_SPACINGS = {"explicit": 0.015, "implicit": 0.02}
 def wins(ours, other):
     """In how many of noise, volume and energy `ours` is better."""
     return (int(zhou("noise", ours) < zhou("noise", other))
-            + int(abs(summary("volume", "density_error_rms", ours)) < abs(summary("volume", "density_error_rms", other)))
+            + int(summary("volume", "density_error_rms", ours) < summary("volume", "density_error_rms", other))
             + int(energy_at(4, ours) > energy_at(4, other)))
 
 
 def equal_cost_gate(bench):
-    explicit, implicit = (bench.zhou(dx, 8, integrator=name) for name, dx in EQUAL_COST_SPACINGS.items())
-    checks = [
-        Check(Metric("equal_cost.wins", "implicit at dx = 0.02 better than explicit at 0.015 in noise, volume, energy",
-                     "of 3", "mixed", low=1), (implicit, explicit), wins),
-        Check(Metric("equal_cost.cpu", "CPU time of the two, implicit over explicit", "", "should be 1"),
-              (implicit, explicit),
-              lambda run, other: summary("cost", "cpu_s", run) / summary("cost", "cpu_s", other)),
-    ]
-    for name, run in (("explicit", explicit), ("implicit", implicit)):
-        for what, unit, read in (("noise", "rho g H", partial(zhou, "noise")),
-                                 ("rms density error", "", partial(summary, "volume", "density_error_rms")),
-                                 ("energy at T = 4", "of the start", partial(energy_at, 4))):
-            checks.append(Check(Metric(f"equal_cost.{name}.{what}", f"{what}, {name} at dx = {EQUAL_COST_SPACINGS[name]}",
-                                       unit, ""), (run,), read))
-    return Gate("equal-cost", "implicit against explicit at equal CPU time, Zhou", tuple(checks))
+    pairs = {"Zhou": tuple(bench.zhou(dx, 8, integrator=name) for name, dx in EQUAL_COST_SPACINGS.items())}
+    if bench.is_full:
+        pairs["wet bed"] = tuple(
+            bench.run(f"wet-bed_dx{dx:g}_{name}", "robustness/wet_bed.toml",
+                      (f"particles.spacing={dx:g}", f"scheme.integrator={name}"),
+                      35 * (0.015 / dx) ** 3.2 * (IMPLICIT_COST if name == "implicit" else 1))
+            for name, dx in EQUAL_COST_SPACINGS.items())
+    read = {"noise": ("rho g H", partial(zhou, "noise")),
+            "rms density error": ("", partial(summary, "volume", "density_error_rms")),
+            "energy at T = 4": ("of the start", partial(energy_at, 4))}
+    checks = []
+    for case, (explicit, implicit) in pairs.items():
+        label = f"equal_cost.{case}"
+        checks += [
+            Check(Metric(f"{label}.wins", f"{case}: implicit at dx = 0.02 better than explicit at 0.015 in noise, "
+                         "volume, energy", "of 3", "mixed", low=1), (implicit, explicit), wins),
+            Check(Metric(f"{label}.cpu", f"{case}: CPU time of the two, implicit over explicit", "", "should be 1"),
+                  (implicit, explicit),
+                  lambda run, other: summary("cost", "cpu_s", run) / summary("cost", "cpu_s", other)),
+            *(Check(Metric(f"{label}.{name}.{what}", f"{case}: {what}, {name} at dx = {EQUAL_COST_SPACINGS[name]}",
+                           unit, ""), (run,), compute)
+              for name, run in (("explicit", explicit), ("implicit", implicit))
+              for what, (unit, compute) in read.items()),
+        ]
+    return Gate("equal-cost", "implicit against explicit at equal CPU time, Zhou and the wet bed", tuple(checks))
 
 
 def gates(bench):
@@ -425,10 +451,11 @@ def gates(bench):
                   is_implicit_quick=True),
         tank_gate(bench, "tank-tilted", "the same with a tilted bottom", "robustness/tank_tilted.toml", 0.02, 10, 15),
         tank_gate(bench, "tank-step", "the same with a step", "robustness/tank_step.toml", 0.02, 10, 15),
-        tank_gate(bench, "tank-corner", "the same with a corner of 45 degrees", "robustness/tank_corner.toml", 0.02, 10,
-                  16),
+        tank_gate(bench, "tank-corner", "the same with a corner of 45 degrees", "robustness/tank_corner.toml", 0.02,
+                  10, 16),
         tank_gate(bench, "tank-deep", "2 m deep", "robustness/tank_deep.toml", 0.02, 10, 80),
-        tank_gate(bench, "tank-3d", "3D tank, 5 s, twice the bars", "robustness/tank_3d.toml", 0.025, 5, 80, factor=2.0),
+        tank_gate(bench, "tank-3d", "3D tank, 5 s, twice the bars", "robustness/tank_3d.toml", 0.025, 5, 80,
+                  factor=2.0),
         matrix_gate(bench), slip_gate(bench), density_gate(bench), pressure_gate(bench), laboratory_gate(bench),
         consistency_gate(bench), implicit_gate(bench), equal_cost_gate(bench),
     ]
@@ -473,7 +500,8 @@ def main(arguments=None):
                     description="Runs and scores every gate of the robust core.",
                     epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
     parser.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--out", type=Path, default=Path("bench"), metavar="DIR", help="folder for runs and results (bench)")
+    parser.add_argument("--out", type=Path, default=Path("bench"), metavar="DIR",
+                        help="folder for runs and results (bench)")
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
                         help="quick: a subset in about ten minutes; full: the whole table, many hours")
     parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
@@ -509,8 +537,8 @@ def main(arguments=None):
         print("interrupted: the runs that have finished will not be made again", file=sys.stderr)
         return INTERRUPTED
     try:
-        result = report.collect([(gate, [(check, check.score(options.out)) for check in gate.checks]) for gate in chosen],
-                                program, options.level, options.settings)
+        scores = [(gate, [(check, check.score(options.out)) for check in gate.checks]) for gate in chosen]
+        result = report.collect(scores, program, options.level, options.settings)
         report.write(result, options.out)
     except OSError as error:
         print(f"error: {error}", file=sys.stderr)
