@@ -278,7 +278,7 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   for (double tolerance = tolerance_wanted; report.residual > tolerance_wanted;
        tolerance *= 0.5 * tolerance_wanted / report.residual) {
     const double residual_before = report.residual;
-    check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings_.max_iterations));
+    check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
     check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
     PetscInt iterations = 0;
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
