@@ -79,6 +79,7 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
     const Vec<2> momentum_before = momentum(flow.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
     double error = 0.0;
+    double shape_error = 0.0;
     while (flow.time < 1.0) {
       const double dt = step(flow).dt;
       // Nothing adds energy but the start, whose velocity belongs to t = 0 and not to half a step before it: dt grad p
@@ -86,12 +87,14 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
       ASSERT_LT(measure(flow).kinetic_energy,
                 energy_at_start * (1.0 + dt * dt + PressureSolverTable{}.tolerance * flow.step));
       const Ellipse exact = exact_ellipse(flow.time);
-      error = std::max(error, (semi_axes(flow.particles) - Vec<2>(exact.a, exact.b)).norm());
+      const Vec<2> axes = semi_axes(flow.particles);
+      error = std::max(error, (axes - Vec<2>(exact.a, exact.b)).norm());
+      shape_error = std::max(shape_error, std::abs(std::log(axes[0] / axes[1] * exact.b / exact.a)));
     }
-    // The surface is known no better than to one spacing.
+    // The surface, and with it the area, is known no better than to one spacing; the motion, which the shape shows, is.
     EXPECT_LT(error, dx);
-    EXPECT_LT(error, previous_error);
-    previous_error = error;
+    EXPECT_LT(shape_error, previous_error);
+    previous_error = shape_error;
     // Forces act in pairs: round-off of some 30 terms of size <= 3 per particle and step.
     const double round_off = 100.0 * std::numeric_limits<double>::epsilon() *
                              static_cast<double>(flow.particles.owned) * static_cast<double>(flow.step);
