@@ -202,7 +202,7 @@ struct SchemeTable {
 
   double artificial_viscosity = 0.0;
   double viscosity_floor = 0.0;
-  double noise_viscosity = 0.05;
+  double noise_viscosity = 0.2;
   double smagorinsky = 0.0;
 
   ShiftingKind shifting = ShiftingKind::lind;
