@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What each choice of the scheme does to the Zhou dam break: the table of docs/theory/schemes.md.
 
 One change at a time from the default formulation, then the published one, to T = 8 (or until the run fails).

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Cost of the pressure solve by size and preconditioner: the table of docs/theory/linear.md.
 
 Runs the first steps of the Zhou dam break at several spacings and prints, for each solver, iterations per solve and
