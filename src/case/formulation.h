@@ -7,7 +7,8 @@
 namespace tailwater {
 
 /// Sets the keys that depend on `scheme.formulation` and `scheme.integrator` to their defaults. With `robust` only the
-/// implicit integrator's alpha, 0.5, differs from the initialisers. To be called before the keys given in the file are read.
+/// implicit integrator's alpha, 0.5, differs from the initialisers. To be called before the keys given in the file are
+/// read.
 ///
 /// Published: kernel (F8), consistent operators (B1, B2), p = 0 on detected surface particles, pressure rows on the
 /// wall (F36-F39), c_a = 0.20 (F3) without a floor, c_s = 0.10 (F4-F6), shifting (F28-F32) with eps = 0.10 explicit or

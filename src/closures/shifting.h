@@ -1,8 +1,8 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012; the
-//           coefficient in the form of Skillen et al. 2013, but with the largest speed of the flow in the place of the
-//           particle's own: at stagnation points, where the strain lines particles up, the own speed is 0, and a
+//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012;
+//           the coefficient in the form of Skillen et al. 2013, but with the largest speed of the flow in the place of
+//           the particle's own: at stagnation points, where the strain lines particles up, the own speed is 0, and a
 //           Taylor-Green vortex dies of it; docs/theory/closures.md)
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //

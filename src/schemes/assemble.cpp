@@ -3,12 +3,12 @@
 //   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
 // c_ij   weights of the Laplacian: Morris, or consistent (F23)
-// a_i    max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the idea
-//        of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked instead, whose
-//        rows are p = 0
+// a_i    max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the
+//        idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked
+//        instead, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
-// gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for particles
-//        too far apart: at the surface nothing pulls
+// gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
+//        particles too far apart: at the surface nothing pulls
 //
 // Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
 // M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
