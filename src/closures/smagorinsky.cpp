@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 #include "operators/renormalisation.h"
 
 namespace tailwater {
@@ -36,13 +37,9 @@ void add_stress_divergence(const Pairs<Dim>& pairs, const Particles<Dim>& partic
                            std::span<Vec<Dim>> acceleration) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (!particles.is_fluid(j)) continue;
-      sum += particles.volume[j] * pairs.dW[k] * ((stress[i] + stress[j]) * pairs.e[k]);
-    }
-    acceleration[i] += sum;
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      return particles.volume[j] * pairs.dW[k] * ((stress[i] + stress[j]) * pairs.e[k]);
+    });
   });
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 
@@ -25,14 +26,10 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
                           std::span<Vec<Dim>> acceleration) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (!particles.is_fluid(j)) continue;
-      sum += morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * 0.5 *
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * 0.5 *
              (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-    }
-    acceleration[i] += sum;
+    });
   });
 }
 
@@ -40,6 +37,7 @@ template <int Dim>
 void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
                        const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
                        std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration) {
+  if (std::ranges::all_of(walls.friction, [](double lambda) { return lambda == 0.0; })) return;
   // The no-slip velocity where the wall particle stands: of the mirror image behind the wall, or of the wall itself.
   const bool is_image = walls.treatment == WallTreatment::dummies;
   for_each(pairs.owned(), [&](std::size_t i) {
@@ -65,19 +63,16 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
                          std::span<Vec<Dim>> acceleration) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (!particles.is_fluid(j)) continue;
-      const Vec<Dim> difference = velocity[j] - velocity[i];
-      // r_j - r_i = -r e
-      Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
-      // Written without a branch: the sign is a coin toss, and 0/0 cannot be.
-      const double work = std::min(0.0, noise.dot(difference));
-      noise -= work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
-      sum += morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * noise;
-    }
-    acceleration[i] += viscosity * sum;
+    acceleration[i] += viscosity * sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+                         const Vec<Dim> difference = velocity[j] - velocity[i];
+                         // r_j - r_i = -r e
+                         Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
+                         // Written without a branch: the sign is a coin toss, and 0/0 cannot be.
+                         const double work = std::min(0.0, noise.dot(difference));
+                         noise -=
+                             work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
+                         return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * noise;
+                       });
   });
 }
 

@@ -204,13 +204,17 @@ void PressureSystem::make_rhs_consistent() {
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];
 }
 
+double PressureSystem::less_row(double value, std::size_t i, std::span<const double> solution) const {
+  for (int slot = csr_begin_[i]; slot < csr_begin_[i + 1]; ++slot) {
+    value -= csr_value_[slot] * solution[csr_column_[slot]];
+  }
+  return value;
+}
+
 double PressureSystem::residual_norm(std::span<const double> solution) const {
   double squares = 0.0;
   for (std::size_t i = 0; i < rhs_.size(); ++i) {
-    double residual = rhs_[i];
-    for (int slot = csr_begin_[i]; slot < csr_begin_[i + 1]; ++slot) {
-      residual -= csr_value_[slot] * solution[csr_column_[slot]];
-    }
+    const double residual = less_row(rhs_[i], i, solution);
     squares += residual * residual;
   }
   return std::sqrt(squares);
@@ -220,11 +224,7 @@ void PressureSystem::sweep(std::span<double> solution) const {
   TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
   std::fill(solution.begin(), solution.end(), 0.0);
   const auto relax_row = [&](std::size_t i) {
-    double rest = rhs_[i] + solution[i];  // the diagonal is 1
-    for (int slot = csr_begin_[i]; slot < csr_begin_[i + 1]; ++slot) {
-      rest -= csr_value_[slot] * solution[csr_column_[slot]];
-    }
-    solution[i] = rest;
+    solution[i] = less_row(rhs_[i] + solution[i], i, solution);  // the diagonal is 1
   };
   for (std::size_t i = 0; i < size(); ++i) relax_row(i);
   for (std::size_t i = size(); i-- > 0;) relax_row(i);

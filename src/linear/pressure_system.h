@@ -69,6 +69,8 @@ class PressureSystem {
  private:
   struct Petsc;
   void make_rhs_consistent();
+  /// `value` less row i of A times `solution`.
+  double less_row(double value, std::size_t i, std::span<const double> solution) const;
   double residual_norm(std::span<const double> solution) const;
 
   PressureSolverTable settings_;

@@ -4,7 +4,7 @@
 namespace tailwater {
 
 template <int Dim>
-StepReport project_and_move(Flow<Dim>& flow, double dt) {
+StepReport project(Flow<Dim>& flow, double dt) {
   StepReport report;
   report.dt = dt;
   report.passes = 1;
@@ -14,10 +14,7 @@ StepReport project_and_move(Flow<Dim>& flow, double dt) {
   aim(flow, dt);
   assemble(flow, dt, report.interventions);  // (F15)
   const SolveReport solved = solve(flow, report.interventions);
-  correct(flow, dt);                              // (F16)
-  report.divergence_old = bulk_divergence(flow);  // (F18): what is left at the old positions
-  move(flow, dt, report.interventions);           // (F17)
-  locate(flow);
+  correct(flow, dt);  // (F16)
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   return report;
@@ -25,14 +22,17 @@ StepReport project_and_move(Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
-  StepReport report = project_and_move(flow, dt);
+  StepReport report = project(flow, dt);
+  report.divergence_old = bulk_divergence(flow);  // (F18): what is left at the old positions
+  move(flow, dt, report.interventions);           // (F17)
+  locate(flow);
   measure_after_move(flow, report);
   shift(flow, dt, report.interventions);  // (F28)-(F32)
   return report;
 }
 
-template StepReport project_and_move<2>(Flow<2>&, double);
-template StepReport project_and_move<3>(Flow<3>&, double);
+template StepReport project<2>(Flow<2>&, double);
+template StepReport project<3>(Flow<3>&, double);
 template StepReport explicit_projection_step<2>(Flow<2>&, double);
 template StepReport explicit_projection_step<3>(Flow<3>&, double);
 

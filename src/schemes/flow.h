@@ -24,7 +24,7 @@ namespace tailwater {
 struct Interventions {
   std::size_t put_back = 0;           ///< moves that would have ended behind a wall
   std::size_t capped_shifts = 0;      ///< shifts that would have been longer than their bound
-  std::size_t clamped_pressures = 0;  ///< suction near the surface set to 0
+  std::size_t clamped_pressures = 0;  ///< suction near the surface cut
   std::size_t fallback_rows = 0;      ///< consistent rows replaced where B2 is unsound
 
   Interventions& operator+=(const Interventions& other);

@@ -36,7 +36,9 @@ std::vector<Value> owned_part(const std::vector<Value>& field, std::size_t owned
 
 template <int Dim>
 StepReport two_projections_step(Flow<Dim>& flow, double dt) {
-  StepReport report = project_and_move(flow, dt);
+  StepReport report = project(flow, dt);
+  move(flow, dt, report.interventions);
+  locate(flow);
   report.iterations += reproject(flow, dt, report.interventions).iterations;
   report.passes = 2;
   report.divergence_new = report.divergence_old = bulk_divergence(flow);  // the solve was at the new positions

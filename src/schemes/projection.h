@@ -5,9 +5,9 @@
 
 namespace tailwater {
 
-/// (F14)-(F17): all derivatives at the old positions; then the neighbours at the new ones.
+/// (F14)-(F16): all derivatives at the old positions, where the particles stay.
 template <int Dim>
-StepReport project_and_move(Flow<Dim>& flow, double dt);
+StepReport project(Flow<Dim>& flow, double dt);
 
 /// Explicit projection (F14)-(F17): div u' = 0 holds at the old positions (F18), or midway.
 template <int Dim>
