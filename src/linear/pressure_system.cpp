@@ -194,6 +194,14 @@ void PressureSystem::Row::finish_as_zero() {
   system_.scale_[i_] = 0.0;
 }
 
+void PressureSystem::divide_diagonal(std::size_t i, double share) {
+  for (int slot = csr_begin_[i]; slot < csr_begin_[i + 1]; ++slot) {
+    if (slot != diagonal_slot_[i]) csr_value_[slot] *= share;  // the diagonal is scaled to 1
+  }
+  rhs_[i] *= share;
+  scale_[i] *= share;
+}
+
 void PressureSystem::make_rhs_consistent() {
   // The unscaled operator is symmetric, so its right-hand side must sum to zero.
   double sum = 0.0;
@@ -250,6 +258,7 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   if (report.residual <= tolerance_wanted) return report;
 
   Petsc& petsc = *petsc_;
+  const bool is_first_of_pattern = pattern_is_new_;
   if (pattern_is_new_) {
     check_petsc(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows, rows, csr_begin_.data(), csr_column_.data(),
                                           csr_value_.data(), petsc.matrix.create()));
@@ -274,6 +283,8 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   }
   KSP solver = petsc.solver.get();
   check_petsc(KSPSetOperators(solver, petsc.matrix.get(), petsc.matrix.get()));
+  // Later solves with one pattern are of rows little changed: the set-up of multigrid costs as much as a solve.
+  check_petsc(KSPSetReusePreconditioner(solver, is_first_of_pattern ? PETSC_FALSE : PETSC_TRUE));
   // The solver measures the preconditioned residual; where that ends too early it goes on from there.
   for (double tolerance = tolerance_wanted; report.residual > tolerance_wanted;
        tolerance *= 0.5 * tolerance_wanted / report.residual) {

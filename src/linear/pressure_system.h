@@ -53,6 +53,10 @@ class PressureSystem {
   /// Changes the right-hand side of a finished row, whose weights stay; a row that was finished as zero stays zero.
   void set_rhs(std::size_t i, double rhs) { rhs_[i] = scale_[i] * rhs; }
 
+  /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = 0) to 1; the other entries stay. x_i becomes
+  /// that share of what its neighbours and its right-hand side would make of it.
+  void divide_diagonal(std::size_t i, double share);
+
   /// Tells that only differences of x are determined (no surface, no air). The right-hand side is then made consistent
   /// and the solution gets mean 0.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }

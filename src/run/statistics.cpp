@@ -5,7 +5,10 @@
 namespace tailwater {
 
 RunStatistics::RunStatistics(const FlowMeasures& start)
-    : energy_start_(total_energy(start)), energy_end_(energy_start_), energy_least_(energy_start_) {}
+    : energy_start_(total_energy(start)),
+      energy_end_(energy_start_),
+      energy_least_(energy_start_),
+      unexplained_least_(energy_start_) {}
 
 void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped) {
   dt_least_ = steps_ == 0 ? report.dt : std::min(dt_least_, report.dt);
@@ -22,6 +25,9 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   energy_end_ = total_energy(measures);
   energy_least_ = std::min(energy_least_, energy_end_);
   energy_rise_ = std::max(energy_rise_, energy_end_ - energy_least_);
+  density_work_ += report.density_work;
+  unexplained_least_ = std::min(unexplained_least_, energy_end_ - density_work_);
+  unexplained_rise_ = std::max(unexplained_rise_, energy_end_ - density_work_ - unexplained_least_);
   escaped_ = escaped;
   most_escaped_ = std::max(most_escaped_, escaped);
   interventions_ += report.interventions;
@@ -31,6 +37,7 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
   const auto steps = static_cast<double>(std::max<std::int64_t>(steps_, 1));
   const double particle_steps = steps * static_cast<double>(std::max<std::size_t>(fluid_particles, 1));
   const auto passes = static_cast<double>(std::max<std::int64_t>(passes_, 1));
+  const auto over_start = [&](double energy) { return energy_start_ != 0.0 ? energy / std::abs(energy_start_) : 0.0; };
   return {
       {"steps",
        {{"count", steps_}, {"dt_mean_s", dt_sum_ / steps}, {"dt_least_s", dt_least_}, {"dt_largest_s", dt_largest_}}},
@@ -47,7 +54,9 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
        {{"start_J", energy_start_},
         {"end_J", energy_end_},
         {"largest_rise_J", energy_rise_},
-        {"largest_rise_over_start", energy_start_ != 0.0 ? energy_rise_ / std::abs(energy_start_) : 0.0}}},
+        {"largest_rise_over_start", over_start(energy_rise_)},
+        {"density_work_J", density_work_},
+        {"largest_rise_less_density_work_over_start", over_start(unexplained_rise_)}}},
       {"volume",
        {{"fluid_particles_start", fluid_particles_at_start},
         {"fluid_particles_end", fluid_particles},

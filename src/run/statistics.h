@@ -37,6 +37,9 @@ class RunStatistics {
   double energy_end_;
   double energy_least_;
   double energy_rise_ = 0.0;
+  double density_work_ = 0.0;
+  double unexplained_least_;  ///< of the energy less density_work_
+  double unexplained_rise_ = 0.0;
   std::size_t most_escaped_ = 0;
   std::size_t escaped_ = 0;
   Interventions interventions_;

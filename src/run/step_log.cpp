@@ -18,6 +18,7 @@ StepLog::StepLog(const std::filesystem::path& path)
                   "speed_max_m_per_s",
                   "kinetic_J",
                   "potential_J",
+                  "density_work_J",
                   "density_error_mean",
                   "density_error_rms",
                   "density_error_max",
@@ -28,7 +29,7 @@ StepLog::StepLog(const std::filesystem::path& path)
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
-  csv_.write(std::array<double, 20>{time,
+  csv_.write(std::array<double, 21>{time,
                                     static_cast<double>(step),
                                     report.dt,
                                     static_cast<double>(report.passes),
@@ -41,6 +42,7 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                                     measures.largest_speed,
                                     measures.kinetic_energy,
                                     measures.potential_energy,
+                                    report.density_work,
                                     measures.density_error_mean,
                                     measures.density_error_rms,
                                     measures.density_error_largest,

@@ -28,6 +28,7 @@ namespace {
 /// The density source answers errors up to this: a pile-up is dissolved over some steps, not blown up in one.
 constexpr double largest_density_error = 0.1;
 
+/// Pa/m^2
 template <int Dim>
 double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
   const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
@@ -169,7 +170,20 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
   });
 }
 
+template <int Dim>
+double density_source_work(const Flow<Dim>& flow, double dt) {
+  double work = 0.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    const double expansion = density_source(flow, i, dt) * dt * dt / flow.density;  // dt div u
+    work += flow.particles.pressure[i] * flow.particles.volume[i] * expansion;
+  }
+  return work;
+}
+
 template void assemble<2>(Flow<2>&, double, Interventions&);
 template void assemble<3>(Flow<3>&, double, Interventions&);
+template double density_source_work<2>(const Flow<2>&, double);
+template double density_source_work<3>(const Flow<3>&, double);
 
 }  // namespace tailwater

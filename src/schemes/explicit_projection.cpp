@@ -15,6 +15,7 @@ StepReport project(Flow<Dim>& flow, double dt) {
   assemble(flow, dt, report.interventions);  // (F15)
   const SolveReport solved = solve(flow, report.interventions);
   correct(flow, dt);  // (F16)
+  report.density_work = density_source_work(flow, dt);
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   return report;

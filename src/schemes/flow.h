@@ -24,7 +24,7 @@ namespace tailwater {
 struct Interventions {
   std::size_t put_back = 0;           ///< moves that would have ended behind a wall
   std::size_t capped_shifts = 0;      ///< shifts that would have been longer than their bound
-  std::size_t clamped_pressures = 0;  ///< suction near the surface cut
+  std::size_t clamped_pressures = 0;  ///< suction near the surface cut after the solve
   std::size_t fallback_rows = 0;      ///< consistent rows replaced where B2 is unsound
 
   Interventions& operator+=(const Interventions& other);
@@ -40,6 +40,7 @@ struct StepReport {
   double divergence_old = 0.0;    ///< 1/s; rms of div u in the bulk at the positions of the last solve
   double divergence_new = 0.0;    ///< 1/s; the same at the new positions
   double divergence_moved = 0.0;  ///< 1/s; rms of the difference: the part that comes from the old positions
+  double density_work = 0.0;      ///< J; of the pressure on what the density source expands
   Interventions interventions;
 };
 
@@ -89,6 +90,7 @@ struct Flow {
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
+  std::vector<std::uint8_t> is_held;        ///< owned; suction limited by the pressure equation (`solve`)
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> divergence;           ///< 1/s; as last measured, owned
   std::vector<double> viscosity;

@@ -63,6 +63,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
     assemble(flow, dt, report.interventions);              // (F22)
     const SolveReport solved = solve(flow, report.interventions);
     correct(flow, dt);  // (F24)
+    report.density_work = density_source_work(flow, dt);
     report.divergence_old = bulk_divergence(flow);
 
     report.pressure_change = relative_change(pressure_before, particles.pressure);

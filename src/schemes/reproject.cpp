@@ -69,6 +69,9 @@ template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
   assemble(flow, dt, interventions);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (flow.is_held[i]) flow.pressure_system.divide_diagonal(i, flow.interior[i]);
+  });
 
   update_wall_velocity(flow, particles.velocity);
   std::vector<double> source(particles.size(), 0.0);

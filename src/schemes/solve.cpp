@@ -7,12 +7,36 @@
 namespace tailwater {
 namespace {
 
-/// Suction only where the fluid is whole: a negative pressure is cut to its share `interior`, 0 in the outermost rows,
-/// where nothing holds the particles together (docs/theory/robustness.md), all of it inside. Returns how many were cut.
+/// The first solve only tells where water near the surface would pull.
+constexpr double rough_tolerance = 1e-2;
+
 template <int Dim>
-std::size_t limit_suction(Flow<Dim>& flow) {
+bool has_air(const Flow<Dim>& flow) {
+  return flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
+}
+
+/// Whether particle i, near the surface, pulls although the equation does not limit it.
+template <int Dim>
+bool pulls(const Flow<Dim>& flow, std::size_t i) {
+  return flow.particles.is_fluid(i) && !flow.is_held[i] && flow.interior[i] < 1.0 && flow.particles.pressure[i] < 0.0;
+}
+
+/// Limits suction in the equation where the present pressure asks for it.
+template <int Dim>
+void hold_suction(Flow<Dim>& flow) {
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (!pulls(flow, i)) return;
+    flow.pressure_system.divide_diagonal(i, flow.interior[i]);
+    flow.particles.pressure[i] *= flow.interior[i];
+    flow.is_held[i] = 1;
+  });
+}
+
+/// Cuts what pulls all the same. Returns how many.
+template <int Dim>
+std::size_t cut_suction(Flow<Dim>& flow) {
   return count_each(flow.particles.owned, [&](std::size_t i) {
-    if (!flow.particles.is_fluid(i) || flow.interior[i] == 1.0 || flow.particles.pressure[i] >= 0.0) return false;
+    if (!pulls(flow, i)) return false;
     flow.particles.pressure[i] *= flow.interior[i];
     return true;
   });
@@ -40,8 +64,8 @@ template <int Dim>
 void finish_pressure(Flow<Dim>& flow, Interventions& interventions) {
   std::vector<double>& pressure = flow.particles.pressure;
   const Halo<Dim>& halo = flow.neighbourhood.halo();
-  if (flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed) {
-    interventions.clamped_pressures += limit_suction(flow);
+  if (has_air(flow)) {
+    interventions.clamped_pressures += cut_suction(flow);
     halo.exchange(pressure);
     if (flow.walls.treatment == WallTreatment::dummies) refresh_dummies(flow);
   }
@@ -50,7 +74,15 @@ void finish_pressure(Flow<Dim>& flow, Interventions& interventions) {
 
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
-  const SolveReport report = flow.pressure_system.solve(std::span(flow.particles.pressure).first(flow.particles.owned));
+  const std::span<double> pressure = std::span(flow.particles.pressure).first(flow.particles.owned);
+  flow.is_held.assign(flow.particles.owned, 0);
+  int rough_iterations = 0;
+  if (has_air(flow)) {
+    rough_iterations = flow.pressure_system.solve(pressure, rough_tolerance).iterations;
+    hold_suction(flow);
+  }
+  SolveReport report = flow.pressure_system.solve(pressure);
+  report.iterations += rough_iterations;
   finish_pressure(flow, interventions);
   return report;
 }

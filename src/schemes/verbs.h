@@ -36,12 +36,20 @@ void aim(Flow<Dim>& flow, double dt);
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
 
-/// Solves for the pressure, starting from the last one.
+/// Work [J] of the pressure on the expansion that the density source asks for: the energy it takes to lift water that
+/// had come too close. Needs the pressure of this step and `locate` at the positions of its equation.
+template <int Dim>
+double density_source_work(const Flow<Dim>& flow, double dt);
+
+/// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
+/// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
+/// (0 in the outermost rows, 1 inside), and the system is solved again. With an M-matrix this can only raise pressures,
+/// so no new row begins to pull (docs/theory/robustness.md).
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 
-/// What follows a change of the fluid's pressure: suction limited near the surface, dummies and ghosts brought up to
-/// date.
+/// What follows a change of the fluid's pressure: suction that the equation did not limit is cut and counted, dummies
+/// and ghosts are brought up to date.
 template <int Dim>
 void finish_pressure(Flow<Dim>& flow, Interventions& interventions);
 

@@ -36,10 +36,24 @@ TEST(RunStatistics, AddUpSteps) {
   // Energies 10, 9, 7, 8.5: the largest rise is from 7, not from the start.
   EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 1.5);
   EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_over_start"].get<double>(), 0.15);
+  EXPECT_EQ(json["energy"]["largest_rise_less_density_work_over_start"], json["energy"]["largest_rise_over_start"]);
   EXPECT_EQ(json["volume"]["outside_the_walls_most"], 5);
   EXPECT_EQ(json["volume"]["outside_the_walls_end"], 2);
   EXPECT_EQ(json["volume"]["fluid_particles_start"], 100);
   EXPECT_EQ(json["volume"]["fluid_particles_end"], 98);
+}
+
+TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
+  RunStatistics statistics(with_energy(0.0, 10.0));
+  StepReport report = step_of(0.1, 1, 1);
+  report.density_work = 1.5;
+  statistics.add(report, with_energy(0.0, 11.0), 0);  // 1 of the 1.5 arrives, the rest is dissipated
+  report.density_work = 0.25;
+  statistics.add(report, with_energy(0.0, 12.0), 0);  // 0.75 more than the source explains
+  const auto json = statistics.json(1, 1);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 2.0);
+  EXPECT_DOUBLE_EQ(json["energy"]["density_work_J"].get<double>(), 1.75);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_less_density_work_over_start"].get<double>(), 0.075);
 }
 
 TEST(RunStatistics, DivideByNothingWithoutSteps) {
