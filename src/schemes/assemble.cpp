@@ -3,8 +3,9 @@
 //   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
 // c_ij   weights of the Laplacian: Morris, or consistent (F23)
-// a_i    max(0, A_0 - sum_j c_ij), A_0 that sum on a full lattice: missing neighbours count as air at p = 0 (the
-//        idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked
+// a_i    weight of the air (air.h): what is missing of A_0, sum_j c_ij on a full lattice, counts as p = 0 on the
+// surface
+//        (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked
 //        instead, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
 // gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
@@ -89,7 +90,7 @@ bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
   const bool is_morris = flow.scheme.laplacian == LaplacianKind::morris;
   const double full = is_morris ? flow.lattice.morris : flow.lattice.consistent;
-  const double air = has_air ? std::max(0.0, full - sum) : 0.0;
+  const double air = has_air ? flow.air_law.weight(sum, full) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;

@@ -107,6 +107,7 @@ Flow<Dim>::Flow(const CaseSpec& spec)
 
   const Kernel<Dim>& kernel = neighbourhood.kernel();
   lattice = lattice_sums(kernel, spacing);
+  air_law = AirLaw(kernel, spacing);
   W_0 = kernel_value(kernel, 0.0);
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "closures/air.h"
 #include "closures/shifting.h"
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
@@ -59,6 +60,7 @@ struct Flow {
   WallModel<Dim> walls;
   LatticeSums lattice;
   double W_0;  ///< W(0)
+  AirLaw air_law;
   ViscosityLaw viscosity_law;
   ShiftingLaw shifting_law;
   TimeStepRule time_step_rule;

@@ -47,7 +47,7 @@ if failing and failing in line:
 (out / "case.effective.toml").write_text("[particles]\\nspacing = 0.02\\n[scheme]\\nintegrator = 'explicit'\\n")
 (out / "summary.json").write_text(json.dumps({
     "status": "done", "particles": {"fluid": 100}, "steps": {"count": 50},
-    "energy": {"start_J": 1.0, "largest_rise_over_start": 5e-5},
+    "energy": {"start_J": 1.0, "largest_rise_over_start": 5e-5, "largest_rise_less_density_work_over_start": 0.0},
     "volume": {"outside_the_walls_most": 0, "density_error_mean": 0.001, "density_error_rms": 0.02},
     "interventions": {"put_back_from_walls": 3, "capped_shifts": 1, "per_step": 0.5}}))
 """

@@ -223,6 +223,9 @@ def matrix_gate(bench):
             Check(Metric(f"{label}.energy_rise", f"largest rise of the total energy, {text}", "of the start",
                          "C1 2e-4", high=1e-4), runs,
                   partial(largest, partial(summary, "energy", "largest_rise_over_start")), True),
+            Check(Metric(f"{label}.energy_rise_unexplained", f"the same without the work of the density source, {text}",
+                         "of the start", "", high=1e-4), runs,
+                  partial(largest, partial(summary, "energy", "largest_rise_less_density_work_over_start")), True),
         ]
     return Gate("dam-break", f"Zhou to T = {T} from five starts, with and without numerical viscosity", tuple(checks))
 
