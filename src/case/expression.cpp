@@ -76,6 +76,11 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
       fmt::format("cannot read \"{}\" at position {}; write an expression such as \"2*H\"", token, position + 1));
 }
 
+double clamp(double x, double low, double high) { return std::min(std::max(x, low), high); }
+
+/// What muParser does not have.
+void define_functions(mu::Parser& parser) { parser.DefineFun("clamp", clamp); }
+
 }  // namespace
 
 struct Formula::State {
@@ -89,6 +94,7 @@ Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span
   const SuspendFpTraps suspended;
   mu::Parser& parser = state_->parser;
   state_->variables.resize(variables.size());
+  define_functions(parser);
   parser.ClearConst();
   parser.DefineConst("pi", std::numbers::pi);
   for (const auto& [name, value] : numbers) {
@@ -142,7 +148,8 @@ bool is_free_name(std::string_view name) {
 
 std::vector<std::string> function_names() {
   std::vector<std::string> names;
-  const mu::Parser parser;
+  mu::Parser parser;
+  define_functions(parser);
   for (const auto& [name, function] : parser.GetFunDef()) {
     names.push_back(name);
   }

@@ -1,7 +1,8 @@
 // Numbers written as expressions of named numbers, such as "2*H" or "sqrt(g*H)".
 //
 // The arithmetic is muParser's: + - * / ^ (right-associative, binds tighter than the sign: -2^2 = -4), parentheses and
-// its functions (sqrt, sin, cos, tan, abs, min, max, exp, ...). The decimal sign is the point in every locale.
+// its functions (sqrt, sin, cos, tan, abs, min, max, exp, ...), the choice a < b ? c : d, and clamp(x, low, high). The
+// decimal sign is the point in every locale.
 #pragma once
 
 #include <map>

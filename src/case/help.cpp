@@ -47,9 +47,6 @@ std::string type_text(const KeyInfo& row) {
   if (row.type == "vector") {
     return "list of `dimension` numbers";
   }
-  if (row.type == "field") {
-    return "list of `dimension` numbers or expressions of x, y, z";
-  }
   if (row.type == "points") {
     return "list of points";
   }
@@ -117,10 +114,13 @@ std::string case_reference_markdown() {
       "Numbers are SI, without units. Wherever a number may stand, also inside lists, an expression in quotes may "
       "stand:\n\n"
       "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
-      "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4\n"
+      "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4; `a < b ? c : d` is c "
+      "or "
+      "d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
       "`particles.spacing`, `g` = the magnitude of `physics.gravity`; in `fluid.velocity` also `x`, `y`, `z`, the "
-      "particle's position, which no parameter can be called\n"
+      "particle's position, and in `wall.displacement` and `wall.rotation` the time `t`, which no parameter can be "
+      "called\n"
       "- functions: " +
       functions_text() +
       "\n\n"

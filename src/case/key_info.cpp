@@ -19,6 +19,13 @@ std::string array_text(const std::vector<double>& values) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+std::string_view names_of(Variables variables) { return variables == Variables::time ? "t" : "x, y, z"; }
+
+std::string varying_text(const Varying& value) {
+  const auto* number = std::get_if<double>(&value);
+  return number != nullptr ? toml_float(*number) : toml_string(std::get<std::string>(value));
+}
+
 /// Visitor for CaseSpec::describe.
 struct TableCollector {
   std::vector<TableInfo> tables_found;
@@ -70,13 +77,20 @@ void KeyCollector::coordinates(std::string_view key, const Coordinates& value, s
   rows_.push_back({key, "vector", array_text(value), unit, "", doc, Presence::optional});
 }
 
-void KeyCollector::field(std::string_view key, const VectorField& value, std::string_view unit, std::string_view doc) {
+void KeyCollector::varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,
+                           std::string_view doc) {
+  const std::string type = fmt::format("number or expression of {}", names_of(variables));
+  rows_.push_back({key, type, varying_text(value), unit, "", doc, Presence::optional});
+}
+
+void KeyCollector::field(std::string_view key, const VectorField& value, Variables variables, std::string_view unit,
+                         std::string_view doc) {
+  const std::string type = fmt::format("list of `dimension` numbers or expressions of {}", names_of(variables));
   std::vector<std::string> texts;
-  for (const auto& component : value) {
-    const auto* number = std::get_if<double>(&component);
-    texts.push_back(number != nullptr ? toml_float(*number) : toml_string(std::get<std::string>(component)));
+  for (const Varying& component : value) {
+    texts.push_back(varying_text(component));
   }
-  rows_.push_back({key, "field", fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional});
+  rows_.push_back({key, type, fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional});
 }
 
 void KeyCollector::points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit,

@@ -16,7 +16,8 @@ namespace tailwater {
 /// One key of a table.
 struct KeyInfo {
   std::string_view key;
-  std::string type;   ///< "number", "whole number", "text", "choice", "vector", "field", "points", "numbers", "texts"
+  std::string type;   ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"; of what
+                      ///< may vary as the help shows it
   std::string value;  ///< as TOML
   std::string_view unit;  ///< empty: none
   std::string allowed;    ///< the range of a number, the names of a choice; empty: anything of that type
@@ -37,7 +38,10 @@ class KeyCollector {
   void number(std::string_view key, double value, std::string_view unit, const Range& range, std::string_view doc,
               Presence presence = Presence::optional);
   void coordinates(std::string_view key, const Coordinates& value, std::string_view unit, std::string_view doc);
-  void field(std::string_view key, const VectorField& value, std::string_view unit, std::string_view doc);
+  void varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,
+               std::string_view doc);
+  void field(std::string_view key, const VectorField& value, Variables variables, std::string_view unit,
+             std::string_view doc);
   void points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);
   void numbers(std::string_view key, const std::vector<double>& value, std::string_view unit, std::string_view doc);
   void texts(std::string_view key, const std::vector<std::string>& value, std::span<const std::string_view> allowed,

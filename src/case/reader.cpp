@@ -122,9 +122,9 @@ bool CaseReader::settle(const std::string& name, const toml::node& node, const s
   // Until it has a value, what uses this parameter is not a number and is not reported a second time.
   double value = std::numeric_limits<double>::quiet_NaN();
   const bool is_position = std::find(position_names.begin(), position_names.end(), name) != position_names.end();
-  if (!is_free_name(name) || is_position || name == "dx" || name == "g") {
+  if (!is_free_name(name) || is_position || name == time_name[0] || name == "dx" || name == "g") {
     report(node, key,
-           "cannot be a parameter's name; use letters, digits and _, not x, y, z, dx, g, pi or a function's name");
+           "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
     return true;
   }
   if (const auto* text = node.as_string()) {

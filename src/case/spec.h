@@ -30,8 +30,17 @@ using Coordinates = std::vector<double>;
 /// Names of the position in expressions that are evaluated particle by particle; in 2D the first two.
 inline constexpr std::array<std::string_view, 3> position_names{"x", "y", "z"};
 
-/// A vector that may vary in space, one component per dimension: a number, or an expression of the position.
-using VectorField = std::vector<std::variant<double, std::string>>;
+/// Name of the time in expressions that are evaluated step by step.
+inline constexpr std::array<std::string_view, 1> time_name{"t"};
+
+/// What an expression may depend on besides the named numbers.
+enum class Variables { position, time };
+
+/// A number, or an expression that varies in space or time.
+using Varying = std::variant<double, std::string>;
+
+/// A vector that may vary, one component per dimension.
+using VectorField = std::vector<Varying>;
 
 /// The values a number may take. Bounds are inclusive unless `above`/`below` made them exclusive.
 struct Range {
@@ -133,7 +142,7 @@ struct FluidTable {
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.points("points", self.points, "m", "Corners of a polygon, in order; the last joins the first");
-    v.field("velocity", self.velocity, "m/s",
+    v.field("velocity", self.velocity, Variables::position, "m/s",
             "Velocity at the start (default: at rest); expressions may use the particle's position x, y, z");
   }
 };
@@ -148,6 +157,9 @@ struct WallTable {
   FluidSide fluid_side = FluidSide::left;
   Slip slip = Slip::free;
   double friction = 0.5;
+  VectorField displacement;
+  Varying rotation = 0.0;
+  Coordinates pivot;
 
   bool operator==(const WallTable&) const = default;
 
@@ -166,6 +178,12 @@ struct WallTable {
     v.choice("slip", self.slip, "Friction on the wall: none at all, water sticks to it, or a share of that");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
              "With slip = \"partial\": share of the no-slip wall stress");
+    v.field("displacement", self.displacement, Variables::time, "m",
+            "Way of the wall from where it is drawn (default: none); expressions may use the time t");
+    v.varying(
+        "rotation", self.rotation, Variables::time, "rad",
+        "Angle by which the wall has turned about its pivot, counter-clockwise (2D); the displacement comes on top");
+    v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
   }
 };
 

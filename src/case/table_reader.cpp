@@ -78,25 +78,26 @@ void TableReader::coordinates(std::string_view key, Coordinates& value, std::str
   }
 }
 
-void TableReader::field(std::string_view key, VectorField& value, std::string_view unit, std::string_view doc) {
+void TableReader::varying(std::string_view key, Varying& value, Variables variables, std::string_view unit,
+                          std::string_view doc) {
+  if (const toml::node* node = find(key, doc, unit, "", Presence::optional)) {
+    if (auto given = read_varying(key, std::string(key), *node, variables, unit)) {
+      value = std::move(*given);
+    }
+  }
+}
+
+void TableReader::field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
+                        std::string_view doc) {
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
   const toml::array* list = node == nullptr ? nullptr : components(key, std::string(key), *node, unit);
   if (list == nullptr) {
     return;
   }
-  const auto position = std::span(position_names).first(list->size());
   VectorField given;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string place = fmt::format("{}[{}]", key, i);
-    const auto* text = (*list)[i].as_string();
-    try {
-      if (text != nullptr && Formula(text->get(), context_.numbers, position).uses_variables()) {
-        given.emplace_back(text->get());
-      } else if (const auto number = evaluated(key, place, (*list)[i], unit)) {
-        given.emplace_back(*number);
-      }
-    } catch (const ExpressionError& error) {
-      wrong(key, *text, error.what(), place);
+    if (auto component = read_varying(key, fmt::format("{}[{}]", key, i), (*list)[i], variables, unit)) {
+      given.push_back(std::move(*component));
     }
   }
   if (given.size() == list->size()) {
@@ -251,6 +252,23 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
     return std::nullopt;
   }
   return value;
+}
+
+std::optional<Varying> TableReader::read_varying(std::string_view key, const std::string& place, const toml::node& node,
+                                                 Variables variables, std::string_view unit) {
+  // In a plane there is no z; 0: the file gives no valid dimension, which is reported.
+  const auto position = std::span(position_names).first(context_.dimension == 2 ? 2 : 3);
+  const auto names = variables == Variables::time ? std::span<const std::string_view>(time_name) : position;
+  const auto* text = node.as_string();
+  try {
+    if (text != nullptr && Formula(text->get(), context_.numbers, names).uses_variables()) {
+      return text->get();
+    }
+  } catch (const ExpressionError& error) {
+    wrong(key, *text, error.what(), place);
+    return std::nullopt;
+  }
+  return evaluated(key, place, node, unit);
 }
 
 std::optional<std::vector<double>> TableReader::elements(std::string_view key, const std::string& place,

@@ -44,7 +44,9 @@ class TableReader {
   void number(std::string_view key, double& value, std::string_view unit, const Range& range, std::string_view doc,
               Presence presence = Presence::optional);
   void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc);
-  void field(std::string_view key, VectorField& value, std::string_view unit, std::string_view doc);
+  void varying(std::string_view key, Varying& value, Variables variables, std::string_view unit, std::string_view doc);
+  void field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
+             std::string_view doc);
   void points(std::string_view key, std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);
   void numbers(std::string_view key, std::vector<double>& value, std::string_view unit, std::string_view doc);
   void texts(std::string_view key, std::vector<std::string>& value, std::span<const std::string_view> allowed,
@@ -101,6 +103,10 @@ class TableReader {
   /// The number that a node of `key` stands for, if it is one.
   std::optional<double> evaluated(std::string_view key, std::string_view place, const toml::node& node,
                                   std::string_view unit);
+
+  /// The number or the expression that a node of `key` stands for, if it is one.
+  std::optional<Varying> read_varying(std::string_view key, const std::string& place, const toml::node& node,
+                                      Variables variables, std::string_view unit);
 
   /// The list of `dimension` entries that a node of `key` is; null if it is something else, which is reported.
   const toml::array* components(std::string_view key, const std::string& place, const toml::node& node,

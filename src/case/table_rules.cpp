@@ -62,6 +62,8 @@ void set_defaults(FluidTable& fluid, TableReader& reader) {
 void set_defaults(WallTable& wall, TableReader& reader) {
   reader.read_ahead(wall, {"shape"});
   wall.fluid_side = wall.shape == WallShape::polyline ? FluidSide::left : FluidSide::inside;
+  wall.displacement.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+  wall.pivot.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
 }
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
@@ -118,6 +120,9 @@ void check(const WallTable& wall, TableReader& reader) {
     reader.wrong("fluid_side", *reader.given("fluid_side"),
                  fmt::format("does not go with shape = \"{}\"; give {}", name_of(wall.shape),
                              is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
+  }
+  if (reader.dimension() == 3 && wall.rotation != Varying(0.0)) {
+    reader.wrong("rotation", *reader.given("rotation"), "walls turn in two dimensions only; remove the key");
   }
 }
 

@@ -43,17 +43,23 @@ void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     Vec<Dim> sum = Vec<Dim>::Zero();
+    Vec<Dim> wall_velocity = Vec<Dim>::Zero();
+    double weights = 0.0;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (particles.is_fluid(j)) continue;
       const auto row = particles.wall_row[j];
       const double lambda = walls.friction[row];
       if (lambda == 0.0) continue;
-      const Vec<Dim> difference = (is_image ? Vec<Dim>(-wall_mean[j]) : Vec<Dim>(Vec<Dim>::Zero())) - velocity[i];
-      sum += lambda * morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) *
-             (difference - walls.particles.blocked[row] * difference);
+      const Vec<Dim>& V = walls.velocity[row];
+      const Vec<Dim> difference =
+          (is_image ? Vec<Dim>(V - wall_mean[j]) : Vec<Dim>(Vec<Dim>::Zero())) + V - velocity[i];
+      const double weight = lambda * morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
+      sum += weight * (difference - walls.particles.blocked[row] * difference);
+      wall_velocity += weight * V;
+      weights += weight;
     }
-    if (!sum.isZero(0.0)) acceleration[i] += law.at_wall(velocity[i].norm()) * sum;
+    if (weights > 0.0) acceleration[i] += law.at_wall((velocity[i] - wall_velocity / weights).norm()) * sum;
   });
 }
 

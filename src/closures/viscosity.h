@@ -41,7 +41,7 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
 
 /// Friction of walls, lambda times the no-slip stress of the wall law: the tangential part of
 /// sum_w lambda c_iw nu_wall(|u_i|) (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror
-/// images, and 0 on the wall. Only slows down.
+/// images, and 0 on the wall; all velocities relative to the wall's own. Only slows down, relative to the wall.
 template <int Dim>
 void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
                        const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,

@@ -20,8 +20,8 @@ bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles
 /// One cushion per adjacent wall: a corner has at most Dim of them. Returns whether the move would have ended behind
 /// one.
 template <int Dim>
-bool cushion(const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& before, Vec<Dim>& position,
-             Vec<Dim>* velocity) {
+bool cushion(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways, const Vec<Dim>& before,
+             Vec<Dim>& position, Vec<Dim>* velocity) {
   const double contact = contact_distance * spacing;
   bool would_cross = false;
   int last_face = -1;
@@ -30,12 +30,16 @@ bool cushion(const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& befo
     if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
     last_face = wall.face;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    const double gap = std::clamp(face.height(before), least_gap * spacing, contact);
+    const Vec<Dim> carried = ways.way.empty() ? before : ways.way[face.wall](before);  // by the wall
+    const double gap = std::clamp(face.height(carried), least_gap * spacing, contact);
     const double approach = gap - wall.signed_distance;
     if (approach <= 0.0) continue;
     const double share = gap / (gap + approach);
     position += (share * gap - wall.signed_distance) * face.normal;
-    if (velocity) *velocity -= (1.0 - share) * std::min(0.0, velocity->dot(face.normal)) * face.normal;
+    if (velocity) {
+      const double advance = ways.way.empty() ? 0.0 : face.normal.dot(carried - before) / ways.dt;
+      *velocity -= (1.0 - share) * std::min(0.0, velocity->dot(face.normal) - advance) * face.normal;
+    }
     would_cross = would_cross || wall.signed_distance < 0.0;
   }
   return would_cross;
@@ -59,18 +63,20 @@ void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, d
 
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
-                           std::span<const Vec<Dim>> before, Particles<Dim>& particles, std::span<Vec<Dim>> velocity) {
+                           const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
+                           std::span<Vec<Dim>> velocity) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     return particles.is_fluid(i) && has_wall_neighbour(pairs, particles, i) &&
-           cushion(boundary, spacing, before[i], particles.position[i], velocity.empty() ? nullptr : &velocity[i]);
+           cushion(boundary, spacing, ways, before[i], particles.position[i],
+                   velocity.empty() ? nullptr : &velocity[i]);
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
-  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,         \
-                                       std::span<double>);                                                             \
-  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, std::span<const Vec<Dim>>, \
-                                           Particles<Dim>&, std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                \
+  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,    \
+                                       std::span<double>);                                                        \
+  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const WallWays<Dim>&, \
+                                           std::span<const Vec<Dim>>, Particles<Dim>&, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

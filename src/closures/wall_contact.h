@@ -10,12 +10,15 @@
 //            it), and off d' by the second order of (d - d')/d only. The velocity into the wall is reduced by the same
 //            factor, so energy only falls.
 //
+// All of it is relative to the wall: where a wall moved in the same time, d is that from where it was and the velocity
+// that relative to its own.
+//
 // A move that would have ended behind a wall is counted: a sound run hardly needs the cushion for that.
 #pragma once
 
 #include <span>
 
-#include "geometry/boundary.h"
+#include "geometry/wall_motion.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
 
@@ -27,11 +30,20 @@ template <int Dim>
 void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
                        const Particles<Dim>& particles, std::span<double> overlap);
 
+/// How the walls moved in the time of a move.
+template <int Dim>
+struct WallWays {
+  std::vector<AffineMap<Dim>> way;  ///< by wall: from where it was to where it is
+  double dt = 0.0;                  ///< s; the time of the move; any number if nothing moved
+};
+
 /// Cushions the way of owned fluid particles from `before` to their positions, for those that have a wall particle
-/// among their neighbours. `velocity` is that of the move; empty for a move that no velocity made. Returns how many
-/// would have ended behind a wall.
+/// among their neighbours. `walls` are where they are after the move; `ways` is empty for a move during which they
+/// rest, `velocity` that of the move, empty for a move that no velocity made. Returns how many would have ended behind
+/// a wall.
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
-                           std::span<const Vec<Dim>> before, Particles<Dim>& particles, std::span<Vec<Dim>> velocity);
+                           const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
+                           std::span<Vec<Dim>> velocity);
 
 }  // namespace tailwater

@@ -28,7 +28,7 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
 template <int Dim>
 void set_wall_velocity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
                        std::span<const double> fluid_weight, std::span<const std::uint8_t> is_wet,
-                       std::span<Vec<Dim>> mean, std::span<Vec<Dim>> velocity) {
+                       std::span<const Vec<Dim>> V, std::span<Vec<Dim>> mean, std::span<Vec<Dim>> velocity) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (particles.is_fluid(i)) return;
     mean[i].setZero();
@@ -40,22 +40,23 @@ void set_wall_velocity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
     }
     mean[i] = sum / fluid_weight[i];
     const auto row = particles.wall_row[i];
-    const Vec<Dim> normal_part = walls.particles.blocked[row] * mean[i];
-    const Vec<Dim> tangential_part = mean[i] - normal_part;
+    const Vec<Dim> relative = mean[i] - V[row];
+    const Vec<Dim> normal_part = walls.particles.blocked[row] * relative;
+    const Vec<Dim> tangential_part = relative - normal_part;
     if (walls.treatment == WallTreatment::dummies) {
-      velocity[i] = tangential_part - normal_part;
+      velocity[i] = V[row] + tangential_part - normal_part;
     } else {
-      velocity[i] = (1.0 - walls.friction[row]) * tangential_part;
+      velocity[i] = V[row] + (1.0 - walls.friction[row]) * tangential_part;
     }
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                  \
-  template void find_wet_walls<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<double>,            \
-                                    std::span<std::uint8_t>);                                                       \
-  template void set_wall_velocity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,             \
-                                       std::span<const double>, std::span<const std::uint8_t>, std::span<Vec<Dim>>, \
-                                       std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                                       \
+  template void find_wet_walls<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<double>, \
+                                    std::span<std::uint8_t>);                                            \
+  template void set_wall_velocity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,  \
+                                       std::span<const double>, std::span<const std::uint8_t>,           \
+                                       std::span<const Vec<Dim>>, std::span<Vec<Dim>>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

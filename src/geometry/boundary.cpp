@@ -20,6 +20,19 @@ double friction_of(const WallTable& wall) {
   return 0.0;
 }
 
+/// The body of wall `w`: walls with the same motion, as it is written, are one.
+int body_of(const CaseSpec& spec, std::size_t w) {
+  const WallTable& wall = spec.walls[w];
+  const auto varies = [](const Varying& value) { return std::holds_alternative<std::string>(value); };
+  if (!varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
+    return resting_body;
+  }
+  const auto same = std::ranges::find_if(spec.walls, [&](const WallTable& other) {
+    return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot;
+  });
+  return 1 + static_cast<int>(same - spec.walls.begin());
+}
+
 /// The faces of a polyline or polygon, in the order of its points.
 void append_chain(const WallTable& table, int wall, const std::string& owner, double spacing,
                   std::vector<WallFace<2>>& faces) {
@@ -184,11 +197,31 @@ bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to
 }
 
 template <int Dim>
+void Boundary<Dim>::file_faces(double reach) {
+  moving_.clear();
+  resting_ = FaceGrid<Dim>(reach);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (walls[faces[f].wall].moves()) {
+      moving_.push_back(static_cast<int>(f));
+      continue;
+    }
+    Vec<Dim> low = faces[f].corners[0];
+    Vec<Dim> high = low;
+    for (const Vec<Dim>& corner : faces[f].corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    resting_.add(static_cast<int>(f), low, high,
+                 [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
+  }
+}
+
+template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
   NearestWall<Dim> best;
   double best_distance = search_distance;
   double best_height = 0.0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  const auto look_at = [&](int f) {
     const WallFace<Dim>& face = faces[f];
     const double tie = 1e-9 * (face.corners[1] - face.corners[0]).norm();
     bool is_far = false;
@@ -202,17 +235,23 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
       is_far = is_far || std::max(low - x[axis], x[axis] - high) > best_distance + tie;
     }
     if (is_far) {
-      continue;
+      return;
     }
     const Vec<Dim> point = closest_point(face, x);
     const double distance = (x - point).norm();
     const double height = face.height(x);
     const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;
     if (is_tie ? std::abs(height) > std::abs(best_height) : distance <= best_distance) {
-      best = {static_cast<int>(f), point, height < 0.0 ? -distance : distance};
+      best = {f, point, height < 0.0 ? -distance : distance};
       best_distance = distance;
       best_height = height;
     }
+  };
+  if (search_distance <= resting_.reach()) {
+    for (const int f : resting_.near(x)) look_at(f);
+    for (const int f : moving_) look_at(f);
+  } else {
+    for (std::size_t f = 0; f < faces.size(); ++f) look_at(static_cast<int>(f));
   }
   return best;
 }
@@ -225,7 +264,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const int wall = static_cast<int>(w);
     const std::string name = name_or_number(table.name, "wall", w);
     const std::string owner = fmt::format("wall '{}'", name);
-    boundary.walls.push_back({name, friction_of(table)});
+    boundary.walls.push_back({name, friction_of(table), body_of(spec, w)});
     if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
     } else if constexpr (Dim == 2) {

@@ -7,6 +7,7 @@
 
 #include "base/vec.h"
 #include "case/spec.h"
+#include "geometry/face_grid.h"
 
 namespace tailwater {
 
@@ -40,10 +41,16 @@ Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& t
 template <int Dim>
 bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
 
+/// The body of all walls that rest.
+inline constexpr int resting_body = 0;
+
 /// What a wall does to the fluid that touches it.
 struct WallProperties {
   std::string name;
-  double friction = 0.0;  ///< share of the no-slip wall stress: 0 free slip, 1 no slip
+  double friction = 0.0;    ///< share of the no-slip wall stress: 0 free slip, 1 no slip
+  int body = resting_body;  ///< walls of one body never move relative to each other
+
+  bool moves() const { return body != resting_body; }
 };
 
 /// The place of a wall nearest to some point.
@@ -59,11 +66,26 @@ struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
 
+  /// Files the faces of walls that rest by place, for searches up to `reach` (m); faces may not be added afterwards,
+  /// and only those of moving walls may change.
+  void file_faces(double reach);
+  double filed_reach() const { return resting_.reach(); }
+
   /// Nearest wall within `search_distance` (m, may be infinite) of `x`. Where several faces are equally near (a shared
   /// corner), the sign is that of the face whose plane is farthest from `x`, which is right at convex and concave
   /// corners.
   NearestWall<Dim> nearest(const Vec<Dim>& x, double search_distance) const;
+
+ private:
+  FaceGrid<Dim> resting_;    ///< reach 0: nothing is filed
+  std::vector<int> moving_;  ///< faces, when others are filed
 };
+
+/// "wall 'gate'": how messages call a wall.
+template <int Dim>
+std::string wall_label(const Boundary<Dim>& boundary, int wall) {
+  return "wall '" + boundary.walls[wall].name + "'";
+}
 
 /// Two points nearer than this share of dx are the same corner.
 inline constexpr double corner_tolerance = 1e-6;

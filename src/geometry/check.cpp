@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/check_motion.h"
 #include "geometry/from_spec.h"
 #include "geometry/point_grid.h"
 
@@ -20,11 +21,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::string fluid_name(const CaseSpec& spec, int block) {
   return fmt::format("fluid '{}'", name_or_number(spec.fluid[block].name, "fluid", block));
-}
-
-template <int Dim>
-std::string wall_name(const Boundary<Dim>& boundary, int wall) {
-  return fmt::format("wall '{}'", boundary.walls[wall].name);
 }
 
 template <class... Arguments>
@@ -200,7 +196,7 @@ void check_contact(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
     in_front[key.first] += contact.in_front;
   }
   for (const auto& [key, contact] : contacts) {
-    const std::string wall = wall_name(boundary, key.first);
+    const std::string wall = wall_label(boundary, key.first);
     const std::string block = fluid_name(spec, key.second);
     if (contact.behind > 0 && in_front[key.first] > 0) {
       error(findings,
@@ -228,7 +224,7 @@ void check_contact(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
       warning(findings,
               "there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, at "
               "{}, instead of {:.2f}; put the block's edge on the wall, or move it away by two spacings or more",
-              fluid_name(spec, key.second), wall_name(boundary, wall), nearest.first / dx, place(nearest.second),
+              fluid_name(spec, key.second), wall_label(boundary, wall), nearest.first / dx, place(nearest.second),
               regular);
     }
   }
@@ -254,7 +250,7 @@ void check_crossings(const CaseSpec& spec, const Boundary<2>& boundary, std::vec
       const WallFace<2>& b = boundary.faces[j];
       if (a.wall == b.wall && crosses(a, b.corners[0], b.corners[1], tolerance) &&
           crosses(b, a.corners[0], a.corners[1], tolerance)) {
-        error(findings, "{} crosses itself at {}: mend the order of its points", wall_name(boundary, a.wall),
+        error(findings, "{} crosses itself at {}: mend the order of its points", wall_label(boundary, a.wall),
               place(meet(a, b.corners[0], b.corners[1])));
       }
     }
@@ -301,8 +297,8 @@ void check_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, std::v
           error(findings,
                 "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles "
                 "need {:.6g} m; make it thicker or the spacing smaller",
-                wall_name(boundary, face.wall), thickness, place(foot),
-                face.wall == other.wall ? "the water" : wall_name(boundary, other.wall), dummy_layers(spec), needed);
+                wall_label(boundary, face.wall), thickness, place(foot),
+                face.wall == other.wall ? "the water" : wall_label(boundary, other.wall), dummy_layers(spec), needed);
         }
         break;
       }
@@ -477,7 +473,7 @@ void check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const Flui
   if (const std::optional<Vec<Dim>> leak = Flood<Dim>(spec, boundary, fluid).leak()) {
     const NearestWall<Dim> wall = boundary.nearest(*leak, infinite);
     error(findings, "the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
-          place(*leak), wall_name(boundary, boundary.faces[wall.face].wall));
+          place(*leak), wall_label(boundary, boundary.faces[wall.face].wall));
   }
 }
 
@@ -496,6 +492,8 @@ std::vector<Finding> check_geometry(const CaseSpec& spec, const Boundary<Dim>& b
   check_overlaps(spec, fluid, findings);
   check_contact(spec, boundary, fluid, findings);
   check_leaks(spec, boundary, fluid, findings);
+  const std::vector<Finding> of_motion = check_motion(spec, boundary);
+  findings.insert(findings.end(), of_motion.begin(), of_motion.end());
   return findings;
 }
 

@@ -1,6 +1,7 @@
 // Points filed by place, so that those near another point are found without looking at all of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,28 @@
 
 namespace tailwater {
 
+/// A cube of space, by its place in a regular grid.
+template <int Dim>
+using Cell = std::array<std::int64_t, Dim>;
+
+template <int Dim>
+Cell<Dim> cell_of(const Vec<Dim>& x, double edge) {
+  constexpr double beyond = 1e15;  // a runaway's place need not fit an integer
+  Cell<Dim> c;
+  for (int axis = 0; axis < Dim; ++axis) {
+    c[axis] = static_cast<std::int64_t>(std::clamp(std::floor(x[axis] / edge), -beyond, beyond));
+  }
+  return c;
+}
+
+/// 21 bits per axis: cells may share a key.
+template <int Dim>
+std::uint64_t cell_key(const Cell<Dim>& c) {
+  std::uint64_t k = 0;
+  for (const std::int64_t coordinate : c) k = k << 21 ^ (static_cast<std::uint64_t>(coordinate) & 0x1fffff);
+  return k;
+}
+
 template <int Dim>
 class PointGrid {
  public:
@@ -18,7 +41,7 @@ class PointGrid {
   explicit PointGrid(double radius) : radius_(radius) {}
 
   void add(const Vec<Dim>& x) {
-    const auto [head, is_new] = first_.try_emplace(key(cell(x)), -1);
+    const auto [head, is_new] = first_.try_emplace(cell_key<Dim>(cell_of<Dim>(x, radius_)), -1);
     next_.push_back(head->second);
     head->second = static_cast<int>(points_.size());
     points_.push_back(x);
@@ -28,14 +51,14 @@ class PointGrid {
   /// the first point added has index 0.
   template <class Visit>
   void visit_near(const Vec<Dim>& x, Visit&& visit) const {
-    const Cell centre = cell(x);
+    const Cell<Dim> centre = cell_of<Dim>(x, radius_);
     const int neighbours = Dim == 2 ? 9 : 27;
     for (int n = 0; n < neighbours; ++n) {
-      Cell c = centre;
+      Cell<Dim> c = centre;
       for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) {
         c[axis] += rest % 3 - 1;
       }
-      const auto found = first_.find(key(c));
+      const auto found = first_.find(cell_key<Dim>(c));
       for (int i = found == first_.end() ? -1 : found->second; i >= 0; i = next_[i]) {
         if ((points_[i] - x).norm() < radius_) {
           visit(i);
@@ -51,24 +74,6 @@ class PointGrid {
   }
 
  private:
-  using Cell = std::array<std::int64_t, Dim>;
-
-  Cell cell(const Vec<Dim>& x) const {
-    Cell c;
-    for (int axis = 0; axis < Dim; ++axis) {
-      c[axis] = static_cast<std::int64_t>(std::floor(x[axis] / radius_));
-    }
-    return c;
-  }
-  // 21 bits per axis; cells that share a key only cost a distance test.
-  static std::uint64_t key(const Cell& c) {
-    std::uint64_t k = 0;
-    for (const std::int64_t coordinate : c) {
-      k = k << 21 ^ (static_cast<std::uint64_t>(coordinate) & 0x1fffff);
-    }
-    return k;
-  }
-
   double radius_;
   std::unordered_map<std::uint64_t, int> first_;
   std::vector<int> next_;

@@ -31,7 +31,8 @@ int dummy_layers(const CaseSpec& spec);
 /// mitred corners; on axis-parallel walls of whole length in dx they continue the fluid's lattice. Faces join where
 /// they share a corner and agree on the side of the fluid, whichever wall they belong to. None lies nearer than dx/2 to
 /// another, behind a second wall, or farther than 1.5 layers dx from its wall. In 3D: box walls only; nothing stands
-/// above an open face.
+/// above an open face. Walls of one body know nothing of another: when they part nothing is missing, and nothing
+/// overlaps as long as the bodies do not.
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers);
 

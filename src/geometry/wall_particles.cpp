@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "base/assert.h"
 #include "geometry/point_grid.h"
@@ -254,6 +255,13 @@ struct Box {
   bool fluid_is_inside = true;
 };
 
+/// The walls that have faces.
+std::set<int> walls_of(const Boundary<3>& boundary) {
+  std::set<int> walls;
+  for (const WallFace<3>& face : boundary.faces) walls.insert(face.wall);
+  return walls;
+}
+
 Box box_of(const Boundary<3>& boundary, int wall) {
   Box box;
   for (const WallFace<3>& face : boundary.faces) {
@@ -341,7 +349,7 @@ WallParticles<3> sample_boxes(const Boundary<3>& boundary, double spacing, int l
   const double tolerance = corner_tolerance * spacing;
   WallParticles<3> particles;
   PointGrid<3> taken((least_distance - corner_tolerance) * spacing);
-  for (int wall = 0; wall < static_cast<int>(boundary.walls.size()); ++wall) {
+  for (const int wall : walls_of(boundary)) {
     const Box box = box_of(boundary, wall);
     const Eigen::Vector3i count = cells_of(box, spacing);
     const auto is_own = [&](std::size_t f) { return boundary.faces[f].wall == wall; };
@@ -374,7 +382,7 @@ WallParticles<3> sample_boxes(const Boundary<3>& boundary, double spacing, int l
 WallParticles<3> sample_box_surfaces(const Boundary<3>& boundary, double spacing) {
   WallParticles<3> particles;
   PointGrid<3> taken((least_distance - corner_tolerance) * spacing);
-  for (int wall = 0; wall < static_cast<int>(boundary.walls.size()); ++wall) {
+  for (const int wall : walls_of(boundary)) {
     const Box box = box_of(boundary, wall);
     const Eigen::Vector3i count = cells_of(box, spacing);
     for_each_node(Eigen::Vector3i::Zero(), count + Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& index) {
@@ -399,26 +407,54 @@ WallParticles<3> sample_box_surfaces(const Boundary<3>& boundary, double spacing
 
 }  // namespace
 
+namespace {
+
+/// The walls of one body after the other, each sampled as if it were alone: bodies part.
+template <int Dim, class Sample>
+WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, Sample&& sample) {
+  std::set<int> bodies;
+  for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
+  WallParticles<Dim> all;
+  for (const int body : bodies) {
+    Boundary<Dim> alone;
+    alone.walls = boundary.walls;
+    std::ranges::copy_if(boundary.faces, std::back_inserter(alone.faces),
+                         [&](const WallFace<Dim>& face) { return boundary.walls[face.wall].body == body; });
+    const WallParticles<Dim> part = sample(alone);
+    all.position.insert(all.position.end(), part.position.begin(), part.position.end());
+    all.normal.insert(all.normal.end(), part.normal.begin(), part.normal.end());
+    all.blocked.insert(all.blocked.end(), part.blocked.begin(), part.blocked.end());
+    all.wall.insert(all.wall.end(), part.wall.begin(), part.wall.end());
+  }
+  return all;
+}
+
+}  // namespace
+
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers) {
-  if constexpr (Dim == 2) {
-    std::vector<double> depths;
-    for (int layer = 0; layer < layers; ++layer) {
-      depths.push_back((layer + 0.5) * spacing);
+  return sample_bodies(boundary, [&](const Boundary<Dim>& body) {
+    if constexpr (Dim == 2) {
+      std::vector<double> depths;
+      for (int layer = 0; layer < layers; ++layer) {
+        depths.push_back((layer + 0.5) * spacing);
+      }
+      return sample_rows(body, spacing, depths, farthest_share * layers * spacing);
+    } else {
+      return sample_boxes(body, spacing, layers);
     }
-    return sample_rows(boundary, spacing, depths, farthest_share * layers * spacing);
-  } else {
-    return sample_boxes(boundary, spacing, layers);
-  }
+  });
 }
 
 template <int Dim>
 WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing) {
-  if constexpr (Dim == 2) {
-    return sample_rows(boundary, spacing, {0.0}, spacing);
-  } else {
-    return sample_box_surfaces(boundary, spacing);
-  }
+  return sample_bodies(boundary, [&](const Boundary<Dim>& body) {
+    if constexpr (Dim == 2) {
+      return sample_rows(body, spacing, {0.0}, spacing);
+    } else {
+      return sample_box_surfaces(body, spacing);
+    }
+  });
 }
 
 template WallParticles<2> make_dummy_particles(const Boundary<2>&, double, int);

@@ -4,10 +4,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <iterator>
 #include <new>
-#include <numeric>
 #include <string_view>
 
 #include "base/assert.h"
@@ -104,9 +104,10 @@ std::vector<float> stored(std::span<const Vec<Dim>> values) {
 }
 std::vector<std::int64_t> stored(std::span<const std::int64_t> values) { return {values.begin(), values.end()}; }
 
-std::vector<std::int64_t> consecutive(std::size_t count, std::int64_t first) {
+/// first, first + step, ...
+std::vector<std::int64_t> progression(std::size_t count, std::int64_t first, std::int64_t step) {
   std::vector<std::int64_t> values(count);
-  std::iota(values.begin(), values.end(), first);
+  for (std::size_t i = 0; i < count; ++i) values[i] = first + step * static_cast<std::int64_t>(i);
   return values;
 }
 
@@ -118,17 +119,20 @@ void append_array_xml(std::string& xml, const EncodedPiece::Array& array, std::s
 }
 
 void append_piece_xml(std::string& xml, const EncodedPiece& piece, std::size_t piece_offset) {
-  fmt::format_to(std::back_inserter(xml), "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\">\n", piece.count);
+  constexpr std::array<std::string_view, 3> cells{"Verts", "Lines", "Polys"};
+  const std::string_view kind = cells[piece.corners - 1];
+  fmt::format_to(std::back_inserter(xml), "    <Piece NumberOfPoints=\"{}\" NumberOf{}=\"{}\">\n", piece.count, kind,
+                 piece.count / piece.corners);
   xml += "      <PointData>\n";
   for (const EncodedPiece::Array& field : piece.fields) {
     append_array_xml(xml, field, piece_offset);
   }
   xml += "      </PointData>\n      <Points>\n";
   append_array_xml(xml, piece.points, piece_offset);
-  xml += "      </Points>\n      <Verts>\n";
+  fmt::format_to(std::back_inserter(xml), "      </Points>\n      <{}>\n", kind);
   append_array_xml(xml, piece.connectivity, piece_offset);
   append_array_xml(xml, piece.offsets, piece_offset);
-  xml += "      </Verts>\n    </Piece>\n";
+  fmt::format_to(std::back_inserter(xml), "      </{}>\n    </Piece>\n", kind);
 }
 
 }  // namespace
@@ -139,6 +143,7 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
   const SuspendFpTraps suspend;
   EncodedPiece piece;
   piece.count = particles.position.size();
+  piece.corners = particles.corners;
   for (const ParticleField<Dim>& field : particles.fields) {
     std::visit(
         [&]<class Value>(std::span<const Value> values) {
@@ -149,8 +154,9 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
         field.values);
   }
   piece.points = append_array(piece, "Points", 3, three_components<double, Dim>(particles.position), compression);
-  piece.connectivity = append_array(piece, "connectivity", 1, consecutive(piece.count, 0), compression);
-  piece.offsets = append_array(piece, "offsets", 1, consecutive(piece.count, 1), compression);
+  piece.connectivity = append_array(piece, "connectivity", 1, progression(piece.count, 0, 1), compression);
+  piece.offsets = append_array(piece, "offsets", 1,
+                               progression(piece.count / piece.corners, piece.corners, piece.corners), compression);
   return piece;
 }
 

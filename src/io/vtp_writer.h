@@ -1,6 +1,7 @@
-// Particles as VTK XML PolyData (.vtp): points, one vertex per particle, point fields, the time as field data
-// "TimeValue". Appended raw binary, little endian, UInt64 headers, optionally zlib blocks (VTK file formats, "XML file
-// formats"). Points are Float64, fields Float32, integers Int64; in 2D the third coordinate is 0.
+// Particles as VTK XML PolyData (.vtp): points, one vertex per particle (or lines or triangles between points, for
+// walls), point fields, the time as field data "TimeValue". Appended raw binary, little endian, UInt64 headers,
+// optionally zlib blocks (VTK file formats, "XML file formats"). Points are Float64, fields Float32, integers Int64; in
+// 2D the third coordinate is 0.
 //
 // Why VTP files listed by a PVD and not VTKHDF: the VTKHDF reader of Debian 12's ParaView (5.11) knows no time steps,
 // while PVD and VTP open alike there and in the newest one.
@@ -29,6 +30,7 @@ template <int Dim>
 struct ParticleFields {
   std::span<const Vec<Dim>> position;  ///< m
   std::vector<ParticleField<Dim>> fields;
+  int corners = 1;  ///< so many consecutive points are a vertex (1), a line (2) or a triangle (3)
 };
 
 /// A <Piece> ready to be written: its arrays' descriptions and their encoded bytes. Offsets count from the first byte
@@ -40,7 +42,8 @@ struct EncodedPiece {
     int components;
     std::size_t offset;
   };
-  std::size_t count = 0;  ///< particles
+  std::size_t count = 0;  ///< points
+  int corners = 1;        ///< points per cell
   std::vector<Array> fields;
   Array points;
   Array connectivity;

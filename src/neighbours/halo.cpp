@@ -1,5 +1,6 @@
 #include "neighbours/halo.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tailwater {
@@ -13,16 +14,20 @@ void Halo<Dim>::exchange_positions(std::vector<Vec<Dim>>& position) const {
 }
 
 template <int Dim>
-void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles) {
+Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position) {
   for (int d = 0; d < Dim; ++d) {
     if (!domain[d]) continue;
     const auto [low, high] = *domain[d];
     const double length = high - low;
-    for (std::size_t i = 0; i < particles.owned; ++i) {
-      double& x = particles.position[i][d];
-      x -= length * std::floor((x - low) / length);
-    }
+    position[d] -= length * std::floor((position[d] - low) / length);
   }
+  return position;
+}
+
+template <int Dim>
+void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles) {
+  if (std::ranges::none_of(domain, [](const auto& interval) { return interval.has_value(); })) return;
+  for (std::size_t i = 0; i < particles.owned; ++i) particles.position[i] = wrapped<Dim>(domain, particles.position[i]);
 }
 
 template <int Dim>
@@ -63,6 +68,8 @@ Halo<Dim> make_halo(const PeriodicDomain<Dim>& domain, double margin, Particles<
 
 template struct Halo<2>;
 template struct Halo<3>;
+template Vec<2> wrapped<2>(const PeriodicDomain<2>&, Vec<2>);
+template Vec<3> wrapped<3>(const PeriodicDomain<3>&, Vec<3>);
 template void wrap_positions<2>(const PeriodicDomain<2>&, Particles<2>&);
 template void wrap_positions<3>(const PeriodicDomain<3>&, Particles<3>&);
 template Halo<2> make_halo<2>(const PeriodicDomain<2>&, double, Particles<2>&);

@@ -40,6 +40,10 @@ struct Halo {
   void exchange_positions(std::vector<Vec<Dim>>& position) const;
 };
 
+/// The place inside a periodic domain that `position` stands for.
+template <int Dim>
+Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position);
+
 /// Moves owned particles that left a periodic domain back in at its other end.
 template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles);

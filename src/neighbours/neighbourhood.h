@@ -27,6 +27,9 @@ class Neighbourhood {
   /// Moves particles that left a periodic domain back in at its other end. Call between steps only.
   void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }
 
+  /// The place inside a periodic domain that `position` stands for.
+  Vec<Dim> wrapped(const Vec<Dim>& position) const { return tailwater::wrapped<Dim>(domain_, position); }
+
   /// Sorts the owned particles by slabs across the fluid's longest extent, wrapped, and forgets lists and ghosts: near
   /// in space is near in memory, and an incomplete factorisation in this order needs the fewest iterations. Call
   /// between steps only: indices change.

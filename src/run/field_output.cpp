@@ -40,7 +40,22 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
   return result;
 }
 
+template <int Dim>
+WallFields<Dim>::WallFields(const Boundary<Dim>& boundary) {
+  for (const WallFace<Dim>& face : boundary.faces) {
+    corner_.insert(corner_.end(), face.corners.begin(), face.corners.end());
+    wall_.insert(wall_.end(), Dim, face.wall);
+  }
+}
+
+template <int Dim>
+ParticleFields<Dim> WallFields<Dim>::view() const {
+  return {.position = corner_, .fields = {{"wall", wall_}}, .corners = Dim};
+}
+
 template class FluidFields<2>;
 template class FluidFields<3>;
+template class WallFields<2>;
+template class WallFields<3>;
 
 }  // namespace tailwater

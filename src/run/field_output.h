@@ -1,4 +1,4 @@
-// The fluid's fields at one instant, in the order of the particles' ids, as the case asks for them.
+// The fluid's fields at one instant, in the order of the particles' ids, as the case asks for them; and the walls.
 #pragma once
 
 #include <string>
@@ -26,6 +26,19 @@ class FluidFields {
   std::vector<double> density_error_;
   std::vector<std::int64_t> is_surface_;
   std::vector<std::int64_t> id_;
+};
+
+/// The faces of all walls, corner by corner. Owns what `view` borrows.
+template <int Dim>
+class WallFields {
+ public:
+  explicit WallFields(const Boundary<Dim>& boundary);
+
+  ParticleFields<Dim> view() const;
+
+ private:
+  std::vector<Vec<Dim>> corner_;
+  std::vector<std::int64_t> wall_;  ///< index of the wall, counted as in the case file
 };
 
 }  // namespace tailwater

@@ -95,11 +95,11 @@ class Run {
       : spec_(spec),
         options_(options),
         flow_(spec),
-        walls_box_(box_around(flow_.boundary)),
         fluid_at_start_(count_fluid(flow_.particles)),
         probe_list_(make_probes<Dim>(spec, flow_.boundary)),
         folder_(make_folder(flow_, spec, options)),
         series_(folder_.fields(), "fields", spec.output.compression),
+        wall_series_(folder_.fields(), "walls", spec.output.compression),
         step_log_(folder_.steps()),
         probes_(std::move(probe_list_), folder_),
         progress_(spec.time.end, options.quiet),
@@ -164,7 +164,7 @@ class Run {
     // water.
     attempt([&] { report = advance(flow_, std::min(dt, spec_.time.end)); });
     const FlowMeasures measures = measure(flow_);
-    const std::size_t outside = count_outside<Dim>(walls_box_, flow_.particles);
+    const std::size_t outside = count_outside<Dim>(box_around(flow_.boundary), flow_.particles);
     warn_if_outside(outside);
     statistics_.add(report, measures, outside);
     step_log_.write(flow_.time, flow_.step, report, measures);
@@ -232,6 +232,10 @@ class Run {
     last_fields_time_ = flow_.time;
     const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
     series_.write(flow_.time, fields.view());
+    if (!flow_.wall_motion.moving().empty()) {
+      const WallFields<Dim> walls(flow_.boundary);
+      wall_series_.write(flow_.time, walls.view());
+    }
   }
 
   void record_probes(const FlowMeasures& measures) {
@@ -275,11 +279,11 @@ class Run {
   const CaseSpec& spec_;
   const RunOptions& options_;
   Flow<Dim> flow_;
-  Eigen::AlignedBox<double, Dim> walls_box_;
   std::size_t fluid_at_start_;
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
+  PvdSeries wall_series_;  ///< only when a wall moves
   StepLog step_log_;
   ProbeSet<Dim> probes_;
   Progress progress_;

@@ -11,7 +11,7 @@
 // gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
 //        particles too far apart: at the surface nothing pulls
 //
-// Wall rows. Dummies: p_w = sum_f W (p_f + rho g . r_wf)/sum_f W, weights of one sign, so that the whole is an
+// Wall rows. Dummies: p_w = sum_f W (p_f + rho (g - a) . r_wf)/sum_f W, weights of one sign, so that the whole is an
 // M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
 #include <algorithm>
 
@@ -112,7 +112,7 @@ void assemble_dummy_row(Flow<Dim>& flow, std::size_t i) {
   set_weights(pairs, i, row, [&](std::size_t k) {
     if (!flow.particles.is_fluid(pairs.j[k])) return 0.0;
     const double share = pairs.W[k] / flow.wall_fluid_weight[i];
-    rhs += share * hydrostatic_difference(flow, k);
+    rhs += share * hydrostatic_difference(flow, i, k);
     return share;
   });
   row.finish(1.0, rhs);
@@ -127,7 +127,8 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
     return;
   }
   const Pairs<Dim>& pairs = flow.pairs();
-  const Vec<Dim> normal = flow.walls.particles.normal[flow.particles.wall_row[i]];
+  const auto wall_row = flow.particles.wall_row[i];
+  const Vec<Dim> normal = flow.walls.particles.normal[wall_row];
   const double sum = set_weights(pairs, i, row, [&](std::size_t k) {
     if (!flow.takes_part[pairs.j[k]]) return 0.0;
     return consistent_gradient_weight<Dim>(tensors.B1, flow.particles.volume[pairs.j[k]], pairs.e[k], pairs.r[k],
@@ -138,7 +139,7 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
     row.finish_as_zero();
     return;
   }
-  row.finish(sum, -flow.density * flow.gravity.dot(normal));  // (F39)
+  row.finish(sum, -flow.density * (flow.gravity - flow.wall_acceleration[wall_row]).dot(normal));  // (F39)
 }
 
 /// Each row couples its neighbours; a ghost's unknown is its owner's.

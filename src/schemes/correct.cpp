@@ -22,6 +22,7 @@ void correct(Flow<Dim>& flow, double dt) {
     flow.particles.velocity[i] =
         flow.u_star[i] + dt * (flow.gravity - gradient_at(flow, i, flow.particles.pressure) / flow.density);
   });
+  flow.walls.velocity = flow.wall_velocity_next;
 }
 
 template Vec<2> gradient_at<2>(const Flow<2>&, std::size_t, const std::vector<double>&);

@@ -9,6 +9,7 @@ StepReport project(Flow<Dim>& flow, double dt) {
   report.dt = dt;
   report.passes = 1;
   remember(flow);
+  drive_walls(flow, dt);
   locate(flow);
   predict(flow, dt);  // (F14)
   aim(flow, dt);

@@ -26,6 +26,16 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   return periodic;
 }
 
+/// dx; what looks for a wall near a particle looks no farther.
+constexpr double near_walls = 3.0;
+
+template <int Dim>
+Boundary<Dim> make_filed_boundary(const CaseSpec& spec) {
+  Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  boundary.file_faces(near_walls * spec.particles.spacing);
+  return boundary;
+}
+
 template <int Dim>
 WallModel<Dim> make_wall_model(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   WallModel<Dim> walls;
@@ -34,6 +44,7 @@ WallModel<Dim> make_wall_model(const CaseSpec& spec, const Boundary<Dim>& bounda
                         ? make_dummy_particles(boundary, spec.particles.spacing, dummy_layers(spec))
                         : make_surface_particles(boundary, spec.particles.spacing);
   for (const int wall : walls.particles.wall) walls.friction.push_back(boundary.walls[wall].friction);
+  walls.velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
   return walls;
 }
 
@@ -94,8 +105,9 @@ Flow<Dim>::Flow(const CaseSpec& spec)
       density(spec.physics.density),
       spacing(spec.particles.spacing),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      boundary(make_boundary<Dim>(spec)),
+      boundary(make_filed_boundary<Dim>(spec)),
       walls(make_wall_model(spec, boundary)),
+      wall_motion(spec, boundary, walls.particles),
       neighbourhood(make_kernel<Dim>(spec.scheme.kernel, spec.scheme.support * spacing), spacing,
                     skin_over_spacing * spacing,
                     walls.treatment == WallTreatment::dummies ? WallRows::fluid_only : WallRows::all,
@@ -103,6 +115,8 @@ Flow<Dim>::Flow(const CaseSpec& spec)
       pressure_system(spec.pressure_solver) {
   const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
   particles = make_particles(fluid, walls.particles, power<Dim>(spacing));
+  wall_acceleration.assign(walls.particles.size(), Vec<Dim>::Zero());
+  wall_motion.get_velocity(0.0, walls.velocity);
   length = scheme.length > 0.0 ? scheme.length : fluid_height(fluid, gravity, spacing);
 
   const Kernel<Dim>& kernel = neighbourhood.kernel();

@@ -13,6 +13,7 @@
 #include "closures/viscosity.h"
 #include "closures/wall_velocity.h"
 #include "geometry/boundary.h"
+#include "geometry/wall_motion.h"
 #include "linear/pressure_system.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/lattice.h"
@@ -52,12 +53,13 @@ struct Flow {
 
   // What does not change.
   SchemeTable scheme;
-  double density;    ///< kg/m^3
-  double spacing;    ///< m
-  Vec<Dim> gravity;  ///< m/s^2
-  double length;     ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
-  Boundary<Dim> boundary;
-  WallModel<Dim> walls;
+  double density;          ///< kg/m^3
+  double spacing;          ///< m
+  Vec<Dim> gravity;        ///< m/s^2
+  double length;           ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
+  Boundary<Dim> boundary;  ///< walls that move: where they are at `time`
+  WallModel<Dim> walls;    ///< the same
+  WallMotion<Dim> wall_motion;
   LatticeSums lattice;
   double W_0;  ///< W(0)
   AirLaw air_law;
@@ -89,6 +91,10 @@ struct Flow {
   std::vector<Vec<Dim>> position_old;  ///< r^n, owned; in `shift`, the positions before it
   std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
   std::vector<Vec<Dim>> u_star;        ///< predicted velocity without gravity
+  // Of moving walls, by row of the table of wall particles:
+  std::vector<Vec<Dim>> wall_velocity_old;   ///< m/s; at the start of the step
+  std::vector<Vec<Dim>> wall_velocity_next;  ///< m/s; at which `correct` aims
+  std::vector<Vec<Dim>> wall_acceleration;   ///< m/s^2; that leads there, in the directions that the wall blocks
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it

@@ -39,6 +39,8 @@ StepReport two_projections_step(Flow<Dim>& flow, double dt) {
   StepReport report = project(flow, dt);
   move(flow, dt, report.interventions);
   locate(flow);
+  drive_walls_to_end(flow, dt);
+  flow.walls.velocity = flow.wall_velocity_next;
   report.iterations += reproject(flow, dt, report.interventions).iterations;
   report.passes = 2;
   report.divergence_new = report.divergence_old = bulk_divergence(flow);  // the solve was at the new positions
@@ -52,6 +54,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
   report.dt = dt;
   Particles<Dim>& particles = flow.particles;
   remember(flow);
+  drive_walls(flow, dt);
   flow.target_divergence.assign(particles.owned, 0.0);  // (F19)
   for (bool settled = false; !settled && report.passes < flow.scheme.max_passes; ++report.passes) {
     const auto pressure_before = owned_part(particles.pressure, particles.owned);
@@ -71,6 +74,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
     relax(flow.scheme.relax_velocity, velocity_before, particles.velocity);
     move(flow, dt, report.interventions);  // (F25)
     relax(flow.scheme.relax_position, position_before, particles.position);
+    place_walls(flow, flow.time + dt);  // walls are not relaxed
 
     report.iterations += solved.iterations;
     report.residual = solved.residual;

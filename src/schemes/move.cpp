@@ -14,8 +14,9 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
                                   : particles.velocity[i];
     particles.position[i] = flow.position_old[i] + dt * velocity;
   });
-  interventions.put_back +=
-      keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, flow.position_old, particles, particles.velocity);
+  place_walls(flow, flow.time + dt);
+  interventions.put_back += keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, ways_of_walls(flow, dt),
+                                                flow.position_old, particles, particles.velocity);
 }
 
 template void move<2>(Flow<2>&, double, Interventions&);

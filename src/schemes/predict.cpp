@@ -12,13 +12,14 @@ void remember(Flow<Dim>& flow) {
   const auto owned = static_cast<std::ptrdiff_t>(flow.particles.owned);
   flow.position_old.assign(flow.particles.position.begin(), flow.particles.position.begin() + owned);
   flow.velocity_old.assign(flow.particles.velocity.begin(), flow.particles.velocity.begin() + owned);
+  flow.wall_velocity_old = flow.walls.velocity;
 }
 
 template <int Dim>
 void predict(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  update_wall_velocity(flow, particles.velocity);
+  update_wall_velocity(flow, flow.walls.velocity, particles.velocity);
 
   flow.viscosity.resize(particles.size());
   flow.acceleration.assign(particles.owned, Vec<Dim>::Zero());
@@ -57,7 +58,7 @@ void predict(Flow<Dim>& flow, double dt) {
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i)) flow.u_star[i] = flow.velocity_old[i] + dt * flow.acceleration[i];
   });
-  update_wall_velocity(flow, flow.u_star);
+  update_wall_velocity(flow, flow.wall_velocity_old, flow.u_star);
 }
 
 template <int Dim>

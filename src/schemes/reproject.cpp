@@ -37,7 +37,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// Velocity and source of `correction` from its pressure.
 template <int Dim>
-void follow(Flow<Dim>& flow, double dt, Correction<Dim>& correction) {
+void follow(Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_rest, Correction<Dim>& correction) {
   const Particles<Dim>& particles = flow.particles;
   flow.neighbourhood.halo().exchange(correction.pressure);
   for_each(particles.owned, [&](std::size_t i) {
@@ -45,7 +45,7 @@ void follow(Flow<Dim>& flow, double dt, Correction<Dim>& correction) {
       correction.velocity[i] = -dt / flow.density * gradient_at(flow, i, correction.pressure);
     }
   });
-  update_wall_velocity(flow, correction.velocity);
+  update_wall_velocity(flow, walls_at_rest, correction.velocity);
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i)) {
       correction.source[i] = flow.density / dt * divergence_at(flow, i, correction.velocity);
@@ -73,12 +73,14 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     if (flow.is_held[i]) flow.pressure_system.divide_diagonal(i, flow.interior[i]);
   });
 
-  update_wall_velocity(flow, particles.velocity);
+  update_wall_velocity(flow, flow.walls.velocity, particles.velocity);
   std::vector<double> source(particles.size(), 0.0);
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
   });
 
+  // A correction changes the fluid's velocity only.
+  const std::vector<Vec<Dim>> walls_at_rest(flow.walls.velocity.size(), Vec<Dim>::Zero());
   SolveReport report;
   Correction<Dim> next;
   Correction<Dim> last;
@@ -92,7 +94,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     } else {
       flow.pressure_system.sweep(guess);
     }
-    follow(flow, dt, next);
+    follow(flow, dt, walls_at_rest, next);
     const double last_square = dot(last.source, last.source);
     if (last_square > 0.0) add(-dot(next.source, last.source) / last_square, last, next);
     const double square = dot(next.source, next.source);

@@ -44,7 +44,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
     particles.position[i] += flow.shift[i];
   });
   interventions.put_back +=
-      keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, flow.position_old, particles, {});
+      keep_off_walls<Dim>(flow.pairs(), flow.boundary, flow.spacing, {}, flow.position_old, particles, {});
   flow.neighbourhood.halo().exchange_positions(particles.position);
 }
 

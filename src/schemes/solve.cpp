@@ -52,7 +52,7 @@ void refresh_dummies(Flow<Dim>& flow) {
     double sum = 0.0;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       if (!flow.particles.is_fluid(pairs.j[k])) continue;
-      sum += pairs.W[k] * (pressure[pairs.j[k]] + hydrostatic_difference(flow, k));
+      sum += pairs.W[k] * (pressure[pairs.j[k]] + hydrostatic_difference(flow, i, k));
     }
     pressure[i] = std::max(0.0, sum / flow.wall_fluid_weight[i]);
   });

@@ -12,6 +12,7 @@ void start(Flow<Dim>& flow) {
   locate(flow);
   if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either
   Interventions ignored;
+  drive_walls_to_end(flow, dt);
   predict(flow, dt);
   aim(flow, dt);
   assemble(flow, dt, ignored);

@@ -41,7 +41,7 @@ double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec
 
 template <int Dim>
 double bulk_divergence(Flow<Dim>& flow) {
-  update_wall_velocity(flow, flow.particles.velocity);
+  update_wall_velocity(flow, flow.walls.velocity, flow.particles.velocity);
   flow.divergence.assign(flow.particles.owned, 0.0);
   for_each(flow.particles.owned, [&](std::size_t i) {
     if (flow.particles.is_fluid(i)) flow.divergence[i] = divergence_at(flow, i, flow.particles.velocity);

@@ -6,6 +6,7 @@
 // being counted twice at the walls (method.md 3) and the divergence of u_star small, so less cancels.
 #pragma once
 
+#include "closures/wall_contact.h"
 #include "schemes/flow.h"
 
 namespace tailwater {
@@ -19,6 +20,24 @@ void locate(Flow<Dim>& flow, bool keep_marks = false);
 /// particle may stay outside for more than a step.
 template <int Dim>
 void remember(Flow<Dim>& flow);
+
+/// Moving walls: the velocity that the projection gives the fluid beside them, and the acceleration of dt that leads
+/// there. It is their mean velocity over the step, so that what they sweep is what the water leaves; with
+/// `displacement = "mean-velocity"` that at its end. Needs `remember`.
+template <int Dim>
+void drive_walls(Flow<Dim>& flow, double dt);
+
+/// The same with the velocity at the end of the step.
+template <int Dim>
+void drive_walls_to_end(Flow<Dim>& flow, double dt);
+
+/// Moving walls, faces and particles, where they are at `time`.
+template <int Dim>
+void place_walls(Flow<Dim>& flow, double time);
+
+/// How the walls move in a step of dt from flow.time.
+template <int Dim>
+WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 
 /// (F14), (F21): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the present
 /// positions.
@@ -66,7 +85,7 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions);
 
-/// r = r^n + dt u, or as published (F17), (F25): r = r^n + dt/2 (u^n + u); nobody passes a wall.
+/// r = r^n + dt u, or as published (F17), (F25): r = r^n + dt/2 (u^n + u); walls move too, and nobody passes one.
 template <int Dim>
 void move(Flow<Dim>& flow, double dt, Interventions& interventions);
 
@@ -86,7 +105,7 @@ void measure_after_move(Flow<Dim>& flow, StepReport& report);
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);
 
-/// The largest allowed step [s] for the present velocities.
+/// The largest allowed step [s] for the present velocities and the walls' ways.
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow);
 

@@ -5,21 +5,24 @@
 
 namespace tailwater {
 
-/// Sets the wall entries of `velocity` from its fluid entries, and brings ghosts up to date.
+/// Sets the wall entries of `velocity` from its fluid entries and the walls' own velocity `V`, one entry per row of
+/// their table, and brings ghosts up to date.
 template <int Dim>
-void update_wall_velocity(Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity) {
+void update_wall_velocity(Flow<Dim>& flow, const std::vector<Vec<Dim>>& V, std::vector<Vec<Dim>>& velocity) {
   flow.neighbourhood.halo().exchange(velocity);
-  set_wall_velocity<Dim>(flow.pairs(), flow.particles, flow.walls, flow.wall_fluid_weight, flow.is_wet, flow.wall_mean,
-                         velocity);
+  set_wall_velocity<Dim>(flow.pairs(), flow.particles, flow.walls, flow.wall_fluid_weight, flow.is_wet, V,
+                         flow.wall_mean, velocity);
   flow.neighbourhood.halo().exchange(flow.wall_mean);
   flow.neighbourhood.halo().exchange(velocity);
 }
 
-/// Pressure that the fluid's neighbour f lends to the wall particle of pair k: p_f + rho g . r_wf, hydrostatic between
-/// the two; with it the wall row asks for grad p . n = rho g . n (F37).
+/// What wall particle i's pressure exceeds that of its fluid neighbour f of pair k by: rho (g - a) . r_wf, hydrostatic
+/// between the two as the wall feels it, a its own acceleration where it blocks the way; with it the wall row asks for
+/// grad p . n = rho (g - a) . n (F37).
 template <int Dim>
-double hydrostatic_difference(const Flow<Dim>& flow, std::size_t k) {
-  return flow.density * flow.pairs().r[k] * flow.gravity.dot(flow.pairs().e[k]);
+double hydrostatic_difference(const Flow<Dim>& flow, std::size_t i, std::size_t k) {
+  const Vec<Dim> felt = flow.gravity - flow.wall_acceleration[flow.particles.wall_row[i]];
+  return flow.density * flow.pairs().r[k] * felt.dot(flow.pairs().e[k]);
 }
 
 }  // namespace tailwater

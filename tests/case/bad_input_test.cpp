@@ -63,6 +63,22 @@ const std::vector<BadInput> table{
      required_keys + water + "velocity = [\"x\"]\n",
      "6:12",
      {"fluid[0].velocity", "2 numbers in m/s"}},
+    // Walls that move
+    {"displacement_of_a_position",
+     required_keys + water + "[[wall]]\npoints = [[0, 0], [1, 0]]\ndisplacement = [0, \"x\"]\n",
+     "8:20",
+     {"wall[0].displacement[1] = \"x\": unknown name \"x\"", "\"t\""}},
+    {"rotation_of_an_unknown_function",
+     required_keys + water + "[[wall]]\npoints = [[0, 0], [1, 0]]\nrotation = \"clmp(t, 0, 1)\"\n",
+     "8:12",
+     {"wall[0].rotation", "did you mean \"clamp\"?"}},
+    {"rotation_in_space",
+     "case.dimension = 3\n" + required_keys +
+         "[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[[wall]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"
+         "rotation = \"t\"\n",
+     "11:12",
+     {"wall[0].rotation", "two dimensions only"}},
+    {"time_as_a_parameter", "parameters.t = 1\n" + required_keys + water, "1:16", {"parameters.t", "not x, y, z, t"}},
     {"position_as_a_parameter", "parameters.x = 1\n" + required_keys + water, "1:16", {"parameters.x", "not x, y, z"}},
     // Numbers
     {"range_low",

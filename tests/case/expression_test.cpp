@@ -25,6 +25,8 @@ TEST(Expression, HasTheValueOfArithmetic) {
   EXPECT_EQ(evaluate("1e-3", numbers), 1e-3);
   EXPECT_EQ(evaluate("2 - -dx", numbers), 2.25);
   EXPECT_EQ(evaluate("abs(-3) + min(4, 2, 3) + max(1, 5)", numbers), 10.0);
+  EXPECT_EQ(evaluate("clamp(-1, 0, 2) + clamp(1, 0, 2) + clamp(5, 0, 2)", numbers), 3.0);
+  EXPECT_EQ(evaluate("H < 1 ? 2 : 3", numbers), 2.0);
   EXPECT_DOUBLE_EQ(evaluate("sqrt(2)", numbers), std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(evaluate("sin(1) + cos(2) + tan(3)", numbers), std::sin(1.0) + std::cos(2.0) + std::tan(3.0));
   EXPECT_EQ(evaluate("pi", numbers), std::numbers::pi);

@@ -37,6 +37,8 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
       "[[wall]]\npoints = [[0, 1], [0, 0]]\nfluid_side = \"right\"\nslip = \"partial\"\nfriction = 0.3\n"
       "[[wall]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, 1]]\nfluid_side = \"outside\"\nslip = \"no-slip\"\n"
       "[[wall]]\nshape = \"box\"\nmin = [0, 0]\nmax = [1, 1]\nopen = [\"+y\", \"-x\"]\n"
+      "[[wall]]\npoints = [[2, 0], [2, 1]]\ndisplacement = [0, \"clamp(T*t, 0, H)\"]\nrotation = \"sin(2*t)\"\n"
+      "pivot = [1, \"H\"]\n"
       "[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [\"H\", 0]\ninterval = 0.01\n"
       "[[probe]]\nname = \"b\"\ntype = \"wall-pressure\"\nat = [1, 1]\n"
       "[[probe]]\nname = \"c\"\ntype = \"wall-pressure-mean\"\nfrom = [0, 0]\nto = [0, 1]\n"

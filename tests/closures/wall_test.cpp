@@ -37,6 +37,7 @@ struct WettedWall {
       walls.particles.blocked.push_back(blocked);
       walls.particles.wall.push_back(0);
       walls.friction.push_back(friction);
+      walls.velocity.push_back(Vec<Dim>::Zero());
     }
     find_wet_walls<Dim>(set.pairs(), set.particles, kernel_value(set.neighbourhood.kernel(), 0.0), fluid_weight,
                         is_wet);
@@ -62,7 +63,7 @@ struct WettedWall {
   }
 
   std::vector<Vec<Dim>> with_walls(std::vector<Vec<Dim>> velocity) {
-    set_wall_velocity<Dim>(set.pairs(), set.particles, walls, fluid_weight, is_wet, mean, velocity);
+    set_wall_velocity<Dim>(set.pairs(), set.particles, walls, fluid_weight, is_wet, walls.velocity, mean, velocity);
     return velocity;
   }
 
@@ -214,7 +215,7 @@ struct Corner {
   std::size_t move(const std::vector<Vec<2>>& moves, std::span<Vec<2>> velocity) {
     const std::vector<Vec<2>> before = particles.position;
     for (std::size_t i = 0; i < moves.size(); ++i) particles.position[i] += moves[i];
-    return keep_off_walls<2>(pairs, boundary, dx, before, particles, velocity);
+    return keep_off_walls<2>(pairs, boundary, dx, {}, before, particles, velocity);
   }
 
   Boundary<2> boundary;

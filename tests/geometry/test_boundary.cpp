@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "base/error.h"
 #include "cases.h"
@@ -157,6 +158,50 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   spec = empty_case(0.1, 3);
   spec.walls = {polyline({{0, 0, 0}, {1, 0, 0}})};
   EXPECT_TRUE(contains(input_error_of(spec), "2D only"));
+}
+
+/// A search among filed faces finds what a search among all finds.
+template <int Dim>
+void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Vec<Dim>& high) {
+  Boundary<Dim> filed = make_boundary<Dim>(spec);
+  filed.file_faces(3.0 * spec.particles.spacing);
+  Boundary<Dim> plain;
+  plain.faces = filed.faces;
+  plain.walls = filed.walls;
+  const double reach = filed.filed_reach();
+  int found = 0;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int n = 0; n < 5000; ++n) {
+    Vec<Dim> x;
+    for (int d = 0; d < Dim; ++d) x[d] = low[d] + share(random) * (high[d] - low[d]);
+    for (const double distance : {0.2 * reach, reach}) {
+      const NearestWall<Dim> expected = plain.nearest(x, distance);
+      const NearestWall<Dim> nearest = filed.nearest(x, distance);
+      ASSERT_EQ(nearest.face, expected.face) << x.transpose();
+      ASSERT_EQ(nearest.signed_distance, expected.signed_distance);
+      ASSERT_EQ(nearest.point, expected.point);
+      found += nearest.face >= 0;
+    }
+  }
+  EXPECT_GT(found, 500);
+}
+
+TEST(FiledFaces, GiveTheNearestOfAll) {
+  CaseSpec spec = empty_case(0.05);
+  WallTable bed = polyline({});
+  for (int k = 0; k <= 400; ++k) bed.points.push_back({0.01 * k, 0.2 * std::sin(0.1 * k) + 0.01 * (k % 3)});
+  WallTable flap = box_wall({1.0, 0.3}, {1.15, 0.8}, {}, FluidSide::outside);
+  flap.rotation = "t";
+  spec.walls = {bed, polyline({{4.5, 0.0}, {6.0, 1.5}}), flap};
+  expect_the_same_nearest<2>(spec, {-0.3, -0.5}, {6.5, 2.0});
+}
+
+TEST(FiledFaces, GiveTheNearestOfAllIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.3, 0.5, 0.6}, {"+z"}),
+                box_wall({0.5, 0.2, 0}, {0.8, 0.5, 0.3}, {}, FluidSide::outside)};
+  expect_the_same_nearest<3>(spec, {-0.4, -0.4, -0.4}, {1.7, 0.9, 1.0});
 }
 
 }  // namespace

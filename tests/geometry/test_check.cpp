@@ -242,5 +242,83 @@ TEST(CheckMemory, TheSpacingItProposesFits) {
 
 TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }
 
+/// A gate three spacings thick between two pools, on its path for 1 s.
+CaseSpec gate_case(VectorField displacement) {
+  CaseSpec spec = empty_case(0.05);
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{0, 1}, {0, 0}, {2.15, 0}, {2.15, 1}}),
+                box_wall({1, 0}, {1.15, 0.8}, {}, FluidSide::outside)};
+  spec.walls[1].name = "gate";
+  spec.walls[1].displacement = std::move(displacement);
+  spec.fluid = {box_fluid({0, 0}, {1, 0.5}), box_fluid({1.15, 0}, {2.15, 0.1})};
+  return spec;
+}
+
+TEST(CheckMotion, AGateThatOpensIsGood) {
+  EXPECT_TRUE(check(gate_case({0.0, "1.5*max(0, t - 0.1)"})).empty());
+  CaseSpec spec = empty_case(0.05, 3);
+  spec.time.end = 1.0;
+  spec.walls = {box_wall({0, 0, 0}, {2.15, 0.3, 1}, {"+z"}),
+                box_wall({1, 0, 0}, {1.15, 0.3, 0.8}, {}, FluidSide::outside)};
+  spec.walls[1].displacement = {0.0, 0.0, "1.5*t"};
+  spec.fluid = {box_fluid({0, 0, 0}, {1, 0.3, 0.5})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
+TEST(CheckMotion, AGateThatSlidesAlongAWallIsGood) {
+  CaseSpec spec = gate_case({0.0, "t"});
+  spec.walls.push_back(box_wall({0.8, 0.8}, {1, 2}, {}, FluidSide::outside));  // a guide beside its way
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(CheckMotion, ATankThatMovesAsAWholeIsGood) {
+  CaseSpec spec = tank();
+  spec.time.end = 5.0;
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.0}, {1.0, 0.6}})};
+  for (WallTable& wall : spec.walls) wall.rotation = "0.5*sin(3*t)";
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(CheckMotion, NotWhereItIsDrawn) {
+  expect_only(check(gate_case({0.0, "0.2 + t"})), Severity::error, {"wall 'gate'", "t = 0", "(0, 0.2)", "subtract"});
+  expect_only(check(gate_case({0.1, 0.0})), Severity::error, {"wall 'gate'", "(0.1, 0)"});
+}
+
+TEST(CheckMotion, NotFinite) {
+  expect_only(check(gate_case({0.0, "t < 0.5 ? t : sqrt(0.4 - t)"})), Severity::error,
+              {"wall 'gate'", "no finite place", "t = 0.5"});
+}
+
+TEST(CheckMotion, TooFast) {
+  expect_only(check(gate_case({0.0, "200*t"})), Severity::error, {"wall 'gate'", "150 m/s", "t = 0"});
+  // A jump is faster than any speed.
+  expect_only(check(gate_case({0.0, "t < 0.3 ? 0 : 0.1"})), Severity::error, {"wall 'gate'", "0.1 m", "t = 0.29"});
+}
+
+TEST(CheckMotion, ThroughAWall) {
+  // The gate's side x = 1.15 reaches the wall x = 2.15 at t = 1/2; it may come as near as dx, which is at 0.475.
+  expect_only(check(gate_case({"2*t", "min(t, 0.01)"})), Severity::error, {"wall 'gate'", "wall 'wall1'", "t = 0.4"});
+  // Its foot is on the bed: down it goes through at once.
+  expect_only(check(gate_case({0.0, "-0.1*t"})), Severity::error,
+              {"wall 'gate' crosses wall 'wall1'", "t = 0.1", "(1", "change its path"});
+}
+
+TEST(CheckMotion, ClosingCrushesTheWater) {
+  // Up by 0.3 m and down again: the foot is a spacing from the bed at t = 0.5 + 0.25/0.6.
+  expect_only(check(gate_case({0.0, "0.6*min(t, 1 - t)"})), Severity::error,
+              {"wall 'gate'", "wall 'wall1'", "crushed", "t = 0.9"});
+  EXPECT_TRUE(check(gate_case({0.0, "0.6*min(t, max(1 - t, 0.1))"})).empty());
+}
+
+TEST(CheckMotion, AWallThatEndsAtAMovingOneIsToldToGoOn) {
+  CaseSpec spec = tank();
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.6}}), polyline({{0.0, 0.6}, {0.0, 0.0}})};
+  spec.walls[1].displacement = {"0.2*t", 0.0};
+  expect_only(check(spec), Severity::warning, {"wall 'wall1' ends at (0, 0)", "wall 'wall2'", "0.3 m"});
+  spec.walls[0].points[0][0] = -0.3;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 }  // namespace
 }  // namespace tailwater

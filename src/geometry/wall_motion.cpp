@@ -1,0 +1,146 @@
+#include "geometry/wall_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/named_numbers.h"
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+/// Half of the interval [s] that stands for an instant: positions of metres then give velocities to 1e-9 m/s, and no
+/// path of a wall changes within it.
+constexpr double instant = 1e-6;
+
+}  // namespace
+
+template <int Dim>
+double WallPath<Dim>::Component::at(double time) const {
+  return formula.empty() ? number : formula.front().at(std::array{time});
+}
+
+template <int Dim>
+typename WallPath<Dim>::Component WallPath<Dim>::make_component(const CaseSpec& spec, const Varying& value) {
+  Component component;
+  if (const auto* number = std::get_if<double>(&value)) {
+    component.number = *number;
+  } else {
+    component.formula.emplace_back(std::get<std::string>(value), named_numbers(spec), time_name);
+  }
+  return component;
+}
+
+template <int Dim>
+WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner)
+    : rotation_(make_component(spec, table.rotation)),
+      pivot_(table.pivot.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(table.pivot, owner, "pivot")) {
+  if (!table.displacement.empty() && table.displacement.size() != Dim) {
+    throw InputError(
+        fmt::format("{}: displacement has {} components but the case has {} dimensions: give one per dimension", owner,
+                    table.displacement.size(), Dim));
+  }
+  for (const Varying& component : table.displacement) displacement_.push_back(make_component(spec, component));
+}
+
+template <int Dim>
+AffineMap<Dim> WallPath<Dim>::at(double time) const {
+  AffineMap<Dim> map;
+  if constexpr (Dim == 2) {
+    const double angle = rotation_.at(time);
+    map.linear << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  }
+  map.constant = pivot_ - map.linear * pivot_;
+  for (std::size_t axis = 0; axis < displacement_.size(); ++axis) map.constant[axis] += displacement_[axis].at(time);
+  return map;
+}
+
+template <int Dim>
+AffineMap<Dim> WallPath<Dim>::mean_velocity(double from, double to) const {
+  const AffineMap<Dim> before = at(from);
+  const AffineMap<Dim> after = at(to);
+  return {(after.linear - before.linear) / (to - from), (after.constant - before.constant) / (to - from)};
+}
+
+template <int Dim>
+WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles)
+    : drawn_particles_(particles) {
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (!boundary.walls[w].moves()) continue;
+    const WallTable& table = spec.walls[w];
+    MovingWall& wall = moving_.emplace_back(static_cast<int>(w),
+                                            WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w))));
+    for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
+      const std::vector<double>& range = periodic_range(spec.domain, static_cast<int>(axis));
+      if (range.size() != 2 || !std::holds_alternative<std::string>(table.displacement[axis])) continue;
+      wall.period[axis] = range[1] - range[0];
+      AffineMap<Dim> back;
+      back.constant[axis] = -wall.period[axis];
+      const std::size_t count = boundary.faces.size();
+      for (std::size_t f = 0; f < count; ++f) {
+        if (boundary.faces[f].wall == static_cast<int>(w)) boundary.faces.push_back(moved(back, boundary.faces[f]));
+      }
+    }
+  }
+  if (boundary.filed_reach() > 0.0) boundary.file_faces(boundary.filed_reach());
+  drawn_faces_ = boundary.faces;
+}
+
+template <int Dim>
+void WallMotion<Dim>::place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const {
+  for (const MovingWall& moving : moving_) {
+    AffineMap<Dim> motion = moving.path.at(time);
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double period = moving.period[axis];
+      if (period > 0.0) motion.constant[axis] -= period * std::floor(motion.constant[axis] / period);
+    }
+    for (std::size_t f = 0; f < drawn_faces_.size(); ++f) {
+      if (drawn_faces_[f].wall == moving.wall) boundary.faces[f] = moved(motion, drawn_faces_[f]);
+    }
+    for (std::size_t row = 0; row < drawn_particles_.size(); ++row) {
+      if (drawn_particles_.wall[row] != moving.wall) continue;
+      particles.position[row] = motion(drawn_particles_.position[row]);
+      particles.normal[row] = motion.linear * drawn_particles_.normal[row];
+      particles.blocked[row] = motion.linear * drawn_particles_.blocked[row] * motion.linear.transpose();
+    }
+  }
+}
+
+template <int Dim>
+void WallMotion<Dim>::get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const {
+  for (const MovingWall& moving : moving_) {
+    const AffineMap<Dim> map = moving.path.mean_velocity(from, to);
+    for (std::size_t row = 0; row < drawn_particles_.size(); ++row) {
+      if (drawn_particles_.wall[row] == moving.wall) velocity[row] = map(drawn_particles_.position[row]);
+    }
+  }
+}
+
+template <int Dim>
+void WallMotion<Dim>::get_velocity(double time, std::span<Vec<Dim>> velocity) const {
+  get_mean_velocity(std::max(0.0, time - instant), time + instant, velocity);
+}
+
+template <int Dim>
+double WallMotion<Dim>::farthest_way(double from, double to) const {
+  double farthest = 0.0;
+  for (const MovingWall& moving : moving_) {
+    const AffineMap<Dim> before = moving.path.at(from);
+    const AffineMap<Dim> after = moving.path.at(to);
+    for (const WallFace<Dim>& face : drawn_faces_) {
+      if (face.wall != moving.wall) continue;
+      for (const Vec<Dim>& corner : face.corners) {
+        farthest = std::max(farthest, (after(corner) - before(corner)).norm());
+      }
+    }
+  }
+  return farthest;
+}
+
+template class WallPath<2>;
+template class WallPath<3>;
+template class WallMotion<2>;
+template class WallMotion<3>;
+
+}  // namespace tailwater

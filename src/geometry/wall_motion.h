@@ -1,0 +1,98 @@
+// Walls that move on a prescribed path, as rigid bodies: where each is at a time, and how fast.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "case/expression.h"
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "geometry/sampling.h"
+
+namespace tailwater {
+
+/// x -> linear x + constant: a rigid motion where `linear` is a rotation, or the velocity field of one.
+template <int Dim>
+struct AffineMap {
+  Mat<Dim> linear = Mat<Dim>::Identity();
+  Vec<Dim> constant = Vec<Dim>::Zero();
+
+  Vec<Dim> operator()(const Vec<Dim>& x) const { return linear * x + constant; }
+};
+
+/// From where a rigid motion has brought a body by `before` to where it has brought it by `after`.
+template <int Dim>
+AffineMap<Dim> way_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
+  const Mat<Dim> turn = after.linear * before.linear.transpose();
+  return {turn, after.constant - turn * before.constant};
+}
+
+template <int Dim>
+WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
+  for (Vec<Dim>& corner : face.corners) corner = motion(corner);
+  face.normal = motion.linear * face.normal;
+  return face;
+}
+
+/// The path of one wall, from its table in the case file.
+template <int Dim>
+class WallPath {
+ public:
+  /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
+  WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+
+  /// From where the wall is drawn to where it is at `time` [s], at least 0. It may be infinite or not a number.
+  AffineMap<Dim> at(double time) const;
+
+  /// Velocity [m/s] of what is drawn at x, as the mean over a time [s].
+  AffineMap<Dim> mean_velocity(double from, double to) const;
+
+ private:
+  /// A number, or an expression of t.
+  struct Component {
+    double number = 0.0;
+    mutable std::vector<Formula> formula;  ///< at most one; evaluating it writes the time into it
+    double at(double time) const;
+  };
+  static Component make_component(const CaseSpec& spec, const Varying& value);
+
+  std::vector<Component> displacement_;
+  Component rotation_;
+  Vec<Dim> pivot_;
+};
+
+/// All walls of a case that move, as they are drawn.
+template <int Dim>
+class WallMotion {
+ public:
+  /// Where a moving wall slides along a periodic direction, its image before it is added to the faces, so that the two
+  /// together always cover the domain.
+  WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles);
+
+  struct MovingWall {
+    int wall;  ///< index into Boundary::walls
+    WallPath<Dim> path;
+    Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that do not repeat, or in which it does not move
+  };
+  const std::vector<MovingWall>& moving() const { return moving_; }
+
+  /// Puts the faces and the particles of moving walls where they are at `time`.
+  void place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
+
+  /// Sets the entries of the particles of moving walls to their mean velocity [m/s] over a time [s].
+  void get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const;
+  /// The same at an instant.
+  void get_velocity(double time, std::span<Vec<Dim>> velocity) const;
+
+  /// The farthest [m] that a corner of a wall gets from one time to the other.
+  double farthest_way(double from, double to) const;
+
+ private:
+  std::vector<MovingWall> moving_;
+  std::vector<WallFace<Dim>> drawn_faces_;
+  WallParticles<Dim> drawn_particles_;
+};
+
+}  // namespace tailwater

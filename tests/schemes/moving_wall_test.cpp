@@ -1,0 +1,271 @@
+// Walls that move: they sweep what the water leaves, drag nothing along, push with their inertia, and let nobody
+// through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+struct Way {
+  const char* name;
+  Integrator integrator;
+  ImplicitForm form = ImplicitForm::residual;
+};
+
+std::ostream& operator<<(std::ostream& out, const Way& way) { return out << way.name; }
+
+CaseSpec case_with(const Way& way, double dx) {
+  CaseSpec spec;
+  spec.particles.spacing = dx;
+  spec.scheme.integrator = way.integrator;
+  spec.scheme.implicit_form = way.form;
+  return spec;
+}
+
+FluidTable water_box(Coordinates min, Coordinates max) {
+  FluidTable water;
+  water.min = std::move(min);
+  water.max = std::move(max);
+  return water;
+}
+
+WallTable chain(std::vector<Coordinates> points) {
+  WallTable wall;
+  wall.points = std::move(points);
+  return wall;
+}
+
+/// A plate in the water.
+WallTable gate(Coordinates min, Coordinates max, VectorField displacement) {
+  WallTable wall;
+  wall.name = "gate";
+  wall.shape = WallShape::box;
+  wall.min = std::move(min);
+  wall.max = std::move(max);
+  wall.fluid_side = FluidSide::outside;
+  wall.displacement = std::move(displacement);
+  return wall;
+}
+
+template <int Dim>
+double kinetic_energy(const Flow<Dim>& flow) {
+  return measure(flow).kinetic_energy;
+}
+
+/// Nobody is behind a wall.
+template <int Dim>
+void expect_all_in_front(const Flow<Dim>& flow) {
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = flow.particles.position[i];
+    ASSERT_GT(flow.boundary.nearest(x, 10.0).signed_distance, 0.0) << "at " << x.transpose() << ", t = " << flow.time;
+  }
+}
+
+class MovingWall : public testing::TestWithParam<Way> {};
+
+TEST_P(MovingWall, WhatAPistonSweepsTheWaterRises) {
+  const double dx = 0.05;
+  const double depth = 0.3;
+  const double way = 0.2;
+  const double duration = 4.0;
+  CaseSpec spec = case_with(GetParam(), dx);
+  WallTable piston = chain({{0.0, 1.0}, {0.0, 0.0}});
+  piston.displacement = {"0.1*(1 - cos(pi*clamp(t/4, 0, 1)))", 0.0};
+  spec.walls = {chain({{-0.3, 0.0}, {1.0, 0.0}, {1.0, 1.0}}), piston};
+  spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
+  Flow<2> flow(spec);
+  std::size_t put_back = 0;
+  while (flow.time < duration) put_back += step(flow).interventions.put_back;
+  EXPECT_EQ(put_back, 0u);
+  expect_all_in_front(flow);
+  double highest = 0.0;
+  double nearest = 1.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    highest = std::max(highest, flow.particles.position[i][1]);
+    nearest = std::min(nearest, flow.particles.position[i][0]);
+  }
+  // The water beside the piston has gone as far as the piston: first row and slosh within dx.
+  EXPECT_NEAR(nearest, way + 0.5 * dx, 0.5 * dx);
+  // 1 m of water on 0.8 m. The piston is fastest at pi/4 way/duration * 2, slow against sqrt(g h): waves of its speed
+  // times sqrt(h/g), 0.014 m, and a level known to a half row on either side.
+  const double wave = 0.1 * std::numbers::pi / duration * std::sqrt(depth / g);
+  EXPECT_NEAR(highest + 0.5 * dx, depth / (1.0 - way), 0.5 * dx + wave);
+  const FlowMeasures measures = measure(flow);
+  EXPECT_LT(std::abs(measures.density_error_mean), 0.01);
+}
+
+TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
+  const double dx = 0.05;
+  const double a = 0.25 * g;
+  CaseSpec spec = case_with(GetParam(), dx);
+  WallTable tank = chain({{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
+  tank.displacement = {"0.125*g*t^2", 0.0};
+  spec.walls = {tank};
+  FluidTable water;  // the level of the accelerated frame, normal to (-a, -g)
+  water.shape = BlockShape::polygon;
+  water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {0.0, 0.55}};
+  spec.fluid = {water};
+  Flow<2> flow(spec);
+  flow.neighbourhood.reorder(flow.particles);
+  start(flow);
+  const double felt = std::hypot(g, a);
+  const double settling = std::sqrt(felt * dx / std::numbers::pi);  // as in a tank at rest
+  const auto expect_hydrostatic = [&](double displacement) {
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      if (!flow.particles.is_fluid(i)) continue;
+      const Vec<2> x = flow.particles.position[i] - Vec<2>(displacement, 0.0);
+      const double exact = flow.density * (g * (0.55 - x[1]) - a * x[0]);
+      // The surface of a lattice of squares is known to half a diagonal more than a level one.
+      EXPECT_LT(std::abs(flow.particles.pressure[i] - exact), 1.7 * flow.density * felt * dx) << "at " << x.transpose();
+    }
+  };
+  expect_hydrostatic(0.0);
+  for (int n = 0; n < 50; ++n) {
+    EXPECT_EQ(step(flow).interventions.put_back, 0u);
+    // Velocities are those of the end of the step, or of its middle.
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      if (!flow.particles.is_fluid(i)) continue;
+      const Vec<2> relative = flow.particles.velocity[i] - Vec<2>(a * flow.time, 0.0);
+      ASSERT_LT(relative.norm(), settling) << "step " << n;
+    }
+  }
+  expect_hydrostatic(0.5 * a * flow.time * flow.time);
+}
+
+TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
+  const double dx = 0.05;
+  const double depth = 0.3;
+  CaseSpec spec = case_with(GetParam(), dx);
+  spec.domain.periodic_x = {0.0, 1.0};
+  WallTable bed = chain({{0.0, 0.0}, {1.0, 0.0}});
+  bed.displacement = {"2*t", 0.0};
+  spec.walls = {bed};
+  spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
+  Flow<2> flow(spec);
+  const double settling = std::sqrt(g * dx / std::numbers::pi);
+  while (flow.time < 0.8) {  // more than a period of the domain
+    EXPECT_EQ(step(flow).interventions.put_back, 0u);
+    ASSERT_LT(measure(flow).largest_speed, settling);
+  }
+  double momentum = 0.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (flow.particles.is_fluid(i)) momentum += flow.particles.velocity[i][0] * flow.particles.volume[i];
+  }
+  EXPECT_LT(std::abs(momentum / depth), 0.01 * 2.0);  // mean velocity against the bed's
+}
+
+TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
+  // Couette flow without a surface, from rest: after (H^2/nu) it is linear to exp(-pi^2).
+  const double dx = 0.05;
+  const double height = 0.5;
+  CaseSpec spec = case_with(GetParam(), dx);
+  spec.physics.gravity = {0.0, 0.0};
+  spec.physics.viscosity = 0.25;
+  spec.scheme.noise_viscosity = 0.0;
+  spec.particles.jitter = 0.1;
+  spec.domain.periodic_x = {0.0, 0.6};
+  WallTable bed = chain({{0.0, 0.0}, {0.6, 0.0}});
+  WallTable lid = chain({{0.6, height}, {0.0, height}});
+  bed.slip = lid.slip = Slip::no_slip;
+  lid.displacement = {"t", 0.0};
+  spec.walls = {bed, lid};
+  spec.fluid = {water_box({0.0, 0.0}, {0.6, height})};
+  Flow<2> flow(spec);
+  while (flow.time < height * height / spec.physics.viscosity) step(flow);
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    // The place of a wall is known to a small part of dx; the profile has the slope 1/H.
+    EXPECT_NEAR(flow.particles.velocity[i][0], flow.particles.position[i][1] / height, 0.2 * dx / height);
+  }
+}
+
+TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
+  const double dx = 0.05;
+  const double depth = 0.4;
+  const double thickness = 3.0 * dx;
+  CaseSpec spec = case_with(GetParam(), dx);
+  spec.walls = {chain({{0.0, 1.0}, {0.0, 0.0}, {1.15, 0.0}, {1.15, 1.0}}),
+                gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "2*max(0, t - 0.05)"})};
+  spec.fluid = {water_box({0.0, 0.0}, {0.5, depth}), water_box({0.65, 0.0}, {1.15, depth})};
+  Flow<2> flow(spec);
+  // What the water can win is the fall into the room of the gate.
+  const double won = flow.density * g * depth * thickness * 0.5 * depth;
+  std::size_t put_back = 0;
+  while (flow.time < 1.5) {
+    put_back += step(flow).interventions.put_back;
+    ASSERT_LT(kinetic_energy(flow), won);
+    expect_all_in_front(flow);
+  }
+  EXPECT_EQ(put_back, 0u);
+  EXPECT_LT(kinetic_energy(flow), 0.25 * won);
+}
+
+template <int Dim>
+void expect_clean_lock_gate(const Way& way) {
+  const double dx = 0.05;
+  CaseSpec spec = case_with(way, dx);
+  spec.general.dimension = Dim;
+  const double width = 0.3;  // 3D
+  if constexpr (Dim == 2) {
+    spec.walls = {chain({{0.0, 1.0}, {0.0, 0.0}, {1.65, 0.0}, {1.65, 1.0}}),
+                  gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "3*t"})};
+    spec.fluid = {water_box({0.0, 0.0}, {0.5, 0.5}), water_box({0.65, 0.0}, {1.65, 0.1})};
+  } else {
+    spec.physics.gravity = {0.0, 0.0, -g};
+    WallTable tank = gate({0.0, 0.0, 0.0}, {1.65, width, 1.0}, {});
+    tank.fluid_side = FluidSide::inside;
+    tank.open = {"+z"};
+    spec.walls = {tank, gate({0.5, 0.0, 0.0}, {0.65, width, 0.8}, {0.0, 0.0, "3*t"})};
+    spec.fluid = {water_box({0.0, 0.0, 0.0}, {0.5, width, 0.5}), water_box({0.65, 0.0, 0.0}, {1.65, width, 0.1})};
+  }
+  Flow<Dim> flow(spec);
+  std::size_t put_back = 0;
+  std::size_t steps = 0;
+  const double end = Dim == 2 ? 0.8 : 0.3;
+  for (; flow.time < end; ++steps) {
+    put_back += step(flow).interventions.put_back;
+    expect_all_in_front(flow);
+  }
+  EXPECT_EQ(put_back, 0u);
+  double front = 0.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (flow.particles.is_fluid(i) && flow.particles.position[i][Dim - 1] > 0.2) {
+      front = std::max(front, flow.particles.position[i][0]);
+    }
+  }
+  EXPECT_GT(front, 0.65);  // the bore is on its way
+}
+
+TEST_P(MovingWall, AGateLiftedFromALockLetsTheWaterGoAndNobodyThroughItself) { expect_clean_lock_gate<2>(GetParam()); }
+
+TEST(MovingWall3D, AGateLiftedFromALockLetsTheWaterGoAndNobodyThroughItself) {
+  expect_clean_lock_gate<3>({"explicit", Integrator::explicit_projection});
+}
+
+TEST(MovingWallStep, NoWallMovesMoreThanTheCourantNumberInAStep) {
+  CaseSpec spec = case_with({"explicit", Integrator::explicit_projection}, 0.05);
+  spec.walls = {chain({{0.0, 1.0}, {0.0, 0.0}, {1.15, 0.0}, {1.15, 1.0}}),
+                gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "50*max(0, t - 0.001)"})};
+  spec.fluid = {water_box({0.0, 0.0}, {0.5, 0.1})};
+  Flow<2> flow(spec);
+  for (int n = 0; n < 20; ++n) {
+    const double before = flow.time;
+    step(flow);
+    EXPECT_LE(50.0 * (std::max(0.0, flow.time - 0.001) - std::max(0.0, before - 0.001)), spec.scheme.courant * 0.05);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, MovingWall,
+                         testing::Values(Way{"explicit", Integrator::explicit_projection},
+                                         Way{"implicit", Integrator::implicit_projection}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace tailwater
