@@ -199,11 +199,12 @@ void check_contact(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
     const std::string wall = wall_label(boundary, key.first);
     const std::string block = fluid_name(spec, key.second);
     if (contact.behind > 0 && in_front[key.first] > 0) {
-      error(findings,
-            "{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} m deep at {}; a wall has "
-            "one wet side, so draw a wall with two faces at least {} spacings apart, or take the fluid away from one "
-            "side",
-            wall, contact.behind, block, contact.deepest, place(contact.deepest_at), 2 * dummy_layers(spec));
+      error(
+          findings,
+          "{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} m deep at {}; where the water "
+          "starts inside a bed, let the block end on the bed (shape = \"polygon\"); where a wall stands in water, draw "
+          "it with two faces, {} spacings apart or more",
+          wall, contact.behind, block, contact.deepest, place(contact.deepest_at), dummy_layers(spec) + 1);
     } else if (contact.behind > 0) {
       error(findings,
             "{} lies behind {}: {} particles, up to {:.6g} m deep at {}; turn the wall's fluid_side round, or "
@@ -252,6 +253,47 @@ void check_crossings(const CaseSpec& spec, const Boundary<2>& boundary, std::vec
           crosses(b, a.corners[0], a.corners[1], tolerance)) {
         error(findings, "{} crosses itself at {}: mend the order of its points", wall_label(boundary, a.wall),
               place(meet(a, b.corners[0], b.corners[1])));
+      }
+    }
+  }
+}
+
+/// A bed whose crest is as high as its own ends: what gets there has run over the ends before.
+void check_humps(const CaseSpec& spec, const Boundary<2>& boundary, std::vector<Finding>& findings) {
+  const Vec<2> gravity = to_vec<2>(spec.physics.gravity, "[physics]", "gravity");
+  if (gravity.norm() == 0.0) {
+    return;
+  }
+  const Vec<2> up = -gravity.normalized();
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    const std::vector<Coordinates>& points = spec.walls[w].points;
+    if (spec.walls[w].shape != WallShape::polyline) {
+      continue;
+    }
+    const auto height = [&](std::size_t k) { return up.dot(Vec<2>(points[k][0], points[k][1])); };
+    const std::size_t last = points.size() - 1;
+    double rim = -infinite;
+    if (height(0) > height(1)) rim = height(0);
+    if (height(last) > height(last - 1)) rim = std::max(rim, height(last));
+    if (rim == -infinite) {
+      continue;  // ends that lie, as at an open end
+    }
+    for (const WallFace<2>& face : boundary.faces) {
+      // The water stands on faces that look up.
+      if (face.wall != static_cast<int>(w) || up.dot(face.normal) < 0.01) {
+        continue;
+      }
+      for (const Vec<2>& corner : face.corners) {
+        const bool is_end = std::ranges::any_of(std::array{0ul, last}, [&](std::size_t k) {
+          return (corner - Vec<2>(points[k][0], points[k][1])).norm() <= corner_tolerance * spec.particles.spacing;
+        });
+        if (!is_end && up.dot(corner) >= rim) {
+          error(findings,
+                "{} has a crest at {} as high as its ends, {:.6g} m over the higher one: water would run over the ends "
+                "before it passes the crest; make the ends higher or the crest lower",
+                wall_label(boundary, static_cast<int>(w)), place(corner), up.dot(corner) - rim);
+          return;
+        }
       }
     }
   }
@@ -487,6 +529,7 @@ std::vector<Finding> check_geometry(const CaseSpec& spec, const Boundary<Dim>& b
   check_periodic<Dim>(spec, findings);
   if constexpr (Dim == 2) {
     check_crossings(spec, boundary, findings);
+    check_humps(spec, boundary, findings);
   }
   check_thickness(spec, boundary, findings);
   check_overlaps(spec, fluid, findings);

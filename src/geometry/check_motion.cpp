@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <optional>
 #include <set>
 
+#include "base/fp_traps.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_motion.h"
 
@@ -32,6 +33,7 @@ class MotionCheck {
   }
 
   std::vector<Finding> findings() {
+    const SuspendFpTraps suspended;  // a path need not be finite
     for (std::size_t w = 0; w < paths_.size(); ++w) {
       if (starts_where_it_is_drawn(static_cast<int>(w)) && drawn_.walls[w].moves())
         is_sound_.insert(static_cast<int>(w));
@@ -161,13 +163,30 @@ class MotionCheck {
     return box_a.exteriorDistance(box_b) > dx_;
   }
 
+  double distance_from_rim(const WallFace<Dim>& face, const Vec<Dim>& x) const {
+    double least = std::numeric_limits<double>::max();
+    for (int c = 0; c < Dim; ++c) {
+      const Vec<Dim>& from = face.corners[c];
+      if constexpr (Dim == 2) {
+        least = std::min(least, (x - from).norm());
+      } else {
+        const Vec<Dim> edge = (face.corners[(c + 1) % Dim] - from).normalized();
+        least = std::min(least, (x - from - edge.dot(x - from) * edge).norm());
+      }
+    }
+    return least;
+  }
+
   std::optional<Vec<Dim>> crossing(const WallFace<Dim>& a, const WallFace<Dim>& b) const {
     const double tolerance = corner_tolerance * dx_;
     const auto edge_through = [&](const WallFace<Dim>& from, const WallFace<Dim>& through) -> std::optional<Vec<Dim>> {
       for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
         const Vec<Dim>& low = from.corners[c];
         const Vec<Dim>& high = from.corners[(c + 1) % Dim];
-        if (crosses(through, low, high, tolerance)) return meet(through, low, high);
+        if (!crosses(through, low, high, tolerance)) continue;
+        // Walls may touch: what slides along a wall has its rim on it.
+        const Vec<Dim> hit = meet(through, low, high);
+        if (distance_from_rim(through, hit) > 2.0 * tolerance) return hit;
       }
       return std::nullopt;
     };

@@ -242,6 +242,25 @@ TEST(CheckMemory, TheSpacingItProposesFits) {
 
 TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }
 
+TEST(Check, ACrestAsHighAsTheEndsOfItsBed) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.6}, {2, 0}, {3, 0}, {3, 0.5}})};
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.3})};
+  expect_only(check(spec), Severity::error, {"wall 'wall1' has a crest at (1.5, 0.6)", "0.1 m", "crest lower"});
+  spec.walls[0].points[3][1] = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  // A beach that is the end of its bed, and a bed that ends open.
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {3, 0.6}})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WaterThatStartsInsideTheBed) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.2}, {2, 0}, {3, 0}, {3, 0.5}})};
+  spec.fluid = {box_fluid({0, 0}, {3, 0.3})};
+  expect_among(check(spec), Severity::error, {"wall 'wall1'", "starts inside a bed", "(1.4", "polygon"});
+}
+
 /// A gate three spacings thick between two pools, on its path for 1 s.
 CaseSpec gate_case(VectorField displacement) {
   CaseSpec spec = empty_case(0.05);

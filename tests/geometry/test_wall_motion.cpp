@@ -16,7 +16,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// A plate that turns by a right angle in 1 s about its foot and moves to the right by t^2, in a channel.
 CaseSpec flap_case() {
   CaseSpec spec = empty_case(0.1);
-  spec.walls = {polyline({{-2.0, 0.0}, {4.0, 0.0}}), box_wall({0.0, 0.2}, {0.3, 1.2}, {}, FluidSide::outside)};
+  spec.walls = {polyline({{-2.0, -3.0}, {4.0, -3.0}}), box_wall({0.0, 0.2}, {0.3, 1.2}, {}, FluidSide::outside)};
   spec.walls[1].displacement = {"t^2", 0.0};
   spec.walls[1].rotation = "-pi/2*t";
   spec.walls[1].pivot = {0.0, 0.2};
