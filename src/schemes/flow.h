@@ -74,7 +74,7 @@ struct Flow {
   double time = 0.0;  ///< s
   std::int64_t step = 0;
   std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
-  std::vector<std::int8_t> end_of;      ///< the open end in whose stretch an owned particle is in this step, or -1
+  std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
   // Tools that keep memory between steps.
   Neighbourhood<Dim> neighbourhood;

@@ -36,6 +36,7 @@ struct OpenEnd {
 
   // The flow before the end stretch, and what is taken to come from beyond.
   bool is_wet = false;
+  double wet_time = 0.0;      ///< s; since it has been wet
   double speed = 0.0;         ///< m/s; mean along the normal
   double speed_beyond = 0.0;  ///< m/s; the same as it arrives in the middle of the end stretch
   double invariant = 0.0;     ///< m/s; u - 2 sqrt(g h), which comes from beyond where flow is subcritical
