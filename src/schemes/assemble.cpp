@@ -181,7 +181,7 @@ template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt) {
   double work = 0.0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
+    if (!flow.is_solved_for(i)) continue;
     const double expansion = density_source(flow, i, dt) * dt * dt / flow.density;  // dt div u
     work += flow.particles.pressure[i] * flow.particles.volume[i] * expansion;
   }

@@ -112,8 +112,9 @@ struct Flow {
 
   /// Is owned particle i in the end stretch of an outlet, where nothing is solved for?
   bool is_leaving(std::size_t i) const { return end_of[i] >= 0; }
+  bool is_solved_for(std::size_t i) const { return particles.is_fluid(i) && !is_leaving(i); }
   /// Whether statistics of the bulk count particle i.
-  bool is_inside(std::size_t i) const { return particles.is_fluid(i) && interior[i] > 0.5 && !is_leaving(i); }
+  bool is_inside(std::size_t i) const { return is_solved_for(i) && interior[i] > 0.5; }
   double kinetic_energy_of(std::size_t i) const {
     return 0.5 * density * particles.volume[i] * particles.velocity[i].squaredNorm();
   }

@@ -35,24 +35,19 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-template <int Dim>
-bool is_solved_for(const Flow<Dim>& flow, std::size_t i) {
-  return flow.particles.is_fluid(i) && !flow.is_leaving(i);
-}
-
 /// Velocity and source of `correction` from its pressure.
 template <int Dim>
 void follow(Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_rest, Correction<Dim>& correction) {
   const Particles<Dim>& particles = flow.particles;
   flow.neighbourhood.halo().exchange(correction.pressure);
   for_each(particles.owned, [&](std::size_t i) {
-    if (is_solved_for(flow, i)) {
+    if (flow.is_solved_for(i)) {
       correction.velocity[i] = -dt / flow.density * gradient_at(flow, i, correction.pressure);
     }
   });
   update_wall_velocity(flow, walls_at_rest, correction.velocity);
   for_each(particles.owned, [&](std::size_t i) {
-    if (is_solved_for(flow, i)) {
+    if (flow.is_solved_for(i)) {
       correction.source[i] = flow.density / dt * divergence_at(flow, i, correction.velocity);
     }
   });
@@ -81,7 +76,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
   update_wall_velocity(flow, flow.walls.velocity, particles.velocity);
   std::vector<double> source(particles.size(), 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (is_solved_for(flow, i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
+    if (flow.is_solved_for(i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
   });
 
   // A correction changes the fluid's velocity only.
