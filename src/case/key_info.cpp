@@ -73,8 +73,8 @@ void KeyCollector::number(std::string_view key, double value, std::string_view u
 }
 
 void KeyCollector::coordinates(std::string_view key, const Coordinates& value, std::string_view unit,
-                               std::string_view doc) {
-  rows_.push_back({key, "vector", array_text(value), unit, "", doc, Presence::optional});
+                               std::string_view doc, Presence presence) {
+  rows_.push_back({key, "vector", array_text(value), unit, "", doc, presence});
 }
 
 void KeyCollector::varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,

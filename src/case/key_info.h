@@ -37,7 +37,8 @@ class KeyCollector {
                Presence presence = Presence::optional);
   void number(std::string_view key, double value, std::string_view unit, const Range& range, std::string_view doc,
               Presence presence = Presence::optional);
-  void coordinates(std::string_view key, const Coordinates& value, std::string_view unit, std::string_view doc);
+  void coordinates(std::string_view key, const Coordinates& value, std::string_view unit, std::string_view doc,
+                   Presence presence = Presence::optional);
   void varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,
                std::string_view doc);
   void field(std::string_view key, const VectorField& value, Variables variables, std::string_view unit,

@@ -19,7 +19,7 @@
 
 namespace tailwater {
 
-/// Name of a block of fluid or a wall that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from 0.
+/// Name of a block of fluid, a wall or an outlet that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from 0.
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
@@ -184,6 +184,28 @@ struct WallTable {
         "rotation", self.rotation, Variables::time, "rad",
         "Angle by which the wall has turned about its pivot, counter-clockwise (2D); the displacement comes on top");
     v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
+  }
+};
+
+struct OutletTable {
+  std::string name;
+  Coordinates from;
+  Coordinates to;
+  Coordinates direction;
+
+  bool operator==(const OutletTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages and in summary.json (default: outlet1, outlet2, ...)");
+    v.coordinates("from", self.from, "m",
+                  "Where the open end begins, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
+                  "rectangle (3D)",
+                  Presence::required);
+    v.coordinates("to", self.to, "m", "Its other end, above any water that comes; the opposite corner (3D)",
+                  Presence::required);
+    v.coordinates("direction", self.direction, "",
+                  "Direction in which water leaves, roughly: it decides between the two sides (default: +x)");
   }
 };
 
@@ -382,6 +404,7 @@ struct CaseSpec {
   DomainTable domain;
   std::vector<FluidTable> fluid;
   std::vector<WallTable> walls;
+  std::vector<OutletTable> outlets;
   TimeTable time;
   SchemeTable scheme;
   PressureSolverTable pressure_solver;
@@ -398,6 +421,7 @@ struct CaseSpec {
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");
     v.tables("wall", self.walls, "A solid wall; one table each");
+    v.tables("outlet", self.outlets, "An open end through which water leaves for good; one table each");
     v.table("time", self.time, "Duration");
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");

@@ -70,8 +70,9 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
   }
 }
 
-void TableReader::coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc) {
-  if (const toml::node* node = find(key, doc, unit, "", Presence::optional)) {
+void TableReader::coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc,
+                              Presence presence) {
+  if (const toml::node* node = find(key, doc, unit, "", presence)) {
     if (auto given = point(key, std::string(key), *node, unit)) {
       value = std::move(*given);
     }

@@ -43,7 +43,8 @@ class TableReader {
                Presence presence = Presence::optional);
   void number(std::string_view key, double& value, std::string_view unit, const Range& range, std::string_view doc,
               Presence presence = Presence::optional);
-  void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc);
+  void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc,
+                   Presence presence = Presence::optional);
   void varying(std::string_view key, Varying& value, Variables variables, std::string_view unit, std::string_view doc);
   void field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
              std::string_view doc);

@@ -48,6 +48,28 @@ void check_corner_count(const std::vector<Coordinates>& points, std::size_t leas
   }
 }
 
+/// The direction +x.
+Coordinates along_x(const TableReader& reader) {
+  Coordinates direction(static_cast<std::size_t>(reader.dimension()), 0.0);
+  if (!direction.empty()) direction.front() = 1.0;
+  return direction;
+}
+
+void check_direction(const Coordinates& direction, TableReader& reader) {
+  if (const toml::node* node = reader.given("direction"); node != nullptr && !reader.is_wrong("direction")) {
+    if (std::all_of(direction.begin(), direction.end(), [](double c) { return c == 0.0; })) {
+      reader.wrong("direction", *node, "has length 0; give a direction such as [1, 0]");
+    }
+  }
+}
+
+/// Two ends of something that has an extent.
+void check_ends(const Coordinates& from, const Coordinates& to, TableReader& reader) {
+  if (!from.empty() && from == to && !reader.is_wrong("from") && !reader.is_wrong("to")) {
+    reader.wrong("to", *reader.given("to"), "is the same point as from; give two points");
+  }
+}
+
 }  // namespace
 
 void set_defaults(SchemeTable& scheme, TableReader& reader) {
@@ -68,13 +90,10 @@ void set_defaults(WallTable& wall, TableReader& reader) {
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
-  if (probe.type == ProbeType::front) {
-    probe.direction.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
-    if (!probe.direction.empty()) {
-      probe.direction.front() = 1.0;
-    }
-  }
+  if (probe.type == ProbeType::front) probe.direction = along_x(reader);
 }
+
+void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction = along_x(reader); }
 
 /// Under-relaxation by a factor f leaves (1 - f)^passes of the old value: too few passes would lose part of every step.
 void check(const SchemeTable& scheme, TableReader& reader) {
@@ -126,12 +145,13 @@ void check(const WallTable& wall, TableReader& reader) {
   }
 }
 
+void check(const OutletTable& outlet, TableReader& reader) {
+  check_direction(outlet.direction, reader);
+  check_ends(outlet.from, outlet.to, reader);
+}
+
 void check(const ProbeTable& probe, TableReader& reader) {
-  if (const toml::node* node = reader.given("direction"); node != nullptr && !reader.is_wrong("direction")) {
-    if (std::all_of(probe.direction.begin(), probe.direction.end(), [](double c) { return c == 0.0; })) {
-      reader.wrong("direction", *node, "has length 0; give a direction such as [1, 0]");
-    }
-  }
+  check_direction(probe.direction, reader);
   if (const toml::node* node = reader.given("times"); node != nullptr && !reader.is_wrong("times")) {
     const bool is_rising =
         std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
@@ -139,10 +159,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
       reader.wrong("times", *node, "give at least one time in s, from 0 on, in rising order");
     }
   }
-  const bool has_stretch = !probe.from.empty() && probe.from == probe.to;
-  if (has_stretch && !reader.is_wrong("from") && !reader.is_wrong("to")) {
-    reader.wrong("to", *reader.given("to"), "is the same point as from; give two points");
-  }
+  check_ends(probe.from, probe.to, reader);
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };

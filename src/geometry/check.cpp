@@ -12,6 +12,7 @@
 
 #include "geometry/check_motion.h"
 #include "geometry/from_spec.h"
+#include "geometry/outlet.h"
 #include "geometry/point_grid.h"
 
 namespace tailwater {
@@ -363,6 +364,116 @@ void check_periodic(const CaseSpec& spec, std::vector<Finding>& findings) {
   }
 }
 
+/// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
+template <int Dim>
+std::vector<Vec<Dim>> points_along(const Vec<Dim>& first, const Vec<Dim>& last, double step) {
+  const int pieces = std::clamp(static_cast<int>(std::ceil((last - first).norm() / step)), 1, 200);
+  std::vector<Vec<Dim>> points;
+  for (int k = 0; k <= pieces; ++k) points.push_back(first + (static_cast<double>(k) / pieces) * (last - first));
+  return points;
+}
+
+/// The rim of an outlet, points at most dx apart, but for its top: there it may be open to the air.
+template <int Dim>
+std::vector<Vec<Dim>> closed_rim(const Outlet<Dim>& outlet, const Vec<Dim>& gravity, double dx) {
+  std::vector<Vec<Dim>> rim;
+  if constexpr (Dim == 2) {
+    rim = {outlet.corner, outlet.corner + outlet.edges[0]};
+  } else {
+    for (int k = 0; k < 2; ++k) {
+      for (const Vec<3>& start : {outlet.corner, Vec<3>(outlet.corner + outlet.edges[1 - k])}) {
+        const std::vector<Vec<3>> side = points_along<3>(start, start + outlet.edges[k], dx);
+        rim.insert(rim.end(), side.begin(), side.end());
+      }
+    }
+  }
+  const auto depth_of = [&](const Vec<Dim>& x) { return gravity.dot(x); };
+  const auto [top, bottom] = std::minmax_element(
+      rim.begin(), rim.end(), [&](const Vec<Dim>& a, const Vec<Dim>& b) { return depth_of(a) < depth_of(b); });
+  const double open_above = depth_of(*top) + corner_tolerance * dx * gravity.norm();
+  if (depth_of(*bottom) > open_above) std::erase_if(rim, [&](const Vec<Dim>& x) { return depth_of(x) <= open_above; });
+  return rim;
+}
+
+/// Places before an outlet, and in it, as far upstream as `depth` (m), dx/2 apart and away from the rim.
+template <int Dim>
+std::vector<Vec<Dim>> places_before(const Outlet<Dim>& outlet, double depth, double dx) {
+  const double step = 0.5 * dx;
+  std::vector<Vec<Dim>> places = points_along<Dim>(outlet.corner, outlet.corner - depth * outlet.normal, step);
+  for (const Vec<Dim>& edge : outlet.edges) {
+    const double length = edge.norm();
+    if (length <= 2.0 * step) return {};
+    const Vec<Dim> along = edge / length;
+    std::vector<Vec<Dim>> more;
+    for (const Vec<Dim>& x : places) {
+      const std::vector<Vec<Dim>> row = points_along<Dim>(x + step * along, x + (length - step) * along, step);
+      more.insert(more.end(), row.begin(), row.end());
+    }
+    places = std::move(more);
+  }
+  return places;
+}
+
+template <int Dim>
+void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                   std::vector<Finding>& findings) {
+  constexpr double rim_tolerance = 0.1;    // dx
+  constexpr double wall_clearance = 0.25;  // dx
+  const double dx = spec.particles.spacing;
+  const Vec<Dim> gravity = to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity");
+  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+    const std::string name = fmt::format("outlet '{}'", outlet.name);
+    for (int axis = 0; axis < Dim; ++axis) {
+      if (!periodic_range(spec.domain, axis).empty() && std::abs(outlet.normal[axis]) > corner_tolerance) {
+        error(findings,
+              "{} at {} lets water out in {}, a periodic direction, in which it comes back: take one of them out", name,
+              place(outlet.corner), "xyz"[axis]);
+      }
+    }
+
+    for (const Vec<Dim>& x : closed_rim(outlet, gravity, dx)) {
+      const NearestWall<Dim> wall = boundary.nearest(x, infinite);
+      if (wall.face < 0) {
+        error(findings, "{} has its rim at {}, but the case has no wall: end a bed there", name, place(x));
+        break;
+      }
+      if (std::abs(wall.signed_distance) > rim_tolerance * dx) {
+        error(findings,
+              "{} {} at {}: the nearest place of {} is {}, {:.6g} m away; put the outlet's end on the wall there", name,
+              wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
+              wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance));
+        break;
+      }
+    }
+
+    for (const Vec<Dim>& x : places_before(outlet, spec.scheme.support * dx, dx)) {
+      const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
+      if (wall.face >= 0) {
+        error(findings,
+              "{} overlaps {} at {}: nothing may stand in it, nor in the last {:.6g} m before it; leave that piece of "
+              "wall "
+              "out (of a box: open = [...]), or move the outlet",
+              name, wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), spec.scheme.support * dx);
+        break;
+      }
+    }
+
+    std::size_t passed = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+      const Vec<Dim>& x = fluid.position[i];
+      if (outlet.beyond(x) > corner_tolerance * dx && outlet.spans(x) && passed++ == 0) first = i;
+    }
+    if (passed > 0) {
+      error(
+          findings,
+          "{} cuts through {}: {} particles lie beyond it at the start, the first at {}; end the block at the outlet, "
+          "move the outlet, or turn its direction round",
+          name, fluid_name(spec, fluid.block[first]), passed, place(fluid.position[first]));
+    }
+  }
+}
+
 /// Lets water run sideways and down, never up, over the cells of a grid until it is at rest or leaves the case.
 template <int Dim>
 class Flood {
@@ -512,7 +623,12 @@ void check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const Flui
   if (!has_gravity || boundary.faces.empty() || fluid.position.empty()) {
     return;
   }
-  if (const std::optional<Vec<Dim>> leak = Flood<Dim>(spec, boundary, fluid).leak()) {
+  Boundary<Dim> closed = boundary;
+  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+    const std::vector<WallFace<Dim>> faces = outlet.as_faces();
+    closed.faces.insert(closed.faces.end(), faces.begin(), faces.end());
+  }
+  if (const std::optional<Vec<Dim>> leak = Flood<Dim>(spec, closed, fluid).leak()) {
     const NearestWall<Dim> wall = boundary.nearest(*leak, infinite);
     error(findings, "the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
           place(*leak), wall_label(boundary, boundary.faces[wall.face].wall));
@@ -534,6 +650,7 @@ std::vector<Finding> check_geometry(const CaseSpec& spec, const Boundary<Dim>& b
   check_thickness(spec, boundary, findings);
   check_overlaps(spec, fluid, findings);
   check_contact(spec, boundary, fluid, findings);
+  check_outlets(spec, boundary, fluid, findings);
   check_leaks(spec, boundary, fluid, findings);
   const std::vector<Finding> of_motion = check_motion(spec, boundary);
   findings.insert(findings.end(), of_motion.begin(), of_motion.end());

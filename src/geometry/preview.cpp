@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/from_spec.h"
+#include "geometry/outlet.h"
 
 namespace tailwater {
 namespace {
@@ -24,6 +25,7 @@ constexpr const char* fluid_colour = "#3b7dd8";
 constexpr const char* wall_colour = "#222222";
 constexpr const char* dummy_colour = "#b9b2a7";
 constexpr const char* probe_colour = "#c0392b";
+constexpr const char* outlet_colour = "#1e8449";
 
 double text_width(std::string_view text) { return letter_width * font_size * static_cast<double>(text.size()); }
 
@@ -186,6 +188,31 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
   return rows;
 }
 
+/// Outlets, each with an arrow the way the water leaves and its name.
+template <int Dim>
+void draw_outlets(Svg& svg, const std::vector<Outlet<Dim>>& outlets, const View& view) {
+  constexpr double arrow = 20.0;  // px
+  for (const Outlet<Dim>& outlet : outlets) {
+    Vec<Dim> far_corner = outlet.corner;
+    for (const Vec<Dim>& edge : outlet.edges) far_corner += edge;
+    for (const WallFace<Dim>& face : outlet.as_faces()) {
+      for (int c = 0; c < Dim; ++c) {
+        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), outlet_colour, 3.0);
+      }
+    }
+    const Vec<2> middle = view(project(Vec<Dim>(0.5 * (outlet.corner + far_corner))));
+    const Vec<2> out(project(outlet.normal)[0], -project(outlet.normal)[1]);
+    const Vec<2> aside(-out[1], out[0]);
+    const Vec<2> tip = middle + arrow * out;
+    svg.line(middle, tip, outlet_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out + 0.6 * aside), outlet_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out - 0.6 * aside), outlet_colour, 2.0);
+    const bool is_on_the_right = middle[0] > 0.5 * (view.left + view.right());
+    svg.text(middle[0] + (is_on_the_right ? -6.0 : 6.0), middle[1] - 6.0, is_on_the_right ? "end" : "start",
+             outlet.name);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -193,12 +220,18 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
                         const WallParticles<Dim>& walls) {
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
+  const std::vector<Outlet<Dim>> outlets = make_outlets<Dim>(spec);
 
   Extent extent;
   for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
   for (const Vec<Dim>& x : walls.position) extent.include(project(x));
   for (const WallFace<Dim>& face : boundary.faces) {
     for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
+  }
+  for (const Outlet<Dim>& outlet : outlets) {
+    for (const WallFace<Dim>& face : outlet.as_faces()) {
+      for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
+    }
   }
   for (const Marker& marker : markers) {
     for (const Vec<2>& x : marker.points) {
@@ -276,6 +309,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
       }
     }
   }
+  draw_outlets(svg, outlets, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
   svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");

@@ -9,12 +9,12 @@ namespace {
 constexpr double least_distance_over_spacing = 1e-6;
 
 template <class Value>
-void permute(std::span<const std::int32_t> order, std::vector<Value>& field) {
-  std::vector<Value> sorted(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    sorted[i] = field[order[i]];
+void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
+  std::vector<Value> picked(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    picked[i] = field[kept[i]];
   }
-  field.swap(sorted);
+  field.swap(picked);
 }
 
 /// In ascending order; quick where it nearly is.
@@ -50,14 +50,19 @@ template <int Dim>
 void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
   wrap(particles);
   particles.resize(particles.owned);
-  const CellGrid<Dim> grid(particles.position, kernel_radius(kernel_) + skin_);
-  permute(grid.order(), particles.position);
-  permute(grid.order(), particles.velocity);
-  permute(grid.order(), particles.pressure);
-  permute(grid.order(), particles.volume);
-  permute(grid.order(), particles.kind);
-  permute(grid.order(), particles.wall_row);
-  permute(grid.order(), particles.id);
+  keep(particles, CellGrid<Dim>(particles.position, kernel_radius(kernel_) + skin_).order());
+}
+
+template <int Dim>
+void Neighbourhood<Dim>::keep(Particles<Dim>& particles, std::span<const std::int32_t> kept) {
+  pick(kept, particles.position);
+  pick(kept, particles.velocity);
+  pick(kept, particles.pressure);
+  pick(kept, particles.volume);
+  pick(kept, particles.kind);
+  pick(kept, particles.wall_row);
+  pick(kept, particles.id);
+  particles.owned = kept.size();
   position_at_rebuild_.clear();
 }
 

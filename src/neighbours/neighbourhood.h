@@ -35,6 +35,10 @@ class Neighbourhood {
   /// between steps only: indices change.
   void reorder(Particles<Dim>& particles);
 
+  /// Leaves only these owned particles, in this order, and forgets lists and ghosts. Call between steps only: indices
+  /// change.
+  void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);
+
   const Pairs<Dim>& pairs() const { return pairs_; }
   const Halo<Dim>& halo() const { return halo_; }
   /// All particles, ghosts included, as they were when the lists were made: search up to half a skin farther.

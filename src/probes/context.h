@@ -20,6 +20,7 @@ struct FlowTotals {
   double potential_energy = 0.0;    ///< J; relative to the origin
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 away from the surface
   double density_error_rms = 0.0;
+  double volume_out = 0.0;  ///< m^Dim; what has left through outlets
 };
 
 /// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, with cells that exceed the

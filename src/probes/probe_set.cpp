@@ -21,13 +21,14 @@ Reading<Dim> energy_reading() {
 
 template <int Dim>
 Reading<Dim> volume_reading() {
-  return {{"particles", "density_error_mean", "density_error_rms"},
+  return {{"particles", "density_error_mean", "density_error_rms", "volume_out_m3"},
           [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const Particles<Dim>& particles = context.particles;
             const auto count =
                 std::count(particles.kind.begin(),
                            particles.kind.begin() + static_cast<std::ptrdiff_t>(particles.owned), ParticleKind::fluid);
-            return {{static_cast<double>(count), context.totals.density_error_mean, context.totals.density_error_rms}};
+            return {{static_cast<double>(count), context.totals.density_error_mean, context.totals.density_error_rms,
+                     context.totals.volume_out}};
           }};
 }
 

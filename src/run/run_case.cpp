@@ -51,11 +51,24 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+/// An amount of water.
+struct Water {
+  std::int64_t particles = 0;
+  double volume = 0.0;  ///< m^3; in 2D per metre of width
+
+  nlohmann::ordered_json json() const { return {{"particles", particles}, {"volume_m3", volume}}; }
+  std::string text() const { return fmt::format("{} particles ({:.6g} m^3)", particles, volume); }
+};
+
 template <int Dim>
-std::size_t count_fluid(const Particles<Dim>& particles) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < particles.owned; ++i) count += particles.is_fluid(i);
-  return count;
+Water water_in(const Particles<Dim>& particles) {
+  Water water;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    ++water.particles;
+    water.volume += particles.volume[i];
+  }
+  return water;
 }
 
 /// The box around all walls; empty when there are none.
@@ -68,13 +81,17 @@ Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
   return box;
 }
 
-/// Fluid particles beyond the box around all walls: they are still computed, but left the case over its rim.
+/// Fluid particles beyond the box around all walls: they are still computed, but left the case over its rim. What is on
+/// its way out through an outlet did not.
 template <int Dim>
-std::size_t count_outside(const Eigen::AlignedBox<double, Dim>& box, const Particles<Dim>& particles) {
+std::size_t count_outside(const Eigen::AlignedBox<double, Dim>& box, const Flow<Dim>& flow) {
   if (box.isEmpty()) return 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    count += particles.is_fluid(i) && !box.contains(particles.position[i]);
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    const Vec<Dim>& x = flow.particles.position[i];
+    count += flow.particles.is_fluid(i) && !box.contains(x) &&
+             std::none_of(flow.open_ends.begin(), flow.open_ends.end(),
+                          [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
   }
   return count;
 }
@@ -95,7 +112,7 @@ class Run {
       : spec_(spec),
         options_(options),
         flow_(spec),
-        fluid_at_start_(count_fluid(flow_.particles)),
+        water_at_start_(water_in(flow_.particles)),
         probe_list_(make_probes<Dim>(spec, flow_.boundary)),
         folder_(make_folder(flow_, spec, options)),
         series_(folder_.fields(), "fields", spec.output.compression),
@@ -119,6 +136,7 @@ class Run {
     progress_.finish();
     write_fields();
     write_summary(code == ExitCode::done ? "done" : "interrupted", code, "");
+    print_water_balance();
     return code;
   }
 
@@ -155,16 +173,17 @@ class Run {
     remember_good();
     const double dt = next_time_step(flow_);
     require_sound_step(dt);
-    if (flow_.step % steps_between_sorts == 0) {
-      flow_.neighbourhood.reorder(flow_.particles);
-      remember_good();  // in the new order: an index must mean the same particle before and after the step
-    }
+    const bool some_left = let_go(flow_);
+    const bool is_sorted_anew = flow_.step % steps_between_sorts == 0;
+    if (is_sorted_anew) flow_.neighbourhood.reorder(flow_.particles);
+    // An index must mean the same particle before and after the step.
+    if (some_left || is_sorted_anew) remember_good();
     StepReport report;
     // The last step is not cut to the end time: the density source goes with 1/dt^2, and a tiny step would kick the
     // water.
     attempt([&] { report = advance(flow_, std::min(dt, spec_.time.end)); });
     const FlowMeasures measures = measure(flow_);
-    const std::size_t outside = count_outside<Dim>(box_around(flow_.boundary), flow_.particles);
+    const std::size_t outside = count_outside<Dim>(box_around(flow_.boundary), flow_);
     warn_if_outside(outside);
     statistics_.add(report, measures, outside);
     step_log_.write(flow_.time, flow_.step, report, measures);
@@ -251,13 +270,40 @@ class Run {
                     .totals = {.kinetic_energy = measures.kinetic_energy,
                                .potential_energy = measures.potential_energy,
                                .density_error_mean = measures.density_error_mean,
-                               .density_error_rms = measures.density_error_rms}});
+                               .density_error_rms = measures.density_error_rms,
+                               .volume_out = measures.departed.volume}});
+  }
+
+  Water water_out() const {
+    Departed all;
+    for (const OpenEnd<Dim>& end : flow_.open_ends) all += end.departed;
+    return {all.particles, all.volume};
+  }
+
+  nlohmann::ordered_json water_balance() const {
+    nlohmann::ordered_json outlets = nlohmann::ordered_json::array();
+    for (const OpenEnd<Dim>& end : flow_.open_ends) {
+      outlets.push_back({{"name", end.outlet.name},
+                         {"particles", end.departed.particles},
+                         {"volume_m3", end.departed.volume},
+                         {"energy_J", end.departed.energy}});
+    }
+    return {{"start", water_at_start_.json()},
+            {"inside", water_in(flow_.particles).json()},
+            {"out", water_out().json()},
+            {"outlets", outlets}};
+  }
+
+  void print_water_balance() const {
+    if (flow_.open_ends.empty() || options_.quiet) return;
+    fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(),
+               water_in(flow_.particles).text(), water_out().text());
   }
 
   void write_summary(const std::string& status, ExitCode code, const std::string& message) {
     const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double cpu = cpu_seconds() - cpu_start_;
-    const std::size_t fluid = count_fluid(flow_.particles);
+    const auto fluid = static_cast<std::size_t>(water_in(flow_.particles).particles);
     nlohmann::ordered_json summary = {{"title", spec_.general.title},
                                       {"case", options_.case_file.string()},
                                       {"status", status},
@@ -271,7 +317,8 @@ class Run {
                                         {"cpu_s", cpu},
                                         {"cpu_s_per_simulated_s", flow_.time > 0.0 ? cpu / flow_.time : 0.0},
                                         {"peak_memory_bytes", peak_memory_bytes()}}}};
-    summary.update(statistics_.json(fluid, fluid_at_start_));
+    summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
+    summary["water_balance"] = water_balance();
     summary.update(provenance());
     write_text_file(folder_.summary(), summary.dump(2) + "\n");
   }
@@ -279,7 +326,7 @@ class Run {
   const CaseSpec& spec_;
   const RunOptions& options_;
   Flow<Dim> flow_;
-  std::size_t fluid_at_start_;
+  Water water_at_start_;
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;

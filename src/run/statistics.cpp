@@ -23,11 +23,13 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   density_error_sum_ += measures.density_error_mean;
   density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
   energy_end_ = total_energy(measures);
-  energy_least_ = std::min(energy_least_, energy_end_);
-  energy_rise_ = std::max(energy_rise_, energy_end_ - energy_least_);
+  energy_out_ = measures.departed.energy;
+  const double accounted = energy_end_ + energy_out_;
+  energy_least_ = std::min(energy_least_, accounted);
+  energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.density_work;
-  unexplained_least_ = std::min(unexplained_least_, energy_end_ - density_work_);
-  unexplained_rise_ = std::max(unexplained_rise_, energy_end_ - density_work_ - unexplained_least_);
+  unexplained_least_ = std::min(unexplained_least_, accounted - density_work_);
+  unexplained_rise_ = std::max(unexplained_rise_, accounted - density_work_ - unexplained_least_);
   escaped_ = escaped;
   most_escaped_ = std::max(most_escaped_, escaped);
   interventions_ += report.interventions;
@@ -53,6 +55,7 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
       {"energy",
        {{"start_J", energy_start_},
         {"end_J", energy_end_},
+        {"out_J", energy_out_},
         {"largest_rise_J", energy_rise_},
         {"largest_rise_over_start", over_start(energy_rise_)},
         {"density_work_J", density_work_},

@@ -35,7 +35,8 @@ class RunStatistics {
   double density_error_squares_ = 0.0;
   double energy_start_;
   double energy_end_;
-  double energy_least_;
+  double energy_out_ = 0.0;  ///< J; with the water that left: no loss
+  double energy_least_;      ///< J; the least of what is inside and what left
   double energy_rise_ = 0.0;
   double density_work_ = 0.0;
   double unexplained_least_;  ///< of the energy less density_work_

@@ -25,11 +25,13 @@ StepLog::StepLog(const std::filesystem::path& path)
                   "put_back",
                   "capped_shifts",
                   "clamped_pressures",
-                  "fallback_rows"}) {}
+                  "fallback_rows",
+                  "volume_out_m3",
+                  "energy_out_J"}) {}
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
-  csv_.write(std::array<double, 21>{time,
+  csv_.write(std::array<double, 23>{time,
                                     static_cast<double>(step),
                                     report.dt,
                                     static_cast<double>(report.passes),
@@ -49,7 +51,9 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                                     static_cast<double>(counts.put_back),
                                     static_cast<double>(counts.capped_shifts),
                                     static_cast<double>(counts.clamped_pressures),
-                                    static_cast<double>(counts.fallback_rows)});
+                                    static_cast<double>(counts.fallback_rows),
+                                    measures.departed.volume,
+                                    measures.departed.energy});
 }
 
 }  // namespace tailwater

@@ -81,6 +81,11 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, PressureSyste
 template <int Dim>
 bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
   PressureSystem::Row row = flow.pressure_system.row(i);
+  if (flow.is_leaving(i)) {
+    set_weights(flow.pairs(), i, row, [](std::size_t) { return 0.0; });
+    row.finish(1.0, flow.open_ends[flow.end_of[i]].pressure_at(flow.particles.position[i], flow.density));
+    return false;
+  }
   const bool has_air = flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
   if (!has_air && flow.is_surface[i] && !flow.is_closed) {
     row.finish_as_zero();
@@ -176,7 +181,7 @@ template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt) {
   double work = 0.0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
+    if (!flow.is_solved_for(i)) continue;
     const double expansion = density_source(flow, i, dt) * dt * dt / flow.density;  // dt div u
     work += flow.particles.pressure[i] * flow.particles.volume[i] * expansion;
   }

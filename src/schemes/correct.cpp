@@ -18,7 +18,7 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt) {
   for_each(flow.particles.owned, [&](std::size_t i) {
-    if (!flow.particles.is_fluid(i)) return;
+    if (!flow.is_solved_for(i)) return;
     flow.particles.velocity[i] =
         flow.u_star[i] + dt * (flow.gravity - gradient_at(flow, i, flow.particles.pressure) / flow.density);
   });

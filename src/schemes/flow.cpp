@@ -119,6 +119,11 @@ Flow<Dim>::Flow(const CaseSpec& spec)
   wall_motion.get_velocity(0.0, walls.velocity);
   length = scheme.length > 0.0 ? scheme.length : fluid_height(fluid, gravity, spacing);
 
+  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+    open_ends.emplace_back(outlet, gravity, spacing, scheme.support * spacing);
+  }
+  end_of.assign(particles.owned, -1);
+
   const Kernel<Dim>& kernel = neighbourhood.kernel();
   lattice = lattice_sums(kernel, spacing);
   air_law = AirLaw(kernel, spacing);
@@ -160,11 +165,9 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   double error_squares = 0.0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
-    const double mass = flow.density * particles.volume[i];
-    const double speed_squared = particles.velocity[i].squaredNorm();
-    measures.largest_speed = std::max(measures.largest_speed, speed_squared);
-    measures.kinetic_energy += 0.5 * mass * speed_squared;
-    measures.potential_energy -= mass * flow.gravity.dot(particles.position[i]);
+    measures.largest_speed = std::max(measures.largest_speed, particles.velocity[i].squaredNorm());
+    measures.kinetic_energy += flow.kinetic_energy_of(i);
+    measures.potential_energy += flow.potential_energy_of(i);
     if (i < flow.interior.size() && flow.is_inside(i)) {
       const double error = flow.concentration[i] - 1.0;
       error_sum += error;
@@ -179,6 +182,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.density_error_mean = error_sum / count;
     measures.density_error_rms = std::sqrt(error_squares / count);
   }
+  for (const OpenEnd<Dim>& end : flow.open_ends) measures.departed += end.departed;
   return measures;
 }
 

@@ -19,6 +19,7 @@
 #include "operators/lattice.h"
 #include "operators/renormalisation.h"
 #include "particles/particles.h"
+#include "schemes/open_end.h"
 
 namespace tailwater {
 
@@ -72,6 +73,8 @@ struct Flow {
   Particles<Dim> particles;
   double time = 0.0;  ///< s
   std::int64_t step = 0;
+  std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
+  std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
   // Tools that keep memory between steps.
   Neighbourhood<Dim> neighbourhood;
@@ -107,8 +110,18 @@ struct Flow {
   std::vector<Vec<Dim>> shift_velocity;  ///< (F31)
   std::vector<double> shift_pressure;    ///< (F32)
 
+  /// Is owned particle i in the end stretch of an outlet, where nothing is solved for?
+  bool is_leaving(std::size_t i) const { return end_of[i] >= 0; }
+  bool is_solved_for(std::size_t i) const { return particles.is_fluid(i) && !is_leaving(i); }
   /// Whether statistics of the bulk count particle i.
-  bool is_inside(std::size_t i) const { return particles.is_fluid(i) && interior[i] > 0.5; }
+  bool is_inside(std::size_t i) const { return is_solved_for(i) && interior[i] > 0.5; }
+  double kinetic_energy_of(std::size_t i) const {
+    return 0.5 * density * particles.volume[i] * particles.velocity[i].squaredNorm();
+  }
+  /// Relative to the origin.
+  double potential_energy_of(std::size_t i) const {
+    return -density * particles.volume[i] * gravity.dot(particles.position[i]);
+  }
   /// Viscosity [m^2/s] with which noise is dissipated while this is the largest speed.
   double noise_viscosity(double speed) const {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
@@ -127,6 +140,7 @@ struct FlowMeasures {
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
   std::size_t bulk_particles = 0;
+  Departed departed;  ///< through all outlets since the start
 };
 
 template <int Dim>

@@ -96,6 +96,7 @@ StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
+  hold_open_ends(flow, dt);
   const StepReport report = flow.scheme.integrator == Integrator::explicit_projection
                                 ? explicit_projection_step(flow, dt)
                                 : implicit_projection_step(flow, dt);

@@ -56,7 +56,9 @@ void predict(Flow<Dim>& flow, double dt) {
     add_stress_divergence<Dim>(pairs, particles, flow.stress, flow.acceleration);
   }
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) flow.u_star[i] = flow.velocity_old[i] + dt * flow.acceleration[i];
+    if (!particles.is_fluid(i)) return;
+    flow.u_star[i] =
+        flow.is_leaving(i) ? particles.velocity[i] : Vec<Dim>(flow.velocity_old[i] + dt * flow.acceleration[i]);
   });
   update_wall_velocity(flow, flow.wall_velocity_old, flow.u_star);
 }

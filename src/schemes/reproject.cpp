@@ -41,13 +41,13 @@ void follow(Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_re
   const Particles<Dim>& particles = flow.particles;
   flow.neighbourhood.halo().exchange(correction.pressure);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) {
+    if (flow.is_solved_for(i)) {
       correction.velocity[i] = -dt / flow.density * gradient_at(flow, i, correction.pressure);
     }
   });
   update_wall_velocity(flow, walls_at_rest, correction.velocity);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) {
+    if (flow.is_solved_for(i)) {
       correction.source[i] = flow.density / dt * divergence_at(flow, i, correction.velocity);
     }
   });
@@ -76,7 +76,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
   update_wall_velocity(flow, flow.walls.velocity, particles.velocity);
   std::vector<double> source(particles.size(), 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
+    if (flow.is_solved_for(i)) source[i] = -flow.density / dt * divergence_at(flow, i, particles.velocity);
   });
 
   // A correction changes the fluid's velocity only.

@@ -38,6 +38,9 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   flow.shift.resize(particles.owned);
   interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                     flow.interior, flow.concentration_gradient, flow.shift);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (flow.is_leaving(i)) flow.shift[i].setZero();
+  });
   if (flow.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow);
   for_each(particles.owned, [&](std::size_t i) {
     flow.position_old[i] = particles.position[i];  // r^n has served

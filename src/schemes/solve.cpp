@@ -18,7 +18,7 @@ bool has_air(const Flow<Dim>& flow) {
 /// Whether particle i, near the surface, pulls although the equation does not limit it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return flow.particles.is_fluid(i) && !flow.is_held[i] && flow.interior[i] < 1.0 && flow.particles.pressure[i] < 0.0;
+  return flow.is_solved_for(i) && !flow.is_held[i] && flow.interior[i] < 1.0 && flow.particles.pressure[i] < 0.0;
 }
 
 /// Limits suction in the equation where the present pressure asks for it.

@@ -8,6 +8,7 @@ namespace tailwater {
 template <int Dim>
 void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
+  hold_open_ends(flow, 0.0);
   remember(flow);
   locate(flow);
   if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either

@@ -39,6 +39,16 @@ void place_walls(Flow<Dim>& flow, double time);
 template <int Dim>
 WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 
+/// What holds at the open ends in this step: which particles are in an end stretch, their velocity, the level beyond.
+/// Call once per step, at the positions where it starts.
+template <int Dim>
+void hold_open_ends(Flow<Dim>& flow, double dt);
+
+/// Takes out and books the particles that have passed an outlet. Returns whether there were any; then indices have
+/// changed and lists are gone. Call between steps only.
+template <int Dim>
+bool let_go(Flow<Dim>& flow);
+
 /// (F14), (F21): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the present
 /// positions.
 template <int Dim>

@@ -99,6 +99,56 @@ class OutputContract(ProgramTest):
         self.assertEqual(self.summary("run")["time_s"]["reached"], 1e-6)
 
 
+class Outlet(ProgramTest):
+    """The small dam break over an open end 1.5 m from the wall: at sqrt(g h) = 2.2 m/s some of it is out after 0.6 s."""
+
+    OPEN = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.5, 0]]", "--set", "time.end=0.6")
+
+    def setUp(self):
+        super().setUp()
+        case = self.folder / "small.toml"
+        case.write_text(case.read_text() + '[[probe]]\nname = "volume"\ntype = "volume"\n'
+                        '[[outlet]]\nname = "end"\nfrom = [1.5, 0]\nto = [1.5, 2]\n')
+
+    def test_what_is_inside_and_what_left_is_what_was_there(self):
+        for integrator in ("explicit", "implicit"):
+            with self.subTest(integrator):
+                result = self.call("run", "small.toml", "--out", integrator, *self.OPEN, "--set",
+                                   f"scheme.integrator={integrator}")
+                balance = self.summary(integrator)["water_balance"]
+                start, inside, out = (balance[key]["particles"] for key in ("start", "inside", "out"))
+                self.assertEqual(start, 50)
+                self.assertEqual(inside + out, start)
+                self.assertGreater(out, 0)
+                for key in ("start", "inside", "out"):
+                    self.assertAlmostEqual(balance[key]["volume_m3"], 0.01 * balance[key]["particles"])
+                self.assertEqual([(o["name"], o["particles"]) for o in balance["outlets"]], [("end", out)])
+                *_, water, _ = result.stderr.splitlines()
+                self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, {out} .* out$")
+
+                names, steps = self.table(f"{integrator}/steps.csv")
+                volume_out = [row[names.index("volume_out_m3")] for row in steps]
+                self.assertEqual(volume_out, sorted(volume_out))
+                self.assertAlmostEqual(volume_out[-1], 0.01 * out)
+                names, rows = self.table(f"{integrator}/probes/volume.csv")
+                for row in rows:
+                    self.assertAlmostEqual(0.01 * row[names.index("particles")] + row[names.index("volume_out_m3")], 0.5)
+                _, fields = read_points(read_series(self.folder / integrator / "fields/fields.pvd")[-1][1])
+                self.assertEqual(len(set(fields["id"])), inside)
+                self.assertEqual(self.summary(integrator)["volume"]["outside_the_walls_most"], 0)
+
+    def test_a_run_goes_on_when_all_is_gone(self):
+        self.call("run", "small.toml", "--out", "run", *self.OPEN, "--set", "fluid[0].velocity=[8, 0]")
+        summary = self.summary("run")
+        self.assertEqual(summary["water_balance"]["inside"]["particles"], 0)
+        self.assertEqual(summary["status"], "done")
+        self.assertGreaterEqual(summary["time_s"]["reached"], 0.6)
+
+    def test_the_preview_shows_it(self):
+        self.call("check", "small.toml", *self.OPEN)
+        self.assertIn(">end</text>", (self.folder / "small.preview.svg").read_text())
+
+
 class Messages(ProgramTest):
     def test_progress_goes_to_standard_error_in_plain_lines(self):
         result = self.call("run", "small.toml", "--out", "run")

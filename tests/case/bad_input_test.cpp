@@ -178,6 +178,16 @@ const std::vector<BadInput> table{
      {"wall[0].points[1] = [1, 0, 0]", "give 2 numbers"}},
     {"point_not_a_list", required_keys + water + "[[wall]]\npoints = [0]\n", "7:11", {"wall[0].points[0] = 0"}},
     {"points_not_a_list", required_keys + water + "[[wall]]\npoints = 1\n", "7:10", {"list of points in m"}},
+    // Outlets
+    {"outlet_without_end", required_keys + water + "[[outlet]]\nfrom = [1, 0]\n", "6:1", {"outlet[0].to is missing"}},
+    {"outlet_without_extent",
+     required_keys + water + "[[outlet]]\nfrom = [1, 0]\nto = [1, 0]\n",
+     "8:6",
+     {"outlet[0].to", "same point as from"}},
+    {"outlet_direction_is_zero",
+     required_keys + water + "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\ndirection = [0, 0]\n",
+     "9:13",
+     {"outlet[0].direction", "has length 0"}},
     // Periodic directions
     {"period_of_one", required_keys + "[domain]\nperiodic_x = [1]\n" + water, "4:14", {"two numbers in m"}},
     {"period_backwards", required_keys + "[domain]\nperiodic_y = [1, 0]\n" + water, "4:14", {"low below high"}},

@@ -77,6 +77,17 @@ TEST(Reader, FillsInWhatDependsOnTheDimension) {
   EXPECT_EQ(spec.probes[0].direction, (Coordinates{1.0, 0.0, 0.0}));
 }
 
+TEST(Reader, ReadsOutlets) {
+  const CaseSpec spec = read_text(required_keys + water +
+                                  "[[outlet]]\nfrom = [1, 0]\nto = [1, \"2*dx\"]\n"
+                                  "[[outlet]]\nname = \"left\"\nfrom = [0, 0]\nto = [0, 1]\ndirection = [-1, 0]\n");
+  EXPECT_EQ(spec.outlets[0].name, "outlet1");
+  EXPECT_EQ(spec.outlets[0].to, (Coordinates{1.0, 2.0 * spec.particles.spacing}));
+  EXPECT_EQ(spec.outlets[0].direction, (Coordinates{1.0, 0.0}));
+  EXPECT_EQ(spec.outlets[1].name, "left");
+  EXPECT_EQ(spec.outlets[1].direction, (Coordinates{-1.0, 0.0}));
+}
+
 TEST(Reader, NumbersNamelessBlocksAndWallsByTheirPlace) {
   const CaseSpec spec = read_text(required_keys + water + "[[fluid]]\nname = \"b\"\nmin = [2, 0]\nmax = [3, 1]\n" +
                                   "[[fluid]]\nmin = [4, 0]\nmax = [5, 1]\n[[wall]]\npoints = [[0, 0], [1, 0]]\n");

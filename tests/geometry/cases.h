@@ -53,6 +53,24 @@ inline FluidTable polygon_fluid(std::vector<Coordinates> points) {
   return block;
 }
 
+inline OutletTable outlet(Coordinates from, Coordinates to) {
+  OutletTable outlet;
+  outlet.direction.assign(from.size(), 0.0);
+  outlet.direction[0] = 1.0;
+  outlet.from = std::move(from);
+  outlet.to = std::move(to);
+  return outlet;
+}
+
+/// Channel 2.0 m long and open at its end, filled to 0.4 m over its first half, spacing 0.1 m.
+inline CaseSpec open_channel() {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {1.0, 0.4})};
+  spec.outlets = {outlet({2.0, 0.0}, {2.0, 0.8})};
+  return spec;
+}
+
 /// Open tank 1.0 x 0.6 m, filled to 0.4 m, spacing 0.1 m.
 inline CaseSpec tank() {
   CaseSpec spec = empty_case(0.1);

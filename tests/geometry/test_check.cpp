@@ -339,5 +339,69 @@ TEST(CheckMotion, AWallThatEndsAtAMovingOneIsToldToGoOn) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, AnOutletIsNoLeak) {
+  EXPECT_TRUE(check(open_channel()).empty()) << listed(check(open_channel()));
+  CaseSpec full = open_channel();
+  full.fluid = {box_fluid({0.0, 0.0}, {2.0, 0.4})};
+  EXPECT_TRUE(check(full).empty()) << listed(check(full));
+  CaseSpec closed_above = open_channel();
+  closed_above.walls.push_back(polyline({{2.0, 0.8}, {0.0, 0.8}}));
+  EXPECT_TRUE(check(closed_above).empty()) << listed(check(closed_above));
+
+  CaseSpec low = open_channel();
+  low.outlets = {outlet({2.0, 0.0}, {2.0, 0.2})};
+  expect_only(check(low), Severity::error, {"would pour out"});
+}
+
+TEST(Check, AnOutletIn3DIsNoLeak) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  spec.outlets = {outlet({1.0, 0.0, 0.0}, {1.0, 0.5, 0.6})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.outlets = {outlet({1.0, 0.1, 0.0}, {1.0, 0.5, 0.6})};
+  expect_among(check<3>(spec), Severity::error, {"'outlet1' leaves a gap to the walls", "(1, 0.1, "});
+}
+
+TEST(Check, AnOutletThatOverlapsAWallIsAnError) {
+  CaseSpec closed = open_channel();
+  closed.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
+  expect_only(check(closed), Severity::error, {"outlet 'outlet1' overlaps wall 'wall1' at (2, ", "leave that piece"});
+  CaseSpec crossed = open_channel();
+  crossed.walls.push_back(box_wall({1.8, 0.35}, {2.5, 0.7}, {}, FluidSide::outside));
+  expect_among(check(crossed), Severity::error, {"outlet 'outlet1' overlaps wall 'wall2'"});
+}
+
+TEST(Check, AnOutletThatCutsThroughWaterIsAnError) {
+  CaseSpec spec = open_channel();
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {3.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.3, 0.4})};
+  expect_among(check(spec), Severity::error, {"'outlet1' cuts through fluid 'fluid1': 12 particles", "(2.05, 0.05)"});
+  CaseSpec backward = open_channel();
+  backward.outlets[0].direction = {-1.0, 0.0};
+  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "turn its direction round"});
+}
+
+TEST(Check, AnOutletOffTheWallsIsAnError) {
+  CaseSpec gap = open_channel();
+  gap.outlets = {outlet({2.0, 0.03}, {2.0, 0.8})};
+  expect_among(check(gap), Severity::error, {"leaves a gap to the walls at (2, 0.03)", "(2, 0), 0.03 m away"});
+  CaseSpec below = open_channel();
+  below.outlets = {outlet({2.0, -0.03}, {2.0, 0.8})};
+  expect_among(check(below), Severity::error, {"at (2, -0.03)", "0.03 m away"});
+  CaseSpec outside = open_channel();
+  outside.outlets = {outlet({5.0, 0.0}, {5.0, 0.8})};
+  expect_among(check(outside), Severity::error, {"leaves a gap to the walls at (5, 0)", "3 m away"});
+  CaseSpec no_wall = open_channel();
+  no_wall.walls.clear();
+  expect_only(check(no_wall), Severity::error, {"the case has no wall"});
+}
+
+TEST(Check, AnOutletInAPeriodicDirectionIsAnError) {
+  CaseSpec spec = open_channel();
+  spec.domain.periodic_x = {0.0, 2.0};
+  expect_among(check(spec), Severity::error, {"'outlet1'", "lets water out in x, a periodic direction"});
+}
+
 }  // namespace
 }  // namespace tailwater

@@ -52,5 +52,13 @@ TEST(Preview, Projects3DOnXAndZ) {
   EXPECT_NE(preview<3>(spec).find("z (m)"), std::string::npos);
 }
 
+TEST(Preview, ShowsOutlets) {
+  CaseSpec spec = open_channel();
+  spec.outlets[0].name = "weir & end";
+  EXPECT_NE(preview<2>(spec).find(">weir &amp; end</text>"), std::string::npos);
+  spec.outlets.clear();
+  EXPECT_EQ(preview<2>(spec).find("weir"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tailwater

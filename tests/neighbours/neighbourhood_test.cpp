@@ -246,5 +246,30 @@ TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
   expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
 }
 
+TYPED_TEST(NeighbourhoodTest, KeepTakesTheOthersOut) {
+  constexpr int Dim = TypeParam::value;
+  const PeriodicDomain<Dim> domain = unit_domain<Dim>(1);
+  Particles<Dim> particles = random_fluid<Dim>(300, 10);
+  const Particles<Dim> before = particles;
+  auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, domain);
+  neighbourhood.update(particles);
+  std::vector<std::int32_t> kept;
+  for (std::int32_t i = 0; i < 300; i += 3) kept.push_back(i);
+  neighbourhood.keep(particles, kept);
+
+  ASSERT_EQ(particles.owned, 100u);
+  ASSERT_EQ(particles.size(), 100u) << "no ghosts";
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    EXPECT_EQ(particles.id[i], before.id[3 * i]);
+    EXPECT_EQ(particles.position[i], before.position[3 * i]);
+  }
+  EXPECT_TRUE(neighbourhood.update(particles));
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
+
+  neighbourhood.keep(particles, {});
+  EXPECT_TRUE(neighbourhood.update(particles));
+  EXPECT_EQ(neighbourhood.pairs().owned(), 0u);
+}
+
 }  // namespace
 }  // namespace tailwater

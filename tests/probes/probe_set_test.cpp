@@ -47,7 +47,7 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   const RunFolder folder = RunFolder::create(temporary.path(), false);
   ProbeSet<2> probes(make_probes<2>(tank.spec, tank.boundary), folder);
   ProbeContext<2> context = tank.context();
-  context.totals = {1.5, -2.0, 0.25, 0.5};
+  context.totals = {1.5, -2.0, 0.25, 0.5, 0.125};
   probes.record(context);
 
   const std::vector<std::pair<std::string, std::string>> headers{
@@ -63,7 +63,7 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   EXPECT_EQ(lines_of(folder.probe("profile")).size(), 21u);
   EXPECT_EQ(lines_of(folder.probe("energy")), (Lines{"time_s,kinetic_J,potential_J,total_J", "0,1.5,-2,-0.5"}));
   EXPECT_EQ(lines_of(folder.probe("volume")),
-            (Lines{"time_s,particles,density_error_mean,density_error_rms", "0,200,0.25,0.5"}));
+            (Lines{"time_s,particles,density_error_mean,density_error_rms,volume_out_m3", "0,200,0.25,0.5,0.125"}));
 }
 
 TEST(ProbeSet, WritesAtEveryStepAtIntervalsOrAtTimes) {

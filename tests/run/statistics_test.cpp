@@ -56,6 +56,19 @@ TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
   EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_less_density_work_over_start"].get<double>(), 0.075);
 }
 
+TEST(RunStatistics, EnergyThatLeftIsNeitherLostNorGained) {
+  FlowMeasures later = with_energy(1.0, 5.0);
+  later.departed.energy = 4.0;
+  FlowMeasures last = with_energy(0.0, 0.0);
+  last.departed.energy = 10.5;
+  RunStatistics statistics(with_energy(0.0, 10.0));
+  statistics.add(step_of(0.1, 1, 1), later, 0);
+  statistics.add(step_of(0.1, 1, 1), last, 0);
+  const auto json = statistics.json(0, 100);
+  EXPECT_DOUBLE_EQ(json["energy"]["out_J"].get<double>(), 10.5);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 0.5);
+}
+
 TEST(RunStatistics, DivideByNothingWithoutSteps) {
   const auto json = RunStatistics(with_energy(0.0, 0.0)).json(0, 0);
   EXPECT_EQ(json["steps"]["count"], 0);
