@@ -51,7 +51,7 @@ void check_corner_count(const std::vector<Coordinates>& points, std::size_t leas
 }  // namespace
 
 void set_defaults(SchemeTable& scheme, TableReader& reader) {
-  reader.read_ahead(scheme, {"formulation", "integrator"});
+  reader.read_ahead(scheme, {"name", "formulation", "integrator"});
   apply_formulation(scheme);
 }
 
