@@ -129,8 +129,8 @@ struct Flow {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }
   /// Whether gravity acts in the prediction, as published in both schemes, or in the correction: the wall rows decide.
-  /// Those of a row with dummies see it in the fluid that comes down on them; the others ask for grad p . n = rho g .
-  /// n, and it would count twice.
+  /// Those of a row with dummies see it, and the wall's own motion, in the fluid that comes down on them; the others
+  /// ask for grad p . n = rho (g - a) . n, and it would count twice.
   bool predicts_gravity() const { return walls.treatment == WallTreatment::row_and_dummies; }
   /// Whether particle i has the pressure equation for its row: fluid, and the row on the wall that has dummies behind.
   bool has_equation(std::size_t i) const {

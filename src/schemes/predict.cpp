@@ -64,7 +64,7 @@ void predict(Flow<Dim>& flow, double dt) {
     flow.u_star[i] = flow.is_leaving(i) ? particles.velocity[i]
                                         : Vec<Dim>(flow.velocity_old[i] + dt * (flow.acceleration[i] + gravity));
   });
-  update_wall_velocity(flow, flow.wall_velocity_old, flow.u_star);
+  update_wall_velocity(flow, flow.predicts_gravity() ? flow.wall_velocity_next : flow.wall_velocity_old, flow.u_star);
 }
 
 template <int Dim>
