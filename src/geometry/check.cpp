@@ -441,7 +441,7 @@ void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
         error(findings,
               "{} {} at {}: the nearest place of {} is {}, {:.6g} m away; put the outlet's end on the wall there", name,
               wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
-              wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance));
+              wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance));
         break;
       }
     }
@@ -453,7 +453,7 @@ void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
               "{} overlaps {} at {}: nothing may stand in it, nor in the last {:.6g} m before it; leave that piece of "
               "wall "
               "out (of a box: open = [...]), or move the outlet",
-              name, wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), spec.scheme.support * dx);
+              name, wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), spec.scheme.support * dx);
         break;
       }
     }
