@@ -12,7 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import martin_moyce1952, martin_moyce1952_picture, picture, zhou1999
+from . import (martin_moyce1952, martin_moyce1952_picture, picture, soares_frazao2002, soares_frazao2002_picture,
+               zhou1999)
 from .curves import DataError
 from .metric import bar
 from .run_folder import RunFolder
@@ -30,6 +31,7 @@ class Case:
 
 CASES = {
     "martin_moyce1952": Case(martin_moyce1952.TITLE, martin_moyce1952.score, martin_moyce1952_picture.draw),
+    "soares_frazao2002": Case(soares_frazao2002.TITLE, soares_frazao2002.score, soares_frazao2002_picture.draw),
     "zhou1999": Case(zhou1999.TITLE, zhou1999.score, picture.draw_zhou1999),
 }
 

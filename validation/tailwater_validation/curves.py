@@ -113,9 +113,9 @@ def arrival_time(pressure, threshold, not_before=-np.inf):
 def passage_time(curve, level):
     """When the curve first rises through `level`, linear between samples."""
     above = curve.value >= level
-    k = int(np.argmax(above))
     if not above.any() or above[0]:
         raise DataError(f"the curve does not rise through {level:.3g}")
+    k = int(np.argmax(above))
     share = (level - curve.value[k - 1]) / (curve.value[k] - curve.value[k - 1])
     return float(curve.time[k - 1] + share * (curve.time[k] - curve.time[k - 1]))
 
