@@ -12,7 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import (martin_moyce1952, martin_moyce1952_picture, picture, soares_frazao2002, soares_frazao2002_picture,
+from . import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce1952_picture, ozmen_cagatay2014,
+               ozmen_cagatay2014_picture, picture, soares_frazao2002, soares_frazao2002_picture,
                zhou1999)
 from .curves import DataError
 from .metric import bar
@@ -30,7 +31,9 @@ class Case:
 
 
 CASES = {
+    "janosi2004": Case(janosi2004.TITLE, janosi2004.score, janosi2004_picture.draw),
     "martin_moyce1952": Case(martin_moyce1952.TITLE, martin_moyce1952.score, martin_moyce1952_picture.draw),
+    "ozmen_cagatay2014": Case(ozmen_cagatay2014.TITLE, ozmen_cagatay2014.score, ozmen_cagatay2014_picture.draw),
     "soares_frazao2002": Case(soares_frazao2002.TITLE, soares_frazao2002.score, soares_frazao2002_picture.draw),
     "zhou1999": Case(zhou1999.TITLE, zhou1999.score, picture.draw_zhou1999),
 }
@@ -67,7 +70,7 @@ def table(result):
     for metric in result["metrics"]:
         value = "-" if metric["value"] is None else f"{metric['value']:.3f}"
         target = bar(metric["low"], metric["high"])
-        shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at T {metric['shift']:+.3f}"
+        shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at {metric['shift']:+.3f} {metric['shift_unit']}"
         rows.append((metric["what"], value, metric["unit"], target, metric["verdict"],
                      metric["note"] or metric["against"], shift))
     # The last two columns are long where the other is empty, so the width of the sixth is that of its short cells.

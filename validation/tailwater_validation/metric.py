@@ -8,7 +8,7 @@ from .curves import DataError
 @dataclass(frozen=True)
 class Metric:
     """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences
-    from laboratory curves also have the value at the best shift of the measured curve, and that shift (of T)."""
+    from laboratory curves also have the value at the best shift in time of the measured curve, and that shift."""
 
     name: str
     what: str
@@ -19,6 +19,7 @@ class Metric:
     value: float | None = None
     shifted_value: float | None = None
     shift: float | None = None
+    shift_unit: str = "T"
     note: str = ""
 
     @property

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .curves import LEAST_COVERAGE, DataError, read_table
+from .curves import LEAST_COVERAGE, DataError
 
-# s: a profile is written at the first step at or after its time, and one of another time is another profile
-TIME_TOLERANCE = 0.02
+# s: a profile is written at the first step at or after its time; those of one run may be as near as 0.005 s
+TIME_TOLERANCE = 0.004
 
 
 @dataclass(frozen=True)
@@ -49,12 +49,11 @@ def cut(x, y, start, end):
 
 def profile_at(run, probe, time):
     """The profile that a probe of a run took at `time` (s). Throws DataError if there is none."""
-    path = run.path / "probes" / f"{probe}.csv"
-    table = read_table(path)
+    table = run.profile_table(probe)
     taken = np.unique(table["time_s"])
     nearest = taken[np.argmin(np.abs(taken - time))]
     if abs(nearest - time) > TIME_TOLERANCE:
-        raise DataError(f"{path}: has no profile at {time:.3f} s; the nearest is at {nearest:.3f} s")
+        raise DataError(f"{run.path}: {probe} has no profile at {time:.3f} s; the nearest is at {nearest:.3f} s")
     rows = table["time_s"] == nearest
     return Profile(float(nearest), *(table[name][rows] for name in ("x_m", "bed_m", "connected_m", "highest_m")))
 

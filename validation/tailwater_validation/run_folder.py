@@ -10,6 +10,7 @@ from .curves import DataError, read_curve, read_table
 class RunFolder:
     def __init__(self, path):
         self.path = Path(path)
+        self._profile_tables = {}
         effective = self.path / "case.effective.toml"
         try:
             self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
@@ -22,6 +23,12 @@ class RunFolder:
     def probe(self, name, column):
         """The curve of a probe's column over time in s."""
         return read_curve(self.path / "probes" / f"{name}.csv", column)
+
+    def profile_table(self, name):
+        """Columns of a profile probe's CSV, by name; read once, since one file holds the profiles of all times."""
+        if name not in self._profile_tables:
+            self._profile_tables[name] = read_table(self.path / "probes" / f"{name}.csv")
+        return self._profile_tables[name]
 
     def steps(self):
         """Columns of steps.csv, by name."""
