@@ -10,12 +10,13 @@ from .runs import finished
 @dataclass(frozen=True)
 class Check:
     """One number: `compute` takes what `runs` left. With `also_failed` it takes the runs themselves and the folder of
-    the whole instead, whatever became of them."""
+    the whole instead, whatever became of them. In a comparison `variant` is what is compared."""
 
     metric: Metric
     runs: tuple
     compute: Callable
     also_failed: bool = False
+    variant: str = ""
 
     def score(self, out):
         if self.also_failed:

@@ -14,19 +14,24 @@ def flow_numbers(flow, path):
 
 
 @lru_cache(maxsize=None)
-def zhou_metrics(path):
-    return {metric["name"]: metric for metric in zhou1999.score(path)["metrics"]}
+def scores(score, path):
+    """What a laboratory case's `score` finds in the folder of a run, by name."""
+    return {metric["name"]: metric for metric in score(path)["metrics"]}
 
 
 def exact(flow, name, run):
     return abs(flow_numbers(flow, run.path)[name])
 
 
-def zhou(name, run, field="value"):
-    metric = zhou_metrics(run.path)[name]
+def scored(score, name, run, field="value"):
+    metric = scores(score, run.path)[name]
     if metric[field] is None:
         raise DataError(f"{run.path.name}: {metric['note']}")
     return metric[field]
+
+
+def zhou(name, run, field="value"):
+    return scored(zhou1999.score, name, run, field)
 
 
 def summary(block, name, run):

@@ -63,7 +63,7 @@ class TestRun:
     seconds: float = 10.0
 
     def file(self, program):
-        return program.path.parents[1] / "tests" / self.room / f"test_{self.room}"
+        return program.path.with_name(f"test_{self.room}")
 
     def recipe(self, program):
         return {"tests": digest(self.file(program)), "filter": self.tests}
@@ -74,21 +74,11 @@ class TestRun:
                 f"--gtest_output=json:{folder / 'tests.json'}"]
 
     def open(self, folder):
-        """{test's full name: {recorded name: number}}."""
+        """{name: number} of all that the tests recorded (RecordProperty), which are texts that hold a number."""
         suites = json.loads((folder / "tests.json").read_text(encoding="utf-8"))["testsuites"]
-        return {f"{suite['name']}.{test['name']}": recorded_numbers(test)
-                for suite in suites for test in suite["testsuite"]}
-
-
-def recorded_numbers(test):
-    """What a test recorded (RecordProperty): those of its entries that are numbers written as text."""
-    numbers = {}
-    for name, value in test.items():
-        try:
-            numbers[name] = float(value) if isinstance(value, str) else None
-        except ValueError:
-            numbers[name] = None
-    return {name: number for name, number in numbers.items() if number is not None}
+        entries = [entry for suite in suites for test in suite["testsuite"] for entry in test.items()]
+        return {name: float(value) for name, value in entries
+                if isinstance(value, str) and re.fullmatch(r"[-+.\deE]*\d", value)}
 
 
 class Program:

@@ -1,0 +1,12 @@
+"""Every study of `tailwater validate`, one function of a Plan each."""
+
+from . import comparisons, exact, operators, zhou
+
+FUNCTIONS = (zhou.study, operators.operators, operators.poisson, exact.tank, exact.taylor_green, exact.standing_wave, exact.drop,
+             comparisons.integrators, comparisons.devices, comparisons.slip, comparisons.time_step,
+             comparisons.starts)
+
+
+def studies(plan):
+    """{name: Study}, in the order of the report."""
+    return {study.name: study for study in (function(plan) for function in FUNCTIONS)}

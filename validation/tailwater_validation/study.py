@@ -1,0 +1,104 @@
+"""A study: which runs it needs, what is read from them, what it is held against, and what is drawn."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from .checks import Check, runs_of
+from .metric import measure
+from .reading import order
+from .runs import Run, finished
+
+CASES = Path(__file__).resolve().parents[2] / "cases"
+LEVELS = ("quick", "paper", "fine")
+LABORATORY, EXACT, COMPARISON = "Laboratory", "Exact solutions", "Comparisons"
+KINDS = (LABORATORY, EXACT, COMPARISON)
+
+
+@dataclass(frozen=True)
+class Plot:
+    """`draw` takes what those of `runs` left that reached their end, and returns a matplotlib figure."""
+
+    caption: str
+    runs: tuple
+    draw: Callable
+
+
+@dataclass(frozen=True)
+class Study:
+    """`about` says what is compared with what, `uncertainty` how well that is known. The start of `shown` is drawn, and
+    its particles at `moments` (s); T = t over `time_scale` (s), if there is one."""
+
+    name: str
+    title: str
+    kind: str
+    about: str
+    uncertainty: str
+    checks: tuple
+    plots: tuple = ()
+    shown: Run | None = None
+    moments: tuple = ()
+    time_scale: float | None = None
+
+    @property
+    def what(self):
+        return self.title
+
+    @property
+    def runs(self):
+        return runs_of((*self.plots, *self.checks))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How the runs of the studies are made: the level, and the scheme under test ("" is the program's default)."""
+
+    level: str = "quick"
+    scheme: str = ""
+
+    def at(self, quick, paper, fine):
+        """What belongs to the level."""
+        return {"quick": quick, "paper": paper, "fine": fine}[self.level]
+
+    @property
+    def settings(self):
+        return (f"scheme.name={self.scheme}",) if self.scheme else ()
+
+    @property
+    def integrators(self):
+        """Only the default scheme has two."""
+        return ("explicit",) if self.scheme else ("explicit", "implicit")
+
+    @property
+    def best(self):
+        """The integrator that the bars are for."""
+        return self.integrators[-1]
+
+    def run(self, name, case, settings=(), seconds=10.0):
+        """Settings of the run itself come last: they win."""
+        return Run("_".join(filter(None, (name, self.scheme))), CASES / case, (*self.settings, *settings), seconds)
+
+
+@dataclass(frozen=True)
+class CurveCheck(Check):
+    """A difference of curves, also at the best shift: `compute` takes the name of the metric's field, too."""
+
+    def score(self, out):
+        def read(field):
+            return self.compute(*(finished(run, out) for run in self.runs), field=field)
+
+        return measure(self.metric, **{field: partial(read, field) for field in ("value", "shifted_value", "shift")})
+
+
+@dataclass(frozen=True)
+class OrderCheck(Check):
+    """An error on the last of the runs, and its observed order over all of them; `compute` takes one run."""
+
+    def score(self, out):
+        *_, last = self.runs
+
+        def observed():
+            return order({run.spacing: self.compute(run) for run in (finished(run, out) for run in self.runs)})
+
+        return measure(self.metric, value=lambda: self.compute(finished(last, out)), order=observed)
