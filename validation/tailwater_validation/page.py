@@ -67,11 +67,12 @@ def target(metric):
 
 
 def peers(metric):
-    """How far the other codes' numbers reach; the study's plots show each."""
+    """How far the other codes' numbers reach; each of them where the pointer rests on it."""
     if not metric["peers"]:
         return ""
     lowest, highest = min(peer["range"][0] for peer in metric["peers"]), max(peer["range"][1] for peer in metric["peers"])
-    return f"{number(lowest)}..{number(highest)} ({len(metric['peers'])} codes)"
+    each = ", ".join(f"{peer['name']} {number(peer['range'][0])}..{number(peer['range'][1])}" for peer in metric["peers"])
+    return f'<span title="{text(each)}">{number(lowest)}..{number(highest)} ({len(metric["peers"])} codes)</span>'
 
 
 def remark(metric):

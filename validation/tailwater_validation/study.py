@@ -28,7 +28,8 @@ class Plot:
 @dataclass(frozen=True)
 class Study:
     """`about` says what is compared with what, `uncertainty` how well that is known. The start of `shown` is drawn, and
-    its particles at `moments` (s); T = t over `time_scale` (s), if there is one."""
+    its particles at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
+    nothing, such as those of a flow that a body force drives around."""
 
     name: str
     title: str
@@ -40,6 +41,7 @@ class Study:
     shown: Run | None = None
     moments: tuple = ()
     time_scale: float | None = None
+    has_histories: bool = True
 
     @property
     def what(self):

@@ -119,7 +119,7 @@ def pictures(study, out):
         else:
             found.append(f'<p class="soft">Not drawn, no run reached its end: {plot.caption}</p>')
     cases = finished_of([run for run in study.runs if not isinstance(run, TestRun)], out)[:plots.MOST_RUNS]
-    if cases:
+    if cases and study.has_histories:
         found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases)))
     return found
 

@@ -21,11 +21,11 @@ def draw_errors(flow, quantities, *runs):
                                    for key, words, _, _ in quantities}, "error, relative")
 
 
-def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=()):
+def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=(), has_histories=True):
     """A study of one flow at several spacings, the finest last, of which the errors are shown."""
     return Study(name, title, EXACT, about, uncertainty, error_checks(name, flow, runs, quantities),
                  (Plot("Errors by spacing, with observed orders.", runs, partial(draw_errors, flow, quantities)),
-                  *more_plots), shown=runs[-1], moments=moments)
+                  *more_plots), shown=runs[-1], moments=moments, has_histories=has_histories)
 
 
 EXACTLY = "The solution is exact; what the number tells is the discretisation's error, and round-off far below it."
@@ -119,4 +119,4 @@ def poiseuille(plan):
         "give the laminar limit.", EXACTLY, runs,
         (("profile_error", "speed, largest rms error of ten instants over the rms speed", "", 0.01),
          ("across", "speed across the channel, rms over the rms speed, largest", "", None)), (),
-        (Plot("Speeds of the particles (dots) over the series.", runs, draw_poiseuille),))
+        (Plot("Speeds of the particles (dots) over the series.", runs, draw_poiseuille),), has_histories=False)
