@@ -12,6 +12,7 @@ import numpy as np
 import synthetic_run
 from fake_program import ProgramTest
 from tailwater_validation import plots, runs, study, validate, zhou1999
+from tailwater_validation.checks import Check
 from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric
 from tailwater_validation.study import LEVELS, Plan
@@ -63,8 +64,9 @@ def setUpModule():
     summary = json.loads((folder / "summary.json").read_text())
     (folder / "summary.json").write_text(json.dumps(summary | {
         "spacing_m": 0.06, "pressure_solver": {"iterations_per_solve": 8.0}}))
-    with open(folder / "case.effective.toml", "a") as case:
-        case.write("[case]\ndimension = 2\n[physics]\ndensity = 1000.0\ngravity = [0.0, -9.81]\n")
+    case = folder / "case.effective.toml"
+    case.write_text(case.read_text().replace("[case]", "[case]\ndimension = 2")
+                    + "[physics]\ndensity = 1000.0\ngravity = [0.0, -9.81]\n")
     time = np.linspace(0, 8 * zhou1999.TIME_SCALE, 50)
     columns = {"time_s": time, "kinetic_J": 100 * time, "potential_J": 2000 - 150 * time, "passes": 1 + 0 * time,
                "density_error_mean": 0 * time, "density_error_rms": 0.01 + 0 * time}
@@ -81,7 +83,7 @@ class ValidateTest(ProgramTest):
         """Without `draw` no picture is drawn, which takes longer than all else."""
         pictures = validate.pictures if draw else lambda *_: []
         with unittest.mock.patch.object(validate, "pictures", pictures):
-            return self.command(validate.main, *arguments)
+            return self.command(validate.main, "--jobs", "1", *arguments)
 
     def result(self):
         return json.loads((self.folder / "out/validation.json").read_text())
@@ -215,7 +217,8 @@ class Studies(unittest.TestCase):
                     self.assertTrue(run.case.is_file(), run.case)
 
     def test_names_of_numbers_are_unique_and_begin_with_the_study(self):
-        names = [(one.name, check.metric.name) for one in studies(Plan()).values() for check in one.checks]
+        names = [(one.name, check.metric.name) for one in studies(Plan()).values() for check in one.checks
+                 if isinstance(check, Check)]
         self.assertEqual(len(names), len(set(names)))
         for one, name in names:
             self.assertTrue(name.startswith(f"{one}."), name)
@@ -242,6 +245,18 @@ class Checks(unittest.TestCase):
         self.assertAlmostEqual(metric.order, 1.7, places=9)
         self.assertAlmostEqual(metric.value, 3 * 0.1**1.7, places=12)
         self.assertEqual(metric.verdict, "met")
+
+    def test_all_numbers_of_a_module_come_with_its_name(self):
+        made = (runs.Run("r", Path("case")),)
+        found = {"a": {"name": "a", "what": "  deep", "unit": "m", "against": "b", "low": None, "high": 1.0, "value": 2.0,
+                       "verdict": "missed"}, "z": {"name": "z"}}
+        checks = study.ModuleChecks("case", None, made, lambda name: name == "a", (("a", 9.24),))
+        with unittest.mock.patch.object(study, "finished"), unittest.mock.patch.object(study, "scores", lambda *_: found):
+            metric, = checks.scores(None)
+        self.assertEqual((metric.name, metric.what, metric.paper, metric.verdict), ("case.a", "deep", 9.24, "missed"))
+        with unittest.mock.patch.object(study, "finished", side_effect=DataError("r: it broke")):
+            metric, = checks.scores(None)
+        self.assertEqual((metric.name, metric.verdict, metric.note), ("case.finished", "missed", "r: it broke"))
 
     def test_numbers_of_tests_come_from_their_record(self):
         run = runs.TestRun("t", "operators", "*")

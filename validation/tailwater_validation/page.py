@@ -81,7 +81,8 @@ def remark(metric):
     if metric["order"] is not None:
         parts.append(f"observed order {metric['order']:.2f}")
     if metric["shifted_value"] is not None:
-        parts.append(f"{metric['shifted_value']:.3g} with the data {abs(metric['shift']):.2f} "
+        unit = f" {metric['shift_unit']}" if metric["shift_unit"] != "T" else ""
+        parts.append(f"{metric['shifted_value']:.3g} with the data {abs(metric['shift']):.3g}{unit} "
                      f"{'later' if metric['shift'] > 0 else 'earlier'}")
     return text("; ".join(parts))
 
@@ -103,15 +104,26 @@ def table(head, rows):
     return f'<div class="scroll"><table><thead>{head}</thead><tbody>{"".join(rows)}</tbody></table></div>'
 
 
-def picture(figure, caption):
+def image(svg, caption, kind=""):
+    data = base64.b64encode(svg).decode("ascii")
+    return (f'<figure{kind}><img src="data:image/svg+xml;base64,{data}" alt="{text(caption)}"/>'
+            f"<figcaption>{text(caption)}</figcaption></figure>")
+
+
+def figure_element(figure, caption):
     """A matplotlib figure as part of the page: a vector drawing, particles in it as pixels."""
     buffer = io.BytesIO()
     with rc_context(STYLE):
         figure.savefig(buffer, format="svg", dpi=RESOLUTION, metadata={"Date": None})
-    data = base64.b64encode(buffer.getvalue()).decode("ascii")
-    kind = ' class="half"' if figure.get_figwidth() <= WIDTH / 2 else ""
-    return (f'<figure{kind}><img src="data:image/svg+xml;base64,{data}" alt="{text(caption)}"/>'
-            f"<figcaption>{text(caption)}</figcaption></figure>")
+    return image(buffer.getvalue(), caption, ' class="half"' if figure.get_figwidth() <= WIDTH / 2 else "")
+
+
+def sheet_element(draw, folder, caption):
+    """The picture that `draw` makes of a run's folder. Throws DataError."""
+    buffer = io.BytesIO()
+    with rc_context({"savefig.format": "svg"}):
+        draw(folder, buffer)
+    return image(buffer.getvalue(), caption)
 
 
 RUN_HEAD = ('<tr><th>run</th><th class="number">dx (mm)</th><th class="number">fluid particles</th>'

@@ -50,14 +50,17 @@ def labels(runs):
 
 
 class View:
-    """What part of the plane the pictures of some frames show, and by how much heights are exaggerated."""
+    """What part of the plane the pictures of some frames show, and by how much heights are exaggerated. Of a channel that
+    goes on in front of the water, with `crop`, only a part."""
 
-    def __init__(self, run, frames, margin=0.02):
+    def __init__(self, run, frames, crop=False, margin=0.02):
         water = np.concatenate([frame.position[:, :2] for frame in frames])
         corners = np.array([point for chain in run.walls for point in chain] or water)
         low, high = np.minimum(corners.min(0), water.min(0)), np.maximum(corners.max(0), water.max(0))
         if run.walls:  # walls are higher than the water goes
             high[1] = min(high[1], low[1] + 1.12 * (np.percentile(water[:, 1], SHOWN_SHARE) - low[1]))
+        if crop:
+            high[0] = min(high[0], water[:, 0].max() + 0.1 * np.ptp(water[:, 0]))
         pad = margin * (high[0] - low[0])
         self.x = (low[0] - pad, high[0] + pad)
         ratio = (high[1] - low[1]) / (high[0] - low[0])
@@ -104,7 +107,7 @@ def moment(time, time_scale):
 def draw_moments(run, times, time_scale=None):
     """Particles coloured by pressure at several times (s); T = t over `time_scale`."""
     start, *frames = nearest_frames(run.path, (0.0, *times))
-    view = View(run, [start, *frames])
+    view = View(run, [start, *frames], crop=True)
     columns = min(len(frames), 1 if view.ratio < 0.2 else 2 if view.ratio < 0.35 else 3)
     rows = math.ceil(len(frames) / columns)
     width = min((WIDTH - 1.2) / columns, 0.4 * WIDTH if columns > 1 or view.ratio > 0.2 else WIDTH)

@@ -158,7 +158,7 @@ class Progress:
         self.estimated += run.seconds
         self.taken += seconds
         self.estimated_left -= run.seconds
-        left = self.estimated_left * self.taken / self.estimated / self.jobs
+        left = max(0.0, self.estimated_left) * self.taken / self.estimated / self.jobs
         print(f"[{self.done}/{self.total}] {run.name}: {how} in {seconds:.0f} s; ETA {duration(left)}",
               file=sys.stderr, flush=True)
 

@@ -6,8 +6,9 @@ from functools import partial
 from pathlib import Path
 
 from .checks import Check, runs_of
-from .metric import measure
-from .reading import order
+from .curves import DataError
+from .metric import Metric, measure
+from .reading import order, scores
 from .runs import Run, finished
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -27,7 +28,8 @@ class Plot:
 
 @dataclass(frozen=True)
 class Study:
-    """`about` says what is compared with what, `uncertainty` how well that is known. The start of `shown` is drawn, and
+    """`about` says what is compared with what, `uncertainty` how well that is known. `sheets` are (caption, run, draw):
+    the picture that a case's own module draws of the folder of a run into a file. The start of `shown` is drawn, and
     its particles at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
     nothing, such as those of a flow that a body force drives around."""
 
@@ -38,6 +40,7 @@ class Study:
     uncertainty: str
     checks: tuple
     plots: tuple = ()
+    sheets: tuple = ()
     shown: Run | None = None
     moments: tuple = ()
     time_scale: float | None = None
@@ -104,3 +107,26 @@ class OrderCheck(Check):
             return order({run.spacing: self.compute(run) for run in (finished(run, out) for run in self.runs)})
 
         return measure(self.metric, value=lambda: self.compute(finished(last, out)), order=observed)
+
+
+@dataclass(frozen=True)
+class ModuleChecks:
+    """All numbers that a laboratory case's own module finds in one run and whose names `keep` accepts; `paper` has what
+    the paper reports for its own code, by name. Of a run that did not reach its end: that it did not."""
+
+    name: str
+    module_score: Callable
+    runs: tuple
+    keep: Callable = lambda name: True
+    paper: tuple = ()
+    variant: str = ""
+
+    def scores(self, out):
+        run, = self.runs
+        try:
+            found = scores(self.module_score, finished(run, out).path)
+        except DataError as error:
+            return [Metric(f"{self.name}.finished", "the run reaches its end", "of 1", "", low=1, value=0, note=str(error))]
+        return [Metric(**{key: value for key, value in metric.items() if key != "verdict"}
+                       | {"name": f"{self.name}.{name}", "what": metric["what"].strip(), "paper": dict(self.paper).get(name)})
+                for name, metric in found.items() if self.keep(name)]

@@ -9,6 +9,7 @@ interrupted.
 """
 
 import datetime
+import html
 import json
 import os
 import platform
@@ -19,7 +20,7 @@ from matplotlib import rc_context
 from . import command, plots
 from .curves import DataError
 from .metric import bar
-from .page import page, picture
+from .page import figure_element, page, sheet_element
 from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
@@ -30,7 +31,7 @@ def metric_record(check, metric):
             "high": metric.high, "paper": metric.paper,
             "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers],
             "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": metric.shifted_value,
-            "shift": metric.shift, "order": metric.order, "note": metric.note, "variant": check.variant, "runs": [run.name for run in check.runs]}
+            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": metric.order, "note": metric.note, "variant": check.variant, "runs": [run.name for run in check.runs]}
 
 
 def run_record(run, out):
@@ -56,7 +57,7 @@ def run_record(run, out):
 def study_record(study, out):
     return {"name": study.name, "title": study.title, "kind": study.kind, "about": study.about,
             "uncertainty": study.uncertainty,
-            "metrics": [metric_record(check, check.score(out)) for check in study.checks],
+            "metrics": [metric_record(check, metric) for check in study.checks for metric in check.scores(out)],
             "runs": [run_record(run, out) for run in study.runs]}
 
 
@@ -98,9 +99,13 @@ def try_picture(caption, draw):
     """A picture for the page, or the reason why there is none."""
     try:
         with rc_context(plots.STYLE):
-            return picture(draw(), caption)
+            return figure_element(draw(), caption)
     except DataError as error:
-        return f'<p class="soft">Not drawn ({error}): {caption}</p>'
+        return not_drawn(error, caption)
+
+
+def not_drawn(error, caption):
+    return f'<p class="soft">Not drawn ({html.escape(str(error))}): {html.escape(caption)}</p>'
 
 
 def pictures(study, out):
@@ -112,12 +117,17 @@ def pictures(study, out):
         if study.moments:
             found.append(try_picture(f"Particles of {study.shown.name}, coloured by pressure.", lambda: plots.draw_moments(
                 finished(study.shown, out), study.moments, study.time_scale)))
+    for caption, run, draw in study.sheets:
+        try:
+            found.append(sheet_element(draw, finished(run, out).path, caption))
+        except DataError as error:
+            found.append(not_drawn(error, caption))
     for plot in study.plots:
         left = finished_of(plot.runs, out)
         if left:
             found.append(try_picture(plot.caption, lambda plot=plot, left=left: plot.draw(*left)))
         else:
-            found.append(f'<p class="soft">Not drawn, no run reached its end: {plot.caption}</p>')
+            found.append(not_drawn("no run reached its end", plot.caption))
     cases = finished_of([run for run in study.runs if not isinstance(run, TestRun)], out)[:plots.MOST_RUNS]
     if cases and study.has_histories:
         found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases)))

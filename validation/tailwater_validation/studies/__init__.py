@@ -1,9 +1,10 @@
 """Every study of `tailwater validate`, one function of a Plan each."""
 
-from . import comparisons, exact, operators, shallow, zhou
+from . import comparisons, exact, laboratory, operators, shallow, zhou
 
-FUNCTIONS = (zhou.study, operators.operators, operators.poisson, exact.tank, exact.taylor_green, exact.standing_wave,
-             exact.drop, exact.poiseuille, shallow.ritter, shallow.stoker, comparisons.integrators, comparisons.devices,
+FUNCTIONS = (zhou.study, laboratory.martin_moyce, laboratory.janosi, laboratory.ozmen_cagatay, laboratory.soares_frazao,
+             operators.operators, operators.poisson, exact.tank, exact.taylor_green, exact.standing_wave, exact.drop,
+             exact.poiseuille, shallow.ritter, shallow.stoker, comparisons.integrators, comparisons.devices,
              comparisons.slip, comparisons.time_step, comparisons.starts)
 
 
