@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .curves import DataError, read_table
+from .curves import DataError
 from .particles import list_frames, read_frame
 from .profiles import profile_at, rms
 from .run_folder import RunFolder
@@ -288,7 +288,7 @@ def stoker(similarity, ahead):
 
 def late_profiles(run, scale):
     """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
-    times = np.unique(read_table(run.path / "probes" / "surface.csv")["time_s"])
+    times = np.unique(run.profile_table("surface")["time_s"])
     taken = [profile_at(run, "surface", time) for time in times]
     depth = run.parameters["h0"]
     return [(profile.time / scale, profile.x / depth, profile.connected / depth) for profile in taken

@@ -8,7 +8,7 @@ import math
 
 import matplotlib
 import numpy as np
-from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from .particles import nearest_frames
@@ -23,6 +23,7 @@ EXACT = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1, 1.2)), "zorder":
 STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
          "axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path", "axes.axisbelow": True}
 WIDTH = 11.5
+MOST_STRETCHED = 2  # exaggeration of heights up to which particles are drawn as discs
 FLATTEST = 0.11  # height over width of a particle picture, below which its heights are exaggerated
 SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the rest is spray
 MOST_RUNS = 8  # in one plot
@@ -78,11 +79,17 @@ class View:
         axes.tick_params(length=2.5)
 
 
-def draw_particles(axes, position, spacing, share=2**0.5, **style):
-    """Each particle a disc of diameter `share` dx; by default it covers its share of the water."""
-    size = np.full(len(position), share * spacing)
-    dots = EllipseCollection(size, size, np.zeros(len(position)), units="xy", offsets=position[:, :2],
-                             transOffset=axes.transData, linewidths=0, rasterized=True, zorder=2, **style)
+def draw_particles(axes, position, spacing, view, share=2**0.5, **style):
+    """Each particle a disc of diameter `share` dx; by default it covers its share of the water. Where heights are
+    exaggerated discs would be spikes: there each is a piece about dx high."""
+    x, y = position[:, 0], position[:, 1]
+    if view.exaggeration > MOST_STRETCHED:
+        half = 0.5 * spacing * np.array([[-share, -1.1], [share, -1.1], [share, 1.1], [-share, 1.1]])
+        dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
+    else:
+        size = np.full(len(position), share * spacing)
+        dots = EllipseCollection(size, size, np.zeros(len(position)), units="xy", offsets=position[:, :2],
+                                 transOffset=axes.transData, linewidths=0, rasterized=True, zorder=2, **style)
     axes.add_collection(dots)
     return dots
 
@@ -117,7 +124,7 @@ def draw_moments(run, times, time_scale=None):
     for axes in every.flat[len(frames):]:
         axes.set_visible(False)
     for axes, frame in zip(every.flat, frames):
-        dots = draw_particles(axes, frame.position, run.spacing, array=frame.fields["pressure"] / 1000, cmap="viridis",
+        dots = draw_particles(axes, frame.position, run.spacing, view, array=frame.fields["pressure"] / 1000, cmap="viridis",
                               clim=(low, high))
         draw_walls(axes, run)
         view.apply(axes)
@@ -154,7 +161,7 @@ def draw_start(run):
     width = WIDTH - 0.8 if view.ratio < 0.3 else min(WIDTH / 2 - 1.0, 4.0 / view.ratio)
     figure = new_figure(width + 0.8, width * view.ratio + 0.6)
     axes = figure.subplots()
-    draw_particles(axes, frame.position, run.spacing, 0.9, facecolors=SKY)
+    draw_particles(axes, frame.position, run.spacing, view, 0.9, facecolors=SKY)
     draw_walls(axes, run)
     for probe in run.case.get("probe", []):
         mark_probe(axes, probe, view)

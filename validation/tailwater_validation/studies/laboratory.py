@@ -63,7 +63,7 @@ def janosi(plan):
 
 def ozmen_cagatay(plan):
     name = "ozmen_cagatay2014"
-    runs = tuple(case_run(plan, name, "h0", count, 90) for count in plan.at((9,), (9, 18), (18, 27)))
+    runs = tuple(case_run(plan, name, "h0", count, 18) for count in plan.at((9, 13), (9, 18), (18, 27)))
     farmani = (("mean error profile", 9.24), ("largest error profile", 14.2), ("mean error gauge", 12.47),
                ("largest error gauge", 15.3))
     return laboratory_study(
@@ -81,7 +81,7 @@ def ozmen_cagatay(plan):
 
 def soares_frazao(plan):
     name = "soares_frazao2002"
-    runs = tuple(case_run(plan, name, "h0", count, 45) for count in plan.at((8,), (8, 11, 16), (11, 16, 22)))
+    runs = tuple(case_run(plan, name, "h0", count, 40) for count in plan.at((8, 11), (8, 11, 16), (11, 16, 22)))
     return laboratory_study(
         name, "Dam break over a sill into still water: Soares-Frazao (2002)", soares_frazao2002, soares_frazao2002_picture.draw,
         "A reservoir 0.111 m deep empties over a sill 0.065 m high into still water before a closed end. Farmani et al. show surfaces "
