@@ -246,6 +246,40 @@ spacing = 0.1
             self.assertAlmostEqual(numbers[name], value, delta=4 * FLOAT32)
 
 
+class Couette(RunTest):
+    GAP, VISCOSITY, SPEED = 2.0, 0.1, 1.5
+    CASE = """\
+[parameters]
+L = 2.0
+U = 1.5
+[physics]
+viscosity = 0.1
+[particles]
+spacing = 0.1
+"""
+
+    def profile(self, y, time):
+        return exact_flows.couette_profile(np.asarray(y), time, self.GAP, self.VISCOSITY, self.SPEED)
+
+    def test_obeys_the_equation_and_its_edges(self):
+        y, d, dt = np.linspace(0.2, 1.8, 9), 1e-3, 1e-4
+        for time in (1.0, 5.0):
+            rate = (self.profile(y, time + dt) - self.profile(y, time - dt)) / (2 * dt)
+            curvature = (self.profile(y + d, time) - 2 * self.profile(y, time) + self.profile(y - d, time)) / d**2
+            np.testing.assert_allclose(rate, self.VISCOSITY * curvature, atol=1e-6)  # as above
+            np.testing.assert_allclose(self.profile([0.0, self.GAP], time), [0, self.SPEED], atol=1e-12)
+        # Before diffusion has come a tenth of the gap: erfc(0.2/(2 sqrt(0.1 * 0.01))) = 8e-6 of the plate's speed.
+        np.testing.assert_allclose(self.profile(y[:-1], 0.01), 0, atol=1e-5 * self.SPEED)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (1.0, self.GAP), 0.1)
+        velocity = np.zeros((len(position), 3))
+        velocity[:, 0] = self.profile(position[:, 1], 1.0) - 0.03 * self.SPEED / math.sqrt(3)
+        numbers = exact_flows.couette(self.write_run(self.CASE, [
+            (0.0, position, {"velocity": 0 * velocity}), (1.0, position, {"velocity": velocity})]))
+        self.assertAlmostEqual(numbers["profile_error"], 0.03, delta=4 * FLOAT32)
+
+
 class ShallowDamBreak(RunTest):
     CASE = """\
 [parameters]

@@ -238,19 +238,44 @@ def poiseuille_profile(y, time, gap, viscosity, force):
     return steady - np.sin(np.multiply.outer(y, k)) @ share
 
 
-def poiseuille(run):
-    """profile_error: largest over all frames of the rms error of the speed along the plates, over the rms speed of the
-    steady flow. steady_error: the same of the last frame only. across: largest rms speed across the channel, likewise."""
-    parameters, viscosity = run.parameters, run.case["physics"]["viscosity"]
-    gap, force = parameters["L"], parameters["G"]
-    scale = force * gap**2 / (viscosity * math.sqrt(120))  # rms of the parabola
+def couette_profile(y, time, gap, viscosity, speed):
+    """Speed at the distance y (m) from a plate at rest, at `time` after the other one has begun to move along itself."""
+    k = np.arange(1, 400) * math.pi / gap
+    # The terms left out are below exp(-(400 pi)^2 nu t/gap^2): nothing from t = 3e-5 gap^2/nu on.
+    share = np.exp(-viscosity * k**2 * time) * 2 * speed / (k * gap) * np.cos(k * gap)
+    return speed * y / gap + np.sin(np.multiply.outer(y, k)) @ share
+
+
+def channel_flow(run, profile, scale):
+    """profile_error: largest over all frames of the rms error of the speed along the plates, over `scale`, the rms speed
+    of the steady flow; profile(y, time) is the exact one. steady_error: the same of the last frame only. across: largest
+    rms speed across the channel, likewise."""
     errors, across = [], []
     for frame in frames(run)[1:]:
         velocity, = fields(run, frame, "velocity")
-        exact = poiseuille_profile(frame.position[:, 1].astype(float), frame.time, gap, viscosity, force)
-        errors.append(rms(velocity[:, 0] - exact) / scale)
+        errors.append(rms(velocity[:, 0] - profile(frame.position[:, 1].astype(float), frame.time)) / scale)
         across.append(rms(velocity[:, 1]) / scale)
     return {"profile_error": max(errors), "steady_error": errors[-1], "across": max(across)}
+
+
+def poiseuille_exact(run):
+    """(profile(y, time), rms speed of the steady flow) of a run."""
+    gap, force, viscosity = run.parameters["L"], run.parameters["G"], run.case["physics"]["viscosity"]
+    return (partial(poiseuille_profile, gap=gap, viscosity=viscosity, force=force),
+            force * gap**2 / (viscosity * math.sqrt(120)))
+
+
+def couette_exact(run):
+    gap, speed, viscosity = run.parameters["L"], run.parameters["U"], run.case["physics"]["viscosity"]
+    return partial(couette_profile, gap=gap, viscosity=viscosity, speed=speed), speed / math.sqrt(3)
+
+
+def poiseuille(run):
+    return channel_flow(run, *poiseuille_exact(run))
+
+
+def couette(run):
+    return channel_flow(run, *couette_exact(run))
 
 
 # ------------------------------------------------------------------------------- dam breaks in the shallow-water limit
@@ -351,7 +376,7 @@ def stoker_dam_break(run):
 
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "ritter": ritter_dam_break, "stoker": stoker_dam_break}
+         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break}
 
 
 def main(arguments=None):

@@ -155,7 +155,8 @@ def mark_probe(axes, probe, view):
 
 
 def draw_start(run):
-    """The geometry: water and walls at the start, the gauges, and arrows where the water moves already."""
+    """The geometry: water and walls at the start (those that will move in another colour), the gauges, and arrows where the
+    water moves already."""
     frame, = nearest_frames(run.path, (0.0,))
     view = View(run, [frame])
     width = WIDTH - 0.8 if view.ratio < 0.3 else min(WIDTH / 2 - 1.0, 4.0 / view.ratio)
@@ -163,6 +164,7 @@ def draw_start(run):
     axes = figure.subplots()
     draw_particles(axes, frame.position, run.spacing, view, 0.9, facecolors=SKY)
     draw_walls(axes, run)
+    axes.add_collection(LineCollection(run.moving_walls, colors=ORANGE, linewidths=2, zorder=4))
     for probe in run.case.get("probe", []):
         mark_probe(axes, probe, view)
     velocity = frame.fields.get("velocity")

@@ -87,18 +87,17 @@ def tank(plan):
         "pressure, no motion, no compression.", EXACTLY, runs, quantities, (10.0,))
 
 
-def draw_poiseuille(*runs):
+def draw_channel(exact_of, *runs):
     """Speeds of the particles across the channel at several times, over the series."""
     figure = plots.new_figure(height=3.2)
     for axes, run in zip(figure.subplots(1, len(runs), sharey=True, squeeze=False).flat, runs):
-        parameters, viscosity = run.parameters, run.case["physics"]["viscosity"]
-        y = np.linspace(0, parameters["L"], 200)
+        profile, _ = exact_of(run)
+        y = np.linspace(0, run.parameters["L"], 200)
         for frame, style in zip(exact_flows.frames(run)[1::3], plots.CYCLE):
             velocity, = exact_flows.fields(run, frame, "velocity")
             axes.plot(velocity[:, 0], frame.position[:, 1], ".", markersize=3, color=style["color"],
                       label=f"$t$ = {frame.time:.1f} s")
-            axes.plot(exact_flows.poiseuille_profile(y, frame.time, parameters["L"], viscosity, parameters["G"]), y,
-                      **plots.EXACT)
+            axes.plot(profile(y, frame.time), y, **plots.EXACT)
         axes.set_title(f"dx = {run.spacing:g} m", loc="left")
         axes.set_xlabel("speed (m/s)")
         plots.grid(axes)
@@ -108,15 +107,26 @@ def draw_poiseuille(*runs):
     return figure
 
 
-def poiseuille(plan):
-    runs = tuple(plan.run(f"poiseuille_dx{dx:g}", "verification/poiseuille.toml", (f"particles.spacing={dx:g}",),
+def channel_study(plan, name, title, about, exact_of):
+    runs = tuple(plan.run(f"{name}_dx{dx:g}", f"verification/{name}.toml", (f"particles.spacing={dx:g}",),
                           1.5 * (0.05 / dx) ** 3.6)
                  for dx in plan.at((0.1, 0.05), (0.1, 0.05, 0.025), (0.1, 0.05, 0.025)))
     return flow_study(
-        "poiseuille", "Poiseuille flow from rest", "poiseuille",
-        "Water between two no-slip plates 1 m apart is set in motion by a body force, Re = 20, particles displaced at random by up to "
-        "0.1 dx. Speeds at ten instants against the series solution. No slip is a wall law for any Reynolds number: here it must "
-        "give the laminar limit.", EXACTLY, runs,
+        name, title, name, f"{about} Re = 20, particles displaced at random by up to 0.1 dx, speeds at ten instants against the series "
+        "solution. No slip is a wall law for any Reynolds number: here it must give the laminar limit.", EXACTLY, runs,
         (("profile_error", "speed, largest rms error of ten instants over the rms speed", "", 0.01),
          ("across", "speed across the channel, rms over the rms speed, largest", "", None)), (),
-        (Plot("Speeds of the particles (dots) over the series.", runs, draw_poiseuille),), has_histories=False)
+        (Plot("Speeds of the particles (dots) over the series.", runs, partial(draw_channel, exact_of)),),
+        has_histories=False)
+
+
+def poiseuille(plan):
+    return channel_study(plan, "poiseuille", "Poiseuille flow from rest",
+                         "Water between two no-slip plates 1 m apart is set in motion by a body force.",
+                         exact_flows.poiseuille_exact)
+
+
+def couette(plan):
+    return channel_study(plan, "couette", "Couette flow from rest",
+                         "Water between two no-slip plates 1 m apart is set in motion by one of them, which moves along itself.",
+                         exact_flows.couette_exact)
