@@ -15,6 +15,7 @@ from tailwater_validation import plots, runs, study, validate, zhou1999
 from tailwater_validation.checks import Check
 from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric
+from tailwater_validation.particles import detached
 from tailwater_validation.study import LEVELS, Plan
 from tailwater_validation.studies import operators, studies
 
@@ -85,6 +86,11 @@ class ValidateTest(ProgramTest):
         with unittest.mock.patch.object(validate, "pictures", pictures):
             return self.command(validate.main, "--jobs", "1", *arguments)
 
+    def only_run(self, *arguments):
+        """Without scores and report."""
+        with unittest.mock.patch.object(validate, "score", lambda *_: ""):
+            return self.command(validate.main, "--jobs", "1", *arguments)
+
     def result(self):
         return json.loads((self.folder / "out/validation.json").read_text())
 
@@ -123,18 +129,18 @@ class Scores(ValidateTest):
 
     def test_finished_runs_are_not_repeated(self):
         self.fake(FAKE_RUN=str(synthetic_folder()))
-        self.validate("slip")
+        self.only_run("slip")
         made = self.calls()
         self.assertEqual(len(made), 3)
-        self.validate("slip", "time-step")
+        self.only_run("slip", "time-step")
         self.assertEqual(len(self.calls()), 5)  # the default belongs to both
         self.commit("def")
-        self.validate("slip")
+        self.only_run("slip")
         self.assertEqual(self.calls()[5:], made)
 
     def test_scheme_and_ranks_reach_the_program(self):
         self.fake(FAKE_RUN=str(synthetic_folder()))
-        self.validate("zhou1999", "--scheme", "farmani2020", "-n", "3")
+        self.only_run("zhou1999", "--scheme", "farmani2020", "-n", "3")
         for path in (self.folder / "out/runs").glob("*/made.json"):
             command = json.loads(path.read_text())["command"]
             self.assertIn("--set scheme.name=farmani2020", command)
@@ -190,7 +196,7 @@ class BadInput(ValidateTest):
         (self.folder / "out").mkdir()
         (self.folder / "out/mine.txt").write_text("mine")
         self.fake(FAKE_RUN=str(synthetic_folder()))
-        self.assertEqual(self.validate("zhou1999")[0], 0)
+        self.assertEqual(self.only_run("zhou1999")[0], 0)
         self.assertEqual((self.folder / "out/mine.txt").read_text(), "mine")
 
     def test_a_program_that_refuses_every_run(self):
@@ -228,10 +234,13 @@ class Studies(unittest.TestCase):
         self.assertLess(sum(run.seconds for run in every), 2 * 600)
 
     def test_a_scheme_under_test_leaves_the_comparisons_alone(self):
+        default = studies(Plan("quick"))
         for name, one in studies(Plan("quick", "farmani2020")).items():
-            for run in one.runs:
-                if isinstance(run, runs.Run):
-                    self.assertEqual("scheme.name=farmani2020" in run.settings, one.kind != study.COMPARISON, name)
+            if one.kind == study.COMPARISON:
+                self.assertEqual(one.runs, default[name].runs)
+            else:
+                self.assertTrue(all("scheme.name=farmani2020" in run.settings for run in one.runs
+                                    if isinstance(run, runs.Run)), name)
 
 
 class Checks(unittest.TestCase):
@@ -269,6 +278,15 @@ class Checks(unittest.TestCase):
         self.assertAlmostEqual(operators.observed_order("grad", 2, numbers), 2.0, places=12)
         with self.assertRaisesRegex(DataError, "no grad in 1D"):
             operators.recorded("grad", 1, numbers)
+
+
+class Detached(unittest.TestCase):
+    def test_counts_what_no_chain_joins(self):
+        block = np.array([(x, y, 0.0) for x in np.arange(20.0) for y in np.arange(5.0)])
+        bridge = np.array([(x, 5.0, 0.0) for x in np.arange(20.0, 26.0)])
+        drops = np.array([(10.0, 20.0, 0.0), (10.5, 20.5, 0.0), (40.0, 0.0, 0.0)])
+        self.assertEqual(detached(np.concatenate([block, bridge, drops]), 1.5), 3)
+        self.assertEqual(detached(block, 1.5), 0)
 
 
 class Plots(unittest.TestCase):

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from .curves import DataError
 from .particles import nearest_frames
 
 BLUE, ORANGE, GREEN, PURPLE, SKY, YELLOW, BLACK, GREY = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9",
@@ -41,8 +42,11 @@ def run_label(run):
     return f"dx = {run.spacing * 1000:.3g} mm, {run.integrator}"
 
 
-def labels(runs):
-    """A label for each run that tells them apart: spacing and integrator, or the folder's name where those do not."""
+def labels(runs, names=None):
+    """A label for each run that tells them apart: from `names` {folder's name: label} if given, else spacing and
+    integrator, or the folder's name where those do not."""
+    if names:
+        return [names[run.path.name] for run in runs]
     short = [run_label(run) for run in runs]
     return short if len(set(short)) == len(short) else [run.path.name for run in runs]
 
@@ -187,11 +191,11 @@ def draw_curves(axes, curves, first_style=0):
     grid(axes)
 
 
-def draw_histories(runs):
-    """Energy, and volume by the density error, over time, of several runs."""
+def draw_histories(runs, names=None):
+    """Energy, and volume by the density error, over time, of several runs; `names` as in `labels`."""
     figure = new_figure(height=2.4)
     energy, kinetic, mean, rms = figure.subplots(1, 4)
-    for run, label, style in zip(runs, labels(runs), CYCLE):
+    for run, label, style in zip(runs, labels(runs, names), CYCLE):
         steps, start = run.steps(), run.summary["energy"]["start_J"]
         time = steps["time_s"]
         style = {**style, "linewidth": 1.1, "label": label}
@@ -217,6 +221,36 @@ def legend_below(figure, axes, columns=1):
     share = need / (height + need)
     figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
     figure.legend(handles, texts, loc="lower center", ncols=columns, frameon=False)
+
+
+def draw_numbers(quantities, names, *runs):
+    """Small bars of the quantities {key: (words, unit, read)} of several runs; `names` as in `labels`."""
+    rows = math.ceil(len(quantities) / 4)
+    figure = new_figure(height=0.3 + rows * (0.42 + 0.17 * len(runs)))
+    every = figure.subplots(rows, 4, sharey=True, squeeze=False)
+    for axes in every.flat[len(quantities):]:
+        axes.set_visible(False)
+    for axes, (words, unit, read) in zip(every.flat, quantities.values()):
+        values = [value_or_nan(read, run) for run in runs]
+        axes.barh(range(len(runs)), values, color=[style["color"] for style in CYCLE[:len(runs)]], height=0.7)
+        for row, value in enumerate(values):
+            axes.text(0, row, f" {value:.3g}" if value == value else " none", va="center", fontsize=7.5, color="white",
+                      bbox={"facecolor": "#00000088", "edgecolor": "none", "pad": 0.8})
+        axes.set_title(words.split(", RMS")[0] + (f" ({unit})" if unit else ""), loc="left", fontsize=8)
+        axes.tick_params(labelsize=7, length=0)
+        axes.set_xticks([])
+        axes.spines[["bottom"]].set_visible(False)
+    for axes in every[:, 0]:
+        axes.set_yticks(range(len(runs)), labels(runs, names), fontsize=8)
+    every[0, 0].invert_yaxis()
+    return figure
+
+
+def value_or_nan(read, run):
+    try:
+        return read(run)
+    except DataError:
+        return math.nan
 
 
 def draw_convergence(series, ylabel, bar=None):

@@ -31,7 +31,7 @@ class Study:
     """`about` says what is compared with what, `uncertainty` how well that is known. `sheets` are (caption, run, draw):
     the picture that a case's own module draws of the folder of a run into a file. The start of `shown` is drawn, and
     its particles at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
-    nothing, such as those of a flow that a body force drives around."""
+    nothing, such as those of a flow that a body force drives around. `names` {run's name: label} tell runs apart in plots."""
 
     name: str
     title: str
@@ -45,6 +45,7 @@ class Study:
     moments: tuple = ()
     time_scale: float | None = None
     has_histories: bool = True
+    names: dict | None = None
 
     @property
     def what(self):
@@ -119,6 +120,7 @@ class ModuleChecks:
     runs: tuple
     keep: Callable = lambda name: True
     paper: tuple = ()
+    suffix: str = ""
     variant: str = ""
 
     def scores(self, out):
@@ -126,7 +128,8 @@ class ModuleChecks:
         try:
             found = scores(self.module_score, finished(run, out).path)
         except DataError as error:
-            return [Metric(f"{self.name}.finished", "the run reaches its end", "of 1", "", low=1, value=0, note=str(error))]
+            return [Metric(f"{self.name}.finished", f"the run reaches its end{self.suffix}", "of 1", "", low=1, value=0, note=str(error))]
         return [Metric(**{key: value for key, value in metric.items() if key != "verdict"}
-                       | {"name": f"{self.name}.{name}", "what": metric["what"].strip(), "paper": dict(self.paper).get(name)})
+                       | {"name": f"{self.name}.{name}", "what": metric["what"].strip() + self.suffix,
+                          "paper": dict(self.paper).get(name)})
                 for name, metric in found.items() if self.keep(name)]

@@ -130,7 +130,7 @@ def pictures(study, out):
             found.append(not_drawn("no run reached its end", plot.caption))
     cases = finished_of([run for run in study.runs if not isinstance(run, TestRun)], out)[:plots.MOST_RUNS]
     if cases and study.has_histories:
-        found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases)))
+        found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases, study.names)))
     return found
 
 

@@ -5,11 +5,12 @@ from functools import partial
 
 import numpy as np
 
-from .. import plots
+from .. import janosi2004, plots, soares_frazao2002
 from ..checks import Check
 from ..metric import Metric
-from ..reading import energy_at, summary, zhou
+from ..reading import energy_at, scored, summary, zhou
 from ..study import COMPARISON, Plot, Study
+from .laboratory import case_run
 from .zhou import draw_depths, draw_pressure, mean_of_readings, zhou_run
 
 
@@ -21,15 +22,8 @@ def passes(run):
     return float(np.mean(run.steps()["passes"]))
 
 
-# key: (words, unit, how it is read from a run of zhou1999)
-QUANTITIES = {
-    "H2": ("depth H2, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H2 T 0..6")),
-    "H1": ("depth H1, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H1 T 0..6")),
-    "pressure": ("wall pressure, z = 0.12 m, RMS over T = 2.4..7, best shift", "rho g H",
-                 partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value")),
-    "noise": ("noise of the wall pressure, z = 0.16 m", "rho g H", partial(zhou, "noise")),
-    "front": ("front at the wall", "s", partial(zhou, "arrival_front")),
-    "energy": ("energy at T = 8", "of the start", partial(energy_at, 8)),
+# {key: (words, unit, how it is read from a run)}
+GENERAL = {
     "rise": ("largest rise of the energy", "of the start", partial(summary, "energy", "largest_rise_over_start")),
     "density": ("density error, rms", "", partial(summary, "volume", "density_error_rms")),
     "dt": ("time step, mean", "ms", milliseconds),
@@ -37,6 +31,20 @@ QUANTITIES = {
     "iterations": ("iterations per solve", "", partial(summary, "pressure_solver", "iterations_per_solve")),
     "cost": ("CPU time per simulated second", "s", partial(summary, "cost", "cpu_s_per_simulated_s")),
 }
+ZHOU = {
+    "H2": ("depth H2, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H2 T 0..6")),
+    "H1": ("depth H1, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H1 T 0..6")),
+    "pressure": ("wall pressure, z = 0.12 m, RMS over T = 2.4..7, best shift", "rho g H",
+                 partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value")),
+    "noise": ("noise of the wall pressure, z = 0.16 m", "rho g H", partial(zhou, "noise")),
+    "front": ("front at the wall", "s", partial(zhou, "arrival_front")),
+    "energy": ("energy at T = 8", "of the start", partial(energy_at, 8)),
+} | GENERAL
+JANOSI = {
+    **{f"rms_{instant:g}": (f"surface at t = {instant:g} s, RMS distance", "mm",
+                            partial(scored, janosi2004.score, f"rms {instant:g}"))
+       for instant in janosi2004.INSTANTS if instant >= janosi2004.TARGET_FROM},
+} | GENERAL
 UNCERTAINTY = ("The variants share everything but what is compared. A dam break is chaotic after the impact: what another start of the "
                "same case changes (the study of starts) is the least difference that means anything. The laboratory's own "
                "uncertainty is that of the study zhou1999.")
@@ -50,35 +58,22 @@ def ratio(read, run, other):
     return read(run) / read(other)
 
 
-def draw_numbers(variants, *runs):
-    """Small bars of every quantity; the variants are told by the folders of their runs."""
-    names = {run.name: variant for variant, run in variants.items()}
-    figure = plots.new_figure(height=0.9 + 3 * (0.42 + 0.15 * len(runs)))
-    for k, (axes, (words, unit, read)) in enumerate(zip(figure.subplots(3, 4, sharey=True).flat, QUANTITIES.values())):
-        values = [read(run) for run in runs]
-        axes.barh(range(len(runs)), values, color=[style["color"] for style in plots.CYCLE[:len(runs)]], height=0.7)
-        for row, value in enumerate(values):
-            axes.text(0, row, f" {value:.3g}", va="center", fontsize=7.5, color="white",
-                      bbox={"facecolor": "#00000088", "edgecolor": "none", "pad": 0.8})
-        axes.set_title(words.split(", RMS")[0] + (f" ({unit})" if unit else ""), loc="left", fontsize=8)
-        axes.tick_params(labelsize=7, length=0)
-        axes.set_xticks([])
-        axes.spines[["bottom"]].set_visible(False)
-        if k % 4 == 0:
-            axes.set_yticks(range(len(runs)), [names[run.path.name] for run in runs], fontsize=8)
-    axes.invert_yaxis()
-    return figure
-
-
-def comparison(name, title, about, variants, claims=()):
-    """A study of runs of zhou1999, {variant: run}."""
+def comparison(name, title, about, variants, quantities, more_plots=(), claims=()):
+    """A study of {variant: run}: each quantity of each variant. `more_plots` are (caption, draw), where `draw` takes the
+    folders of the runs and their `names`."""
     runs = tuple(variants.values())
+    names = {run.name: variant for variant, run in variants.items()}
     checks = [Check(Metric(f"{name}.{key}.{variant}", words, unit, ""), (run,), read, variant=variant)
-              for key, (words, unit, read) in QUANTITIES.items() for variant, run in variants.items()]
+              for key, (words, unit, read) in quantities.items() for variant, run in variants.items()]
+    bars = Plot("The same numbers for each variant; each panel has its own scale.", runs,
+                partial(plots.draw_numbers, quantities, names))
     return Study(name, title, COMPARISON, about, UNCERTAINTY, (*claims, *checks),
-                 (Plot("The same numbers for each variant; each panel has its own scale.", runs,
-                       partial(draw_numbers, variants)),
-                  Plot("Pressure on the wall.", runs, draw_pressure), Plot("Water levels.", runs, draw_depths)))
+                 (bars, *(Plot(caption, runs, partial(draw, names=names)) for caption, draw in more_plots)), names=names)
+
+
+def zhou_comparison(name, title, about, variants, claims=()):
+    return comparison(name, title, about, variants, ZHOU, (("Pressure on the wall.", draw_pressure),
+                                                           ("Water levels.", draw_depths)), claims)
 
 
 def integrators(plan):
@@ -96,19 +91,67 @@ def integrators(plan):
               (implicit,), passes),
         *(Check(Metric(f"integrators.{key}_ratio", f"{words}: implicit over explicit", "",
                        "the paper's claim: below 1"), both, partial(ratio, read))
-          for key, (words, _, read) in QUANTITIES.items() if key in ("H2", "H1", "pressure", "noise")),
+          for key, (words, _, read) in ZHOU.items() if key in ("H2", "H1", "pressure", "noise")),
     )
-    return comparison(
+    return zhou_comparison(
         "integrators", "Explicit against implicit integration", "Farzin et al. claim that the implicit integrator is nearer to the "
         "measured profiles, takes steps about twice as large, needs 8 to 30 iterations and costs about twice as much or more.",
         {"explicit": explicit, "implicit": implicit}, claims)
+
+
+def wet_bed(plan):
+    """The pair on the paper's case for it, and what the gate does."""
+    plan = replace(plan, scheme="")
+    count = plan.at(25, 51, 80)
+    run = partial(case_run, plan, "janosi2004", "h0", count, 0.7)
+    return comparison(
+        "wet-bed", "Explicit against implicit, and the gate, on a wet bed", "Farzin et al. claim that the implicit integrator is nearer to the "
+        "surfaces of Janosi et al. and blame the gate for the early differences: it is computed as a wall that rises at 1.5 m/s, and at "
+        "30 m/s, as good as removed at once.",
+        {"explicit": run(integrator="explicit"), "implicit": run(integrator="implicit"),
+         "explicit, gate at once": run(integrator="explicit", variant="at-once", settings=("parameters.gate_speed=30",))},
+        JANOSI)
+
+
+def schemes(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    published, farmani = "scheme.formulation=published", "scheme.name=farmani2020"
+    return zhou_comparison(
+        "schemes", "Scheme F against scheme B", "The projection of Farzin et al. (2014) and the two steps of Farmani et al. (2020), each as "
+        "published and in its robust formulation.",
+        {"F": zhou_run(plan, dx), "F as published": zhou_run(plan, dx, variant="published", settings=(published,)),
+         "B": zhou_run(plan, dx, variant="farmani2020", settings=(farmani,)),
+         "B as published": zhou_run(plan, dx, variant="farmani2020-published", settings=(farmani, published))})
+
+
+def sill_time_step(plan):
+    """The paper's time-step study, on its case; surfaces are compared with those of the smallest step."""
+    plan = replace(plan, scheme="")
+    count = plan.at(8, 11, 16)
+    run = partial(case_run, plan, "soares_frazao2002", "h0", count, 40, "explicit")
+    variants = {f"courant {courant:g}": run(variant=f"courant{courant:g}", settings=(f"scheme.courant={courant:g}",))
+                for courant in (0.5, 0.25, 0.125)}
+    reference = variants["courant 0.125"]
+
+    def distance(k, one, other):
+        return 1000 * soares_frazao2002.distances(one, other)[k][1]
+
+    claims = tuple(Check(Metric(f"sill-time-step.{instant:g}.{variant}",
+                                f"surface at t = {instant:g} s, RMS distance from that of courant 0.125, {variant}", "mm",
+                                "the paper: largest error 21 % with 3 ms, 10.2 % with 1.4 ms"), (run, reference),
+                         partial(distance, k))
+                   for k, instant in enumerate(soares_frazao2002.INSTANTS) for variant, run in variants.items()
+                   if run is not reference)
+    return comparison("sill-time-step", "Time step on the sill", "Farmani et al. find their scheme sensitive to the time step in the dam break over "
+                      "a sill of Soares-Frazao (2002). Here the step is halved and doubled.", variants, GENERAL, (), claims)
 
 
 def devices(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
     no_noise = ("scheme.noise_viscosity=0",)
-    return comparison(
+    return zhou_comparison(
         "devices", "With and without artificial viscosity, sub-particle stress and shifting",
         "The default damps only what neighbouring particles do differently from a smooth field. The papers damp speed "
         "(c_a = 0.2), add a sub-particle stress (c_s = 0.10), and shift particles.",
@@ -123,7 +166,7 @@ def devices(plan):
 def slip(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
-    return comparison(
+    return zhou_comparison(
         "slip", "Free slip, partial slip and no slip on walls",
         "No slip is a wall law here (Werner & Wengle 1991): the stress of a smooth wall whether dx resolves the boundary layer or "
         "not. The papers' u = 0 on one layer of particles delays the front far more.",
@@ -135,7 +178,7 @@ def slip(plan):
 def time_step(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
-    return comparison(
+    return zhou_comparison(
         "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.25), at the default, and near "
         "the limit of stability.",
         {"courant 0.125": zhou_run(plan, dx, variant="courant0.125", settings=("scheme.courant=0.125",)),
@@ -146,7 +189,7 @@ def time_step(plan):
 def starts(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
-    return comparison(
+    return zhou_comparison(
         "starts", "Starts: how far chance goes", "The same case from the regular lattice and from particles displaced at random. The "
         "scatter is the uncertainty of every single run of this case.",
         {"regular": zhou_run(plan, dx),

@@ -5,6 +5,7 @@ from functools import partial
 from .. import plots, zhou1999
 from ..checks import Check
 from ..metric import Metric
+from ..particles import detached, nearest_frames
 from ..picture import draw_gauge, draw_time_uncertainty
 from ..reading import summary, zhou
 from ..study import LABORATORY, CurveCheck, Plot, Study
@@ -74,8 +75,15 @@ def pressure_checks(run):
     ]
 
 
+def detached_at(time, run):
+    frame, = nearest_frames(run.path, (time * T,))
+    return detached(frame.position, 1.5 * run.spacing)
+
+
 def soundness_checks(run):
     return [
+        Check(Metric("zhou1999.detached", "particles apart from the body of water at T = 5", "", "the paper's claim: none"),
+              (run,), partial(detached_at, 5.0)),
         Check(Metric("zhou1999.energy_rise", "largest rise of the total energy", "of the start", "physics: none",
                      high=RISE_TARGET), (run,), partial(summary, "energy", "largest_rise_over_start")),
         Check(Metric("zhou1999.density", "density error, rms over the bulk and time", "", "incompressible: none",
@@ -83,12 +91,12 @@ def soundness_checks(run):
     ]
 
 
-def draw_pressure(*runs):
+def draw_pressure(*runs, names=None):
     figure = plots.new_figure(height=4.6)
     for axes, (probe, title) in zip(figure.subplots(2, 1, sharex=True), (
             (zhou1999.READ_AT, "at z = 0.12 m"), ("P2", "mean over the plate, z = 0.115..0.205 m"))):
         curves = [(zhou1999.pressure(run, probe), {**style, "linewidth": 1.2}, label)
-                  for run, label, style in zip(runs, plots.labels(runs), plots.CYCLE)]
+                  for run, label, style in zip(runs, plots.labels(runs, names), plots.CYCLE)]
         draw_gauge(axes, "P2", 1.0, curves, 8)
         axes.set_ylim(-0.05, 1.25)
         axes.set_title(f"Pressure on the right wall, {title}", loc="left")
@@ -98,11 +106,11 @@ def draw_pressure(*runs):
     return figure
 
 
-def draw_depths(*runs):
+def draw_depths(*runs, names=None):
     figure = plots.new_figure(height=3.0)
     for axes, (gauge, place) in zip(figure.subplots(1, 2, sharey=True), (("H2", 2.228), ("H1", 2.725))):
         curves = [(zhou1999.depth(run, gauge), {**style, "linewidth": 1.2}, label)
-                  for run, label, style in zip(runs, plots.labels(runs), plots.CYCLE)]
+                  for run, label, style in zip(runs, plots.labels(runs, names), plots.CYCLE)]
         highest = zhou1999.depth(runs[-1], gauge, "highest_m")
         curves.append((highest, {"color": plots.GREY, "linewidth": 0.8, "zorder": 1}, "highest water, the last run"))
         draw_gauge(axes, gauge, 1.0, curves, 8)
