@@ -25,7 +25,7 @@ class Metric:
     order: float | None = None
     note: str = ""
     paper: float | None = None
-    peers: tuple = ()
+    peers: tuple | None = None
 
     @property
     def verdict(self):

@@ -29,7 +29,7 @@ from .study import LEVELS, Plan
 def metric_record(check, metric):
     return {"name": metric.name, "what": metric.what, "value": metric.value, "unit": metric.unit, "low": metric.low,
             "high": metric.high, "paper": metric.paper,
-            "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers],
+            "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
             "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": metric.shifted_value,
             "shift": metric.shift, "shift_unit": metric.shift_unit, "order": metric.order, "note": metric.note, "variant": check.variant, "runs": [run.name for run in check.runs]}
 
