@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""What each choice of the scheme does to the Zhou dam break: the table of docs/theory/schemes.md.
+"""What each choice of the scheme does to the Zhou dam break: the tables of docs/theory/schemes.md and two-step.md.
 
 One change at a time from the default formulation, then the published one, to T = 8 (or until the run fails).
-Usage: scripts/formulation_study.py [SPACING]   needs build/release/bin/tailwater (scripts/build.sh)
+Usage: scripts/formulation_study.py [SPACING [two-step]]   needs build/release/bin/tailwater (scripts/build.sh)
 """
 import json
 import pathlib
@@ -43,6 +43,25 @@ VARIANTS = {
     "published, implicit": ["scheme.formulation=published", "scheme.integrator=implicit"],
     "published, surface by (F35)": ["scheme.formulation=published", "scheme.surface=farzin"],
 }
+TWO_STEP = ["scheme.name=farmani2020"]
+TWO_STEP_PUBLISHED = TWO_STEP + ["scheme.formulation=published"]
+TWO_STEP_VARIANTS = {
+    "scheme F, default": [],
+    "two-step, default": TWO_STEP,
+    "Courant number 0.1": TWO_STEP + ["scheme.courant=0.1"],
+    "share of the density error 0.1": TWO_STEP + ["scheme.density_relaxation=0.1"],
+    "no density error": TWO_STEP + ["scheme.source=velocity-divergence"],
+    "density source": TWO_STEP + ["scheme.source=density"],
+    "moved by the new velocity": TWO_STEP + ["scheme.displacement=new-velocity"],
+    "no shifting": TWO_STEP + ["scheme.shifting=none"],
+    "no noise viscosity": TWO_STEP + ["scheme.noise_viscosity=0"],
+    "each particle's density (B7, B8)": TWO_STEP + ["scheme.gradient=density-weighted", "scheme.laplacian=shao-lo"],
+    "surface by density ratio": TWO_STEP + ["scheme.surface=density"],
+    "published": TWO_STEP_PUBLISHED,
+    "published, mixed source": TWO_STEP_PUBLISHED + ["scheme.source=mixed"],
+    "published, beta = 0.97": TWO_STEP_PUBLISHED + ["scheme.surface_density=0.97"],
+    "scheme F with the density source": ["scheme.source=density"],
+}
 
 
 def run(settings, spacing, out):
@@ -60,11 +79,12 @@ def number(metrics, name, digits):
 
 def main():
     spacing = float(sys.argv[1]) if len(sys.argv) > 1 else 0.02
+    variants = TWO_STEP_VARIANTS if sys.argv[2:] == ["two-step"] else VARIANTS
     print("| variant | reached T | energy at the end | largest rise | density error mean, rms | noise | "
           "arrival z = 0.12 m | CPU s |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as folder:
-        for name, settings in VARIANTS.items():
+        for name, settings in variants.items():
             summary = run(settings, spacing, f"{folder}/run")
             metrics = {metric["name"]: metric for metric in zhou1999.score(f"{folder}/run")["metrics"]}
             reached = summary["time_s"]["reached"] / zhou1999.TIME_SCALE

@@ -13,16 +13,17 @@ enum class WallShape { polyline, polygon, box };
 enum class FluidSide { left, right, inside, outside };
 enum class Slip { free, no_slip, partial };
 
-enum class SchemeName { farzin2014 };
+enum class SchemeName { farzin2014, farmani2020 };
 enum class Formulation { robust, published };
 enum class Integrator { explicit_projection, implicit_projection };
 
 enum class KernelName { wendland_c2, cubic_spline, farzin };
-enum class LaplacianKind { morris, consistent };
-enum class GradientKind { conservative, consistent };
+enum class LaplacianKind { morris, consistent, shao_lo };
+enum class GradientKind { conservative, consistent, density_weighted };
 enum class DivergenceKind { standard, consistent };
-enum class SurfaceTreatment { air, cone, farzin };
-enum class WallTreatment { dummies, pressure_rows };
+enum class SourceKind { velocity_divergence, density, mixed };
+enum class SurfaceTreatment { air, cone, farzin, density };
+enum class WallTreatment { dummies, pressure_rows, row_and_dummies };
 enum class ShiftingKind { none, lind, farzin };
 enum class DivergenceFree { start, midway };
 enum class ImplicitForm { residual, repeated };
@@ -64,7 +65,7 @@ struct Choices<Slip> {
 };
 template <>
 struct Choices<SchemeName> {
-  static constexpr std::array<std::string_view, 1> names{"farzin2014"};
+  static constexpr std::array<std::string_view, 2> names{"farzin2014", "farmani2020"};
 };
 template <>
 struct Choices<Formulation> {
@@ -80,23 +81,27 @@ struct Choices<KernelName> {
 };
 template <>
 struct Choices<LaplacianKind> {
-  static constexpr std::array<std::string_view, 2> names{"morris", "consistent"};
+  static constexpr std::array<std::string_view, 3> names{"morris", "consistent", "shao-lo"};
 };
 template <>
 struct Choices<GradientKind> {
-  static constexpr std::array<std::string_view, 2> names{"conservative", "consistent"};
+  static constexpr std::array<std::string_view, 3> names{"conservative", "consistent", "density-weighted"};
 };
 template <>
 struct Choices<DivergenceKind> {
   static constexpr std::array<std::string_view, 2> names{"standard", "consistent"};
 };
 template <>
+struct Choices<SourceKind> {
+  static constexpr std::array<std::string_view, 3> names{"velocity-divergence", "density", "mixed"};
+};
+template <>
 struct Choices<SurfaceTreatment> {
-  static constexpr std::array<std::string_view, 3> names{"air", "cone", "farzin"};
+  static constexpr std::array<std::string_view, 4> names{"air", "cone", "farzin", "density"};
 };
 template <>
 struct Choices<WallTreatment> {
-  static constexpr std::array<std::string_view, 2> names{"dummies", "pressure-rows"};
+  static constexpr std::array<std::string_view, 3> names{"dummies", "pressure-rows", "row-and-dummies"};
 };
 template <>
 struct Choices<ShiftingKind> {

@@ -1,17 +1,19 @@
 #include "case/formulation.h"
 
 namespace tailwater {
+namespace {
 
-void apply_formulation(SchemeTable& scheme) {
+void set_robust_farzin(SchemeTable& scheme) {
+  if (scheme.integrator == Integrator::implicit_projection) scheme.courant = 0.5;
+}
+
+void set_published_farzin(SchemeTable& scheme) {
   const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
-  if (scheme.formulation == Formulation::robust) {
-    if (!is_explicit) scheme.courant = 0.5;
-    return;
-  }
   scheme.kernel = KernelName::farzin;
   scheme.laplacian = LaplacianKind::consistent;
   scheme.gradient = GradientKind::consistent;
   scheme.divergence = DivergenceKind::consistent;
+  scheme.source = SourceKind::velocity_divergence;
   scheme.surface = SurfaceTreatment::cone;
   scheme.walls = WallTreatment::pressure_rows;
   scheme.divergence_free = DivergenceFree::start;
@@ -24,12 +26,39 @@ void apply_formulation(SchemeTable& scheme) {
   scheme.shifting = ShiftingKind::farzin;
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
   scheme.shifting_cap = 0.05;
-  scheme.density_relaxation = 0.0;
   scheme.implicit_form = ImplicitForm::repeated;
   scheme.max_passes = 30;
   scheme.relax_pressure = 0.4;
   scheme.relax_velocity = 0.3;
   scheme.relax_position = 0.4;
+}
+
+void set_robust_farmani(SchemeTable& scheme) { scheme.displacement = Displacement::mean_velocity; }
+
+void set_published_farmani(SchemeTable& scheme) {
+  scheme.kernel = KernelName::cubic_spline;
+  scheme.support = 2.4;
+  scheme.laplacian = LaplacianKind::shao_lo;
+  scheme.gradient = GradientKind::density_weighted;
+  scheme.source = SourceKind::density;
+  scheme.surface = SurfaceTreatment::density;
+  scheme.walls = WallTreatment::row_and_dummies;
+  scheme.displacement = Displacement::mean_velocity;
+  scheme.courant = 0.1;
+  scheme.noise_viscosity = 0.0;
+  scheme.shifting = ShiftingKind::none;
+}
+
+}  // namespace
+
+void apply_formulation(SchemeTable& scheme) {
+  const bool is_robust = scheme.formulation == Formulation::robust;
+  switch (scheme.name) {
+    case SchemeName::farzin2014:
+      return is_robust ? set_robust_farzin(scheme) : set_published_farzin(scheme);
+    case SchemeName::farmani2020:
+      return is_robust ? set_robust_farmani(scheme) : set_published_farmani(scheme);
+  }
 }
 
 }  // namespace tailwater

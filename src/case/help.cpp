@@ -13,8 +13,9 @@ namespace tailwater {
 namespace {
 
 /// Defaults of [scheme].
-std::vector<KeyInfo> defaults(Formulation formulation, Integrator integrator) {
-  SchemeTable scheme{.formulation = formulation, .integrator = integrator};
+std::vector<KeyInfo> defaults(SchemeName name, Formulation formulation,
+                              Integrator integrator = Integrator::explicit_projection) {
+  SchemeTable scheme{.name = name, .formulation = formulation, .integrator = integrator};
   apply_formulation(scheme);
   return keys_of(scheme);
 }
@@ -28,19 +29,36 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   if (row.value == "[]" || row.value == "\"\"") {
     return "";
   }
-  static const auto published_explicit = defaults(Formulation::published, Integrator::explicit_projection);
-  static const auto robust_implicit = defaults(Formulation::robust, Integrator::implicit_projection);
-  static const auto published_implicit = defaults(Formulation::published, Integrator::implicit_projection);
-  if (table.name != "scheme" || row.key == "formulation" || row.key == "integrator" ||
-      published_explicit[index].value == row.value) {
+  if (table.name != "scheme" || row.key == "name" || row.key == "formulation" || row.key == "integrator") {
     return row.value;
   }
-  const std::string& with_explicit = published_explicit[index].value;
-  const std::string& with_implicit = published_implicit[index].value;
-  const std::string& robust = robust_implicit[index].value;
-  return fmt::format("{} ({}published: {}{})", row.value,
-                     robust == row.value ? "" : fmt::format("implicit {}; ", robust), with_explicit,
-                     with_implicit == with_explicit ? "" : fmt::format(", implicit {}", with_implicit));
+  constexpr auto farzin = SchemeName::farzin2014;
+  constexpr auto farmani = SchemeName::farmani2020;
+  static const auto robust_implicit = defaults(farzin, Formulation::robust, Integrator::implicit_projection);
+  static const auto published_explicit = defaults(farzin, Formulation::published);
+  static const auto published_implicit = defaults(farzin, Formulation::published, Integrator::implicit_projection);
+  static const auto two_step_robust = defaults(farmani, Formulation::robust);
+  static const auto two_step_published = defaults(farmani, Formulation::published);
+
+  /// The value with the first and the second choice, each named only where it is news.
+  const auto pair = [](std::string_view first_name, const std::string& first, std::string_view second_name,
+                       const std::string& second, const std::string& known) {
+    std::string text = first == known ? "" : fmt::format("{}{}", first_name, first);
+    if (second != first) text += fmt::format("{}{}{}", text.empty() ? "" : ", ", second_name, second);
+    return text;
+  };
+  std::vector<std::string> others;
+  const auto add = [&](std::string_view heading, const std::string& text) {
+    if (!text.empty()) others.push_back(fmt::format("{}{}", heading, text));
+  };
+  add("", pair("", row.value, "implicit ", robust_implicit[index].value, row.value));
+  add("published: ",
+      pair("", published_explicit[index].value, "implicit ", published_implicit[index].value, row.value));
+  if (key_use_text("scheme", row.key).find("farzin2014") == std::string::npos) {
+    add("farmani2020: ",
+        pair("", two_step_robust[index].value, "published ", two_step_published[index].value, row.value));
+  }
+  return others.empty() ? row.value : fmt::format("{} ({})", row.value, fmt::join(others, "; "));
 }
 
 std::string type_text(const KeyInfo& row) {
@@ -134,8 +152,8 @@ std::string case_reference_markdown() {
       "`[name]` stands once, `[[name]]` as often as wanted. *Goes with*: the shapes or types that the key belongs to; "
       "it is an error with the others.\n\n"
       "`scheme.formulation = \"published\"` changes the defaults marked *published*. It detects the free surface by "
-      "the "
-      "cone; with `surface = \"farzin\"` the detection is the paper's own (F35).\n";
+      "the cone; with `surface = \"farzin\"` the detection is the paper's own (F35). `scheme.name = \"farmani2020\"` "
+      "changes those marked *farmani2020*.\n";
   for (const TableInfo& table : case_tables()) {
     text += fmt::format("\n### {}\n\n{}.\n\n", table.heading(), table.doc);
     text += "| key | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";

@@ -1,4 +1,5 @@
-// Which keys of a block, wall or probe belong to which of its shapes or types: the only home of that rule.
+// Which keys of a block, wall, probe or scheme belong to which of its shapes, types or choices: the only home of that
+// rule.
 #pragma once
 
 #include <span>

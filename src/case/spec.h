@@ -19,7 +19,8 @@
 
 namespace tailwater {
 
-/// Name of a block of fluid, a wall or an outlet that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from 0.
+/// Name of a block of fluid, a wall or an outlet that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from
+/// 0.
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
@@ -220,7 +221,8 @@ struct TimeTable {
   }
 };
 
-/// The scheme and every choice inside it. `formulation` sets the defaults of the keys marked (formulation).
+/// The scheme and every choice inside it. `name` and `formulation` set the defaults of the keys marked (formulation);
+/// the initialisers are those of farzin2014, robust.
 struct SchemeTable {
   SchemeName name = SchemeName::farzin2014;
   Formulation formulation = Formulation::robust;
@@ -231,7 +233,9 @@ struct SchemeTable {
   LaplacianKind laplacian = LaplacianKind::morris;
   GradientKind gradient = GradientKind::conservative;
   DivergenceKind divergence = DivergenceKind::standard;
+  SourceKind source = SourceKind::mixed;
   SurfaceTreatment surface = SurfaceTreatment::air;
+  double surface_density = 0.99;
   WallTreatment walls = WallTreatment::dummies;
 
   DivergenceFree divergence_free = DivergenceFree::midway;
@@ -263,29 +267,41 @@ struct SchemeTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.choice("name", self.name, "The published system the run follows");
+    v.choice(
+        "name", self.name,
+        "The published system the run follows: projection of the velocity (Farzin et al. 2014), or two steps with the "
+        "density at predicted positions (Farmani et al. 2020)");
     v.choice("formulation", self.formulation,
              "robust: what works (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
     v.choice("integrator", self.integrator,
              "explicit: derivatives at the old positions (F14-F17); implicit: iterated to the new ones (F20-F27)");
     v.choice("kernel", self.kernel, "Smoothing kernel (formulation)");
-    v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support");
-    v.choice("laplacian", self.laplacian, "Laplacian of the pressure equation and of the viscous term (formulation)");
-    v.choice("gradient", self.gradient, "Pressure gradient (formulation)");
+    v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support (formulation)");
+    v.choice("laplacian", self.laplacian,
+             "Laplacian of the pressure equation and of the viscous term: two-point, (F12), or two-point with each "
+             "particle's density (B8) (formulation)");
+    v.choice("gradient", self.gradient,
+             "Pressure gradient: symmetric, (F9), or symmetric with each particle's density (B7) (formulation)");
     v.choice("divergence", self.divergence, "Velocity divergence in the source of the pressure equation (formulation)");
-    v.choice("surface", self.surface,
-             "Free surface in the pressure equation: missing neighbours count as air, or p = 0 on detected particles "
-             "(formulation)");
+    v.choice("source", self.source,
+             "Source of the pressure equation: the velocity's divergence (F15), the density error (B17), or the "
+             "divergence and a share of the density error (formulation)");
+    v.choice(
+        "surface", self.surface,
+        "Free surface in the pressure equation: missing neighbours count as air, or p = 0 on particles detected by "
+        "an empty cone, by (F35), or by a low density (B21) (formulation)");
+    v.number("surface_density", self.surface_density, "", Range::between(0.5, 1.0),
+             "beta of (B21): a particle with a smaller share of the full density is on the surface");
     v.choice("walls", self.walls,
-             "Dummy particles behind the wall, as deep as the support, or one layer on it that carries pressure rows "
-             "(formulation)");
+             "Dummy particles behind the wall, as deep as the support, one layer on it that carries pressure rows, or "
+             "one layer on it that solves the pressure equation with dummies behind (formulation)");
     v.choice("divergence_free", self.divergence_free,
              "Where the explicit projection makes the velocity divergence-free: at the positions at the start of the "
              "step (F18), or midway along the displacement, which is second order in time (formulation)");
     v.choice("displacement", self.displacement,
              "Velocity that moves the particles: the new one, or the mean of old and new (F17, F25) (formulation)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
-             "alpha of the time-step rule (F40, F41) (formulation)");
+             "alpha of the time-step rule (F40, F41, B20) (formulation)");
     v.number("length", self.length, "m", Range::at_least(0.0),
              "L of (F41), the scale of the start; 0: the height of the fluid along gravity");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
@@ -305,7 +321,7 @@ struct SchemeTable {
     v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.1),
              "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
-             "Share of the density error corrected per step by the source of the pressure equation (formulation)");
+             "Share of the density error corrected per step by the source of the pressure equation");
     v.choice(
         "implicit_form", self.implicit_form,
         "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "

@@ -73,7 +73,7 @@ void check_ends(const Coordinates& from, const Coordinates& to, TableReader& rea
 }  // namespace
 
 void set_defaults(SchemeTable& scheme, TableReader& reader) {
-  reader.read_ahead(scheme, {"formulation", "integrator"});
+  reader.read_ahead(scheme, {"name", "formulation", "integrator"});
   apply_formulation(scheme);
 }
 

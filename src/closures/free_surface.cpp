@@ -64,7 +64,7 @@ template <int Dim>
 void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, std::span<std::uint8_t> is_surface) {
   for_each(input.pairs.owned(), [&](std::size_t i) {
     is_surface[i] = 0;
-    if (!input.particles.is_fluid(i)) return;
+    if (!input.particles.is_fluid(i) && test != SurfaceTreatment::density) return;
     switch (test) {
       case SurfaceTreatment::air:
         is_surface[i] = input.concentration[i] < air_concentration;
@@ -74,6 +74,9 @@ void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, st
         break;
       case SurfaceTreatment::farzin:
         is_surface[i] = f35_holds(input, i);
+        break;
+      case SurfaceTreatment::density:
+        is_surface[i] = input.concentration[i] < input.least_density;
         break;
     }
   });

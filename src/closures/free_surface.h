@@ -1,4 +1,4 @@
-// Where the free surface is. Three tests, one result: a mark on surface particles.
+// Where the free surface is. Four tests, one result: a mark on surface particles.
 //
 //   air     C/C_0 < 0.85: a mark for the field files only; nothing in the scheme needs it
 //   cone    no neighbour within 2.3 dx in a cone of opening 105 degrees around the outward normal -grad C, and
@@ -7,6 +7,7 @@
 //   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
 //           (printed 0.25, but a flat regular surface reads 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
 //           singular (printed det B1 = 0)
+//   density (B21): C/C_0 < beta, C/C_0 being rho/rho_0
 #pragma once
 
 #include <cstdint>
@@ -29,9 +30,10 @@ struct SurfaceInput {
   double spacing;
   double lattice_concentration;  ///< C_0
   double W_0;
+  double least_density;  ///< beta of (B21)
 };
 
-/// Marks owned fluid particles on the free surface; walls are never marked.
+/// Marks owned fluid particles on the free surface. Walls are never marked, but by `density` if theirs is low.
 template <int Dim>
 void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, std::span<std::uint8_t> is_surface);
 

@@ -1,6 +1,10 @@
-// The time-step rule, (F40) and (F41), and the limit of the explicit viscous term.
+// The time-step rule, (F40) and (F41), or (B20), and the limit of the explicit viscous term.
 //
-//   dt <= alpha dx / max(u_max, sqrt(2 g L)),    dt <= 0.25 dx^2 / (Dim nu_max)
+//   dt <= alpha dx / max(u_max, sqrt(2 g L)),    dt <= b dx^2 / nu_max
+//
+// b is 0.25/Dim, where the explicit two-point term still smooths, or 0.1 (B20), whose other half is the first rule.
+// With the density source (B17) the first rule feeds itself: to undo a density error in one step a particle gets a
+// speed that goes with 1/dt, which shortens the next step. There u_max counts up to `fastest` only.
 //
 // The paper uses (F41) at the start only; kept throughout it costs nothing in violent flow, where u_max is larger, and
 // keeps quiet water from taking huge steps. The eddy viscosity of smagorinsky.h is at most of the order 0.01 u dx, far
@@ -13,17 +17,18 @@
 namespace tailwater {
 
 struct TimeStepRule {
-  double courant = 0.0;          ///< alpha
-  double spacing = 0.0;          ///< m; dx
-  double reference_speed = 0.0;  ///< m/s; sqrt(2 g L)
-  int dimension = 2;
+  double courant = 0.0;                                      ///< alpha
+  double spacing = 0.0;                                      ///< m; dx
+  double fastest = std::numeric_limits<double>::infinity();  ///< m/s; what moves faster does not shorten the step
+  double reference_speed = 0.0;                              ///< m/s; sqrt(2 g L)
+  double viscous_share = 0.125;                              ///< b
 
   /// Largest step [s]; infinite when nothing moves and nothing pulls.
   double largest(double speed, double viscosity) const {
-    const double limiting_speed = std::max(speed, reference_speed);
+    const double limiting_speed = std::max(std::min(speed, fastest), reference_speed);
     const double infinite = std::numeric_limits<double>::infinity();
     const double advective = limiting_speed > 0.0 ? courant * spacing / limiting_speed : infinite;
-    const double viscous = viscosity > 0.0 ? 0.25 * spacing * spacing / (dimension * viscosity) : infinite;
+    const double viscous = viscosity > 0.0 ? viscous_share * spacing * spacing / viscosity : infinite;
     return std::min(advective, viscous);
   }
 };

@@ -8,6 +8,7 @@
 #include "closures/fluid_pairs.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
+#include "operators/laplacian_shao_lo.h"
 
 namespace tailwater {
 
@@ -29,6 +30,20 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
       return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * 0.5 *
              (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
+    });
+  });
+}
+
+template <int Dim>
+void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
+                           std::span<const double> density, std::span<const double> viscosity,
+                           std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      return shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k], pairs.dW[k],
+                                      eta_squared) *
+             0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
     });
   });
 }
@@ -109,6 +124,8 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
   template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>,  \
                                           std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                            \
+  template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
+                                           std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
   template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
                                          std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
   template void add_wall_friction<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,               \

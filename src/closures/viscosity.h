@@ -39,6 +39,13 @@ void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particl
                           std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
                           std::span<Vec<Dim>> acceleration);
 
+/// The same with the weights of (B8), as (B9) says: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours.
+/// `density` is that of each particle over the water's.
+template <int Dim>
+void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
+                           std::span<const double> density, std::span<const double> viscosity,
+                           std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
+
 /// Friction of walls, lambda times the no-slip stress of the wall law: the tangential part of
 /// sum_w lambda c_iw nu_wall(|u_i|) (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror
 /// images, and 0 on the wall; all velocities relative to the wall's own. Only slows down, relative to the wall.

@@ -153,7 +153,7 @@ void check_contact(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
   const double dx = spec.particles.spacing;
   const double jitter = spec.particles.jitter;
   // Where the first particle belongs, and how far off it may be.
-  const double regular = spec.scheme.walls == WallTreatment::pressure_rows ? 1.0 : 0.5;
+  const double regular = spec.scheme.walls == WallTreatment::dummies ? 0.5 : 1.0;
   const double play = std::max(0.25, jitter) + corner_tolerance;
   const double least = (0.5 - play) * dx;
   const double gap_from = (regular + play) * dx;
@@ -441,7 +441,7 @@ void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
         error(findings,
               "{} {} at {}: the nearest place of {} is {}, {:.6g} m away; put the outlet's end on the wall there", name,
               wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
-              wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance));
+              wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance));
         break;
       }
     }
@@ -453,7 +453,7 @@ void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
               "{} overlaps {} at {}: nothing may stand in it, nor in the last {:.6g} m before it; leave that piece of "
               "wall "
               "out (of a box: open = [...]), or move the outlet",
-              name, wall_name(boundary, boundary.faces[wall.face].wall), place(wall.point), spec.scheme.support * dx);
+              name, wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), spec.scheme.support * dx);
         break;
       }
     }
@@ -671,7 +671,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec) {
       count.fluid += (extent / dx).array().round().max(1.0).prod();
     }
   }
-  const int layers = spec.scheme.walls == WallTreatment::dummies ? dummy_layers(spec) : 1;
+  const int layers = spec.scheme.walls == WallTreatment::pressure_rows ? 1 : dummy_layers(spec);
   for (const WallFace<Dim>& face : make_boundary<Dim>(spec).faces) {
     count.wall += layers * face.measure() * dx / power<Dim>(dx);
   }

@@ -20,8 +20,8 @@ struct Finding {
 
 /// Errors: no fluid or a block smaller than the spacing, overlapping blocks, fluid behind a wall, on both sides of it
 /// or too near to it, a wall that crosses itself, has a crest above its ends or is thinner than its layers of dummy
-/// particles, a place where the fluid would pour out, an outlet that overlaps a wall, cuts through water or leaves a gap
-/// to the walls, a periodic direction narrower than four supports, a moving wall on an impossible path
+/// particles, a place where the fluid would pour out, an outlet that overlaps a wall, cuts through water or leaves a
+/// gap to the walls, a periodic direction narrower than four supports, a moving wall on an impossible path
 /// (check_motion.h). Warnings: a gap between fluid and wall, a block that is not a whole number of dx long. Cost:
 /// proportional to particles times nearby faces, and to the cells of size dx that the water can reach.
 template <int Dim>

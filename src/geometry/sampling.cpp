@@ -87,8 +87,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const s
                       "above its lowest",
                       owner, "xyz"[axis], lattice.high[axis], lattice.low[axis]));
     }
-    const bool is_on_nodes =
-        spec.scheme.walls == WallTreatment::pressure_rows && periodic_range(spec.domain, axis).empty();
+    const bool is_on_nodes = spec.scheme.walls != WallTreatment::dummies && periodic_range(spec.domain, axis).empty();
     const double cells = extent / dx;
     // A polygon needs every lattice point of its bounding box; a box the number that fits best.
     const double whole = lattice.outline.empty() ? std::round(cells) : std::ceil(cells - corner_tolerance);
@@ -161,7 +160,7 @@ template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
   const double jitter = spec.particles.jitter * dx;
-  const bool walls_are_particles = spec.scheme.walls == WallTreatment::pressure_rows;
+  const bool walls_are_particles = spec.scheme.walls != WallTreatment::dummies;
   FluidParticles<Dim> fluid;
 
   const auto is_left_to_wall = [&](const FluidTable& block, const Vec<Dim>& x) {

@@ -19,12 +19,13 @@ struct WallParticles {
   /// right-angled corner, in between a continuous blend: the eigenvalues of the sum of n n^T over the adjacent
   /// normals, clipped at 1. A free-slip mirror image of velocity u is u - 2 M u.
   std::vector<Mat<Dim>> blocked;
-  std::vector<int> wall;  ///< index into Boundary::walls
+  std::vector<int> wall;    ///< index into Boundary::walls
+  std::size_t on_wall = 0;  ///< the first so many stand on the wall itself, the others behind it
 
   std::size_t size() const { return position.size(); }
 };
 
-/// Layers of dummy particles that fill the kernel's support behind a wall.
+/// Layers of dummy particles that fill the kernel's support behind a wall; with a row on the wall, that row included.
 int dummy_layers(const CaseSpec& spec);
 
 /// `layers` rows of dummy particles behind each wall, the first at dx/2, rows following the wall's shape and joined at
@@ -40,6 +41,11 @@ WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double sp
 template <int Dim>
 WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing);
 
+/// The same row on the wall and `layers` - 1 rows of dummies behind it, dx apart: on axis-parallel walls of whole
+/// length in dx one lattice.
+template <int Dim>
+WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers);
+
 template <int Dim>
 struct FluidParticles {
   std::vector<Vec<Dim>> position;
@@ -48,7 +54,7 @@ struct FluidParticles {
 };
 
 /// The starting lattice, from each block's low corner with exactly dx between particles. With dummy walls it is
-/// cell-centred (first particle dx/2 from the block's edge), with pressure rows on the wall it is node-centred
+/// cell-centred (first particle dx/2 from the block's edge), with a row of particles on the wall it is node-centred
 /// (particles on the block's edge, except nearer than dx/2 to a wall, where a wall particle stands) but in periodic
 /// directions. A box holds extent/dx particles per direction, rounded, at least one. A polygon holds the lattice points
 /// of its bounding box that lie inside, and every second one of those on its outline: half of their cells is inside.

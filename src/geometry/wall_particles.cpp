@@ -144,8 +144,10 @@ Vec<2> mitre(const WallFace<2>& from, const WallFace<2>& to, double depth) {
   return from.corners[1] - depth / (1.0 + from.normal.dot(to.normal)) * (from.normal + to.normal);
 }
 
-/// The places of one row along a run, `depth` behind it. A sharp corner belongs to the run that starts there.
-std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing) {
+/// The places of one row along a run, `depth` behind it, the last `free_end` steps from a free end. A sharp corner
+/// belongs to the run that starts there.
+std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing,
+                              double free_end) {
   const auto face = [&](int f) -> const WallFace<2>& { return boundary.faces[f]; };
   const WallFace<2>& first = face(run.faces.front());
   const WallFace<2>& last = face(run.faces.back());
@@ -162,9 +164,7 @@ std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, doubl
     along.push_back(along.back() + (corners[k] - corners[k - 1]).norm());
   }
 
-  // In steps: distance of the first and last place from the run's ends. A row on the wall itself includes its free
-  // ends.
-  const double free_end = depth > 0.0 ? 0.5 : 0.0;
+  // In steps: distance of the first and last place from the run's ends.
   const double head = run.is_closed ? 0.5 : run.before < 0 ? free_end : 0.0;
   const double tail = run.is_closed ? 0.5 : run.after < 0 ? free_end : 0.0;
   const int steps =
@@ -198,9 +198,9 @@ bool is_behind_another(const Boundary<Dim>& boundary, const Vec<Dim>& x, const V
   return false;
 }
 
-/// Rows of wall particles at the given depths (m) behind the walls, first come, first kept. Nothing stands more than
-/// `farthest` (m) from its wall.
-WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, const std::vector<double>& depths,
+/// Rows of wall particles, the first `first_depth` (m) behind the walls, first come, first kept. Rows on the wall and
+/// in line with it include free ends. Nothing stands more than `farthest` (m) from its wall.
+WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, double first_depth, int layers,
                              double farthest) {
   const double tolerance = corner_tolerance * spacing;
   const Joints joints = join_faces(boundary, tolerance);
@@ -213,10 +213,12 @@ WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, const 
 
   WallParticles<2> particles;
   PointGrid<2> taken((least_distance - corner_tolerance) * spacing);
-  for (const double depth : depths) {
+  const double free_end = first_depth > 0.0 ? 0.5 : 0.0;
+  for (int layer = 0; layer < layers; ++layer) {
+    const double depth = first_depth + layer * spacing;
     for (const Run& run : runs) {
       const int chain = joints.chain[run.faces.front()];
-      for (const Vec<2>& x : place_row(boundary, run, depth, spacing)) {
+      for (const Vec<2>& x : place_row(boundary, run, depth, spacing, free_end)) {
         double nearest = std::numeric_limits<double>::max();
         Vec<2> foot = x;
         std::vector<Vec<2>> normals;
@@ -243,6 +245,7 @@ WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, const 
         }
       }
     }
+    if (depth == 0.0) particles.on_wall = particles.size();
   }
   return particles;
 }
@@ -379,53 +382,110 @@ WallParticles<3> sample_boxes(const Boundary<3>& boundary, double spacing, int l
   return particles;
 }
 
-WallParticles<3> sample_box_surfaces(const Boundary<3>& boundary, double spacing) {
+/// A node of the lattice that has the box's edges among its nodes, continued by dx beyond it.
+double node(double low, double high, int index, int count, double spacing) {
+  if (index < 0) {
+    return low + index * spacing;
+  }
+  if (index > count) {
+    return high + (index - count) * spacing;
+  }
+  return low + index * (high - low) / count;
+}
+
+/// How many steps the node `index` is behind the box's closed faces (0: on one), and the normals that act there; no
+/// normals where no wall particle can stand.
+struct NodePlace {
+  int layer = 0;
+  std::vector<Vec<3>> normals;
+};
+
+NodePlace place_of(const Box& box, const Eigen::Vector3i& index, const Eigen::Vector3i& count) {
+  const int direction = box.fluid_is_inside ? -1 : 1;  // of growing depth, from the low face on
+  NodePlace place;
+  if (!box.fluid_is_inside) place.layer = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const int depth = direction * (side == 0 ? index[axis] : count[axis] - index[axis]);
+      if (!box.closed[axis][side]) {
+        if (box.fluid_is_inside && depth > 0) return {};
+        continue;
+      }
+      const bool is_deeper = box.fluid_is_inside ? depth > place.layer : depth < place.layer;
+      if (is_deeper && !box.fluid_is_inside) place.normals.clear();
+      if (is_deeper) place.layer = depth;
+      if (box.fluid_is_inside ? depth >= 0 : depth == place.layer) {
+        place.normals.push_back((box.fluid_is_inside ? 1.0 : -1.0) * inward_normal(axis, side));
+      }
+    }
+  }
+  return place;
+}
+
+/// Nodes on the faces of boxes, and `layers` - 1 layers of nodes behind them.
+WallParticles<3> sample_box_nodes(const Boundary<3>& boundary, double spacing, int layers) {
+  const double tolerance = corner_tolerance * spacing;
   WallParticles<3> particles;
   PointGrid<3> taken((least_distance - corner_tolerance) * spacing);
-  for (const int wall : walls_of(boundary)) {
-    const Box box = box_of(boundary, wall);
-    const Eigen::Vector3i count = cells_of(box, spacing);
-    for_each_node(Eigen::Vector3i::Zero(), count + Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& index) {
-      std::vector<Vec<3>> normals;
-      Vec<3> x;
-      for (int axis = 0; axis < 3; ++axis) {
-        x[axis] = box.low[axis] + index[axis] * (box.high[axis] - box.low[axis]) / count[axis];
-        for (int side = 0; side < 2; ++side) {
-          if (box.closed[axis][side] && index[axis] == (side == 0 ? 0 : count[axis])) {
-            normals.push_back(inward_normal(axis, side) * (box.fluid_is_inside ? 1.0 : -1.0));
-          }
+  for (int layer = 0; layer < layers; ++layer) {
+    for (const int wall : walls_of(boundary)) {
+      const Box box = box_of(boundary, wall);
+      const Eigen::Vector3i count = cells_of(box, spacing);
+      const auto is_own = [&](std::size_t f) { return boundary.faces[f].wall == wall; };
+      const Eigen::Vector3i margin = Eigen::Vector3i::Constant(box.fluid_is_inside ? layer : 0);
+      for_each_node(-margin, count + margin + Eigen::Vector3i::Ones(), [&](const Eigen::Vector3i& index) {
+        const NodePlace place = place_of(box, index, count);
+        if (place.layer != layer || place.normals.empty()) return;
+        Vec<3> x;
+        for (int axis = 0; axis < 3; ++axis) {
+          x[axis] = node(box.low[axis], box.high[axis], index[axis], count[axis], spacing);
         }
-      }
-      if (!normals.empty() && !taken.has_near(x)) {
+        Vec<3> foot = x.cwiseMax(box.low).cwiseMin(box.high);
+        if (!box.fluid_is_inside) {
+          int axis = 0;
+          place.normals[0].cwiseAbs().maxCoeff(&axis);
+          foot[axis] = place.normals[0][axis] > 0.0 ? box.high[axis] : box.low[axis];
+        }
+        if (taken.has_near(x) || (layer > 0 && is_behind_another(boundary, x, foot, tolerance, is_own))) return;
         taken.add(x);
-        append(particles, x, normals, wall);
-      }
-    });
+        append(particles, x, place.normals, wall);
+      });
+    }
+    if (layer == 0) particles.on_wall = particles.size();
   }
   return particles;
 }
 
-}  // namespace
+/// Puts the entries `from` to `to` of `part` behind those of `all`.
+template <int Dim>
+void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::size_t from, std::size_t to) {
+  const auto put = [&](auto& into, const auto& entries) {
+    into.insert(into.end(), entries.begin() + from, entries.begin() + to);
+  };
+  put(all.position, part.position);
+  put(all.normal, part.normal);
+  put(all.blocked, part.blocked);
+  put(all.wall, part.wall);
+}
 
-namespace {
-
-/// The walls of one body after the other, each sampled as if it were alone: bodies part.
+/// The walls of one body after the other, each sampled as if it were alone: bodies part. All that stand on a wall come
+/// first.
 template <int Dim, class Sample>
 WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, Sample&& sample) {
   std::set<int> bodies;
   for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
-  WallParticles<Dim> all;
+  std::vector<WallParticles<Dim>> parts;
   for (const int body : bodies) {
     Boundary<Dim> alone;
     alone.walls = boundary.walls;
     std::ranges::copy_if(boundary.faces, std::back_inserter(alone.faces),
                          [&](const WallFace<Dim>& face) { return boundary.walls[face.wall].body == body; });
-    const WallParticles<Dim> part = sample(alone);
-    all.position.insert(all.position.end(), part.position.begin(), part.position.end());
-    all.normal.insert(all.normal.end(), part.normal.begin(), part.normal.end());
-    all.blocked.insert(all.blocked.end(), part.blocked.begin(), part.blocked.end());
-    all.wall.insert(all.wall.end(), part.wall.begin(), part.wall.end());
+    parts.push_back(sample(alone));
   }
+  WallParticles<Dim> all;
+  for (const WallParticles<Dim>& part : parts) append_range(all, part, 0, part.on_wall);
+  all.on_wall = all.size();
+  for (const WallParticles<Dim>& part : parts) append_range(all, part, part.on_wall, part.size());
   return all;
 }
 
@@ -435,11 +495,7 @@ template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers) {
   return sample_bodies(boundary, [&](const Boundary<Dim>& body) {
     if constexpr (Dim == 2) {
-      std::vector<double> depths;
-      for (int layer = 0; layer < layers; ++layer) {
-        depths.push_back((layer + 0.5) * spacing);
-      }
-      return sample_rows(body, spacing, depths, farthest_share * layers * spacing);
+      return sample_rows(body, spacing, 0.5 * spacing, layers, farthest_share * layers * spacing);
     } else {
       return sample_boxes(body, spacing, layers);
     }
@@ -448,11 +504,16 @@ WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double sp
 
 template <int Dim>
 WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing) {
+  return make_row_and_dummy_particles(boundary, spacing, 1);
+}
+
+template <int Dim>
+WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers) {
   return sample_bodies(boundary, [&](const Boundary<Dim>& body) {
     if constexpr (Dim == 2) {
-      return sample_rows(body, spacing, {0.0}, spacing);
+      return sample_rows(body, spacing, 0.0, layers, farthest_share * layers * spacing);
     } else {
-      return sample_box_surfaces(body, spacing);
+      return sample_box_nodes(body, spacing, layers);
     }
   });
 }
@@ -461,5 +522,7 @@ template WallParticles<2> make_dummy_particles(const Boundary<2>&, double, int);
 template WallParticles<3> make_dummy_particles(const Boundary<3>&, double, int);
 template WallParticles<2> make_surface_particles(const Boundary<2>&, double);
 template WallParticles<3> make_surface_particles(const Boundary<3>&, double);
+template WallParticles<2> make_row_and_dummy_particles(const Boundary<2>&, double, int);
+template WallParticles<3> make_row_and_dummy_particles(const Boundary<3>&, double, int);
 
 }  // namespace tailwater

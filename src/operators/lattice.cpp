@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "operators/laplacian_morris.h"
+#include "operators/laplacian_shao_lo.h"
 
 namespace tailwater {
 
@@ -11,6 +12,7 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
   const double volume = power<Dim>(spacing);
   const int reach = static_cast<int>(std::ceil(kernel_radius(kernel) / spacing));
   const int reach_z = Dim == 3 ? reach : 0;
+  const double eta_squared = shao_lo_eta_squared(kernel_radius(kernel));
   LatticeSums sums;
   // By symmetry C and D vanish and B2 is a multiple of I; E : I = A = tr A/Dim I makes it Dim/tr A, so that the weights
   // (F23) are 2 w W/r^2 Dim/tr A.
@@ -24,6 +26,7 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
         sums.concentration += wW;
         if (r == 0.0) continue;
         sums.morris += morris_laplacian_weight(volume, r, kernel_derivative(kernel, r), spacing);
+        sums.shao_lo += shao_lo_laplacian_weight(volume, 1.0, 1.0, r, kernel_derivative(kernel, r), eta_squared);
         trace_A += wW;
         inverse_squares += wW / (r * r);
       }

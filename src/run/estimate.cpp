@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/check.h"
-#include "schemes/projection.h"
+#include "schemes/advance.h"
 #include "schemes/verbs.h"
 
 namespace tailwater {

@@ -21,7 +21,7 @@
 #include "run/provenance.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
-#include "schemes/projection.h"
+#include "schemes/advance.h"
 #include "schemes/verbs.h"
 
 namespace tailwater {

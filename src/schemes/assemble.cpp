@@ -2,23 +2,27 @@
 //
 //   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
-// c_ij   weights of the Laplacian: Morris, or consistent (F23)
+// with `source = "mixed"`; the first term alone is (F15), and `source = "density"` is (B17), rho (C/C_0 - 1)/dt^2.
+//
+// c_ij   weights of the Laplacian: Morris, consistent (F23), or (B8)
 // a_i    weight of the air (air.h): what is missing of A_0, sum_j c_ij on a full lattice, counts as p = 0 on the
-// surface
-//        (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is marked
-//        instead, whose rows are p = 0
+//        surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is
+//        marked instead, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
 // gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
 //        particles too far apart: at the surface nothing pulls
 //
-// Wall rows. Dummies: p_w = sum_f W (p_f + rho (g - a) . r_wf)/sum_f W, weights of one sign, so that the whole is an
-// M-matrix. Pressure rows: the consistent gradient along the normal, (F39). Dry walls: p = 0.
+// Wall rows. A row with dummies behind: on the wall the same equation, and each dummy has the pressure of the row
+// beside it, p_d = sum_w W p_w/sum_w W, so that nothing flows across the wall (Neumann). Dummies: p_w = sum_f W (p_f +
+// rho (g - a) . r_wf)/sum_f W, weights of one sign, so that the whole is an M-matrix. Pressure rows: the consistent
+// gradient along the normal, (F39). Dry walls: p = 0.
 #include <algorithm>
 
 #include "base/for_each.h"
 #include "operators/gradient_consistent.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
+#include "operators/laplacian_shao_lo.h"
 #include "schemes/velocity_divergence.h"
 #include "schemes/verbs.h"
 #include "schemes/wall_state.h"
@@ -29,12 +33,24 @@ namespace {
 /// The density source answers errors up to this: a pile-up is dissolved over some steps, not blown up in one.
 constexpr double largest_density_error = 0.1;
 
-/// Pa/m^2
+/// (B17), or the share of the density error that a step corrects beside the divergence [Pa/m^2].
 template <int Dim>
 double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
+  const double unit = flow.density / (dt * dt);
+  if (flow.scheme.source == SourceKind::density) return unit * (flow.concentration[i] - 1.0);
   const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
   const double answered = (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
-  return flow.scheme.density_relaxation * flow.density * answered / (dt * dt);
+  return flow.scheme.density_relaxation * unit * answered;
+}
+
+template <int Dim>
+double source_at(const Flow<Dim>& flow, std::size_t i, double dt) {
+  double source = 0.0;
+  if (flow.scheme.source != SourceKind::density) {
+    source -= flow.density / dt * (divergence_at(flow, i, flow.u_star) - flow.target_divergence[i]);
+  }
+  if (flow.scheme.source != SourceKind::velocity_divergence) source += density_source(flow, i, dt);
+  return source;
 }
 
 /// Sets the weights of row i by weight(k) and returns their sum.
@@ -60,6 +76,15 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, PressureSyste
                  : 0.0;
     });
   }
+  if (flow.scheme.laplacian == LaplacianKind::shao_lo) {
+    const std::vector<double>& density = flow.concentration;
+    return set_weights(pairs, i, row, [&](std::size_t k) {
+      const auto j = pairs.j[k];
+      return flow.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r[k], pairs.dW[k],
+                                                           flow.eta_squared)
+                                : 0.0;
+    });
+  }
   const Renormalisation<Dim>& tensors = flow.tensors[i];
   if (tensors.laplacian_is_sound()) {
     const double sum = set_weights(pairs, i, row, [&](std::size_t k) {
@@ -77,9 +102,23 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, PressureSyste
   });
 }
 
-/// Returns whether the row had to fall back to two-point weights.
+/// Sum of the weights on a full lattice.
 template <int Dim>
-bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
+double full_sum(const Flow<Dim>& flow) {
+  switch (flow.scheme.laplacian) {
+    case LaplacianKind::consistent:
+      return flow.lattice.consistent;
+    case LaplacianKind::shao_lo:
+      return flow.lattice.shao_lo;
+    case LaplacianKind::morris:
+      break;
+  }
+  return flow.lattice.morris;
+}
+
+/// The pressure equation. Returns whether the row had to fall back to two-point weights.
+template <int Dim>
+bool assemble_equation(Flow<Dim>& flow, std::size_t i, double dt) {
   PressureSystem::Row row = flow.pressure_system.row(i);
   if (flow.is_leaving(i)) {
     set_weights(flow.pairs(), i, row, [](std::size_t) { return 0.0; });
@@ -87,21 +126,19 @@ bool assemble_fluid_row(Flow<Dim>& flow, std::size_t i, double dt) {
     return false;
   }
   const bool has_air = flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
-  if (!has_air && flow.is_surface[i] && !flow.is_closed) {
+  const bool is_dry = !flow.takes_part[i];  // a wall
+  if (is_dry || (!has_air && flow.is_surface[i] && !flow.is_closed)) {
     row.finish_as_zero();
     return false;
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const bool is_morris = flow.scheme.laplacian == LaplacianKind::morris;
-  const double full = is_morris ? flow.lattice.morris : flow.lattice.consistent;
-  const double air = has_air ? flow.air_law.weight(sum, full) : 0.0;
+  const double air = has_air ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
   }
-  row.finish(sum + air, -flow.density / dt * (divergence_at(flow, i, flow.u_star) - flow.target_divergence[i]) +
-                            density_source(flow, i, dt));
+  row.finish(sum + air, source_at(flow, i, dt));
   return fell_back;
 }
 
@@ -121,6 +158,22 @@ void assemble_dummy_row(Flow<Dim>& flow, std::size_t i) {
     return share;
   });
   row.finish(1.0, rhs);
+}
+
+/// A dummy behind a row on the wall: the row's pressure beside it; 0 where no water is in reach of either.
+template <int Dim>
+void assemble_copy_of_row(Flow<Dim>& flow, std::size_t i) {
+  PressureSystem::Row row = flow.pressure_system.row(i);
+  const Pairs<Dim>& pairs = flow.pairs();
+  const double sum = set_weights(pairs, i, row, [&](std::size_t k) {
+    const auto j = pairs.j[k];
+    return !flow.particles.is_fluid(j) && flow.is_wet[j] && flow.is_on_wall(j) ? pairs.W[k] : 0.0;
+  });
+  if (!flow.is_wet[i] || sum <= 0.0) {
+    row.finish_as_zero();
+    return;
+  }
+  row.finish(sum, 0.0);
 }
 
 template <int Dim>
@@ -167,11 +220,17 @@ template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
   set_pattern(flow);
   interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
-    if (flow.particles.is_fluid(i)) return assemble_fluid_row(flow, i, dt);
-    if (flow.walls.treatment == WallTreatment::dummies) {
-      assemble_dummy_row(flow, i);
-    } else {
-      assemble_pressure_row(flow, i);
+    if (flow.has_equation(i)) return assemble_equation(flow, i, dt);
+    switch (flow.walls.treatment) {
+      case WallTreatment::dummies:
+        assemble_dummy_row(flow, i);
+        break;
+      case WallTreatment::pressure_rows:
+        assemble_pressure_row(flow, i);
+        break;
+      case WallTreatment::row_and_dummies:
+        assemble_copy_of_row(flow, i);
+        break;
     }
     return false;
   });
@@ -179,6 +238,7 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
 
 template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt) {
+  if (flow.scheme.source != SourceKind::mixed) return 0.0;
   double work = 0.0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
     if (!flow.is_solved_for(i)) continue;

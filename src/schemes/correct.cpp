@@ -1,6 +1,7 @@
 #include "base/for_each.h"
 #include "operators/gradient_conservative.h"
 #include "operators/gradient_consistent.h"
+#include "operators/gradient_density_weighted.h"
 #include "schemes/verbs.h"
 
 namespace tailwater {
@@ -10,6 +11,9 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
   if (flow.scheme.gradient == GradientKind::conservative) {
     return conservative_gradient<Dim>(flow.pairs(), i, flow.particles.volume, pressure);
   }
+  if (flow.scheme.gradient == GradientKind::density_weighted) {
+    return density_weighted_gradient<Dim>(flow.pairs(), i, flow.particles.volume, flow.concentration, pressure);
+  }
   if (!flow.tensors[i].gradient_is_sound()) return Vec<Dim>::Zero();
   return consistent_gradient<Dim>(flow.pairs(), i, flow.tensors[i].B1, flow.particles.volume, flow.takes_part,
                                   std::span<const double>(pressure));
@@ -17,10 +21,11 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt) {
+  const Vec<Dim> gravity = flow.predicts_gravity() ? Vec<Dim>(Vec<Dim>::Zero()) : flow.gravity;
   for_each(flow.particles.owned, [&](std::size_t i) {
     if (!flow.is_solved_for(i)) return;
     flow.particles.velocity[i] =
-        flow.u_star[i] + dt * (flow.gravity - gradient_at(flow, i, flow.particles.pressure) / flow.density);
+        flow.u_star[i] + dt * (gravity - gradient_at(flow, i, flow.particles.pressure) / flow.density);
   });
   flow.walls.velocity = flow.wall_velocity_next;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/from_spec.h"
+#include "operators/laplacian_shao_lo.h"
 
 namespace tailwater {
 namespace {
@@ -12,6 +13,9 @@ namespace {
 /// list lasts for about one and every pass of the implicit iteration. Wider lists cost more at each evaluation than
 /// they save searches (docs/theory/neighbours.md).
 constexpr double skin_over_spacing = 0.6;
+
+/// With the density source: speeds beyond this multiple of sqrt(2 g L) are those of particles thrown out.
+constexpr double fastest_counted_over_reference = 2.0;
 
 /// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
 constexpr double wall_law_distance_over_spacing = 0.6;
@@ -40,9 +44,17 @@ template <int Dim>
 WallModel<Dim> make_wall_model(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   WallModel<Dim> walls;
   walls.treatment = spec.scheme.walls;
-  walls.particles = walls.treatment == WallTreatment::dummies
-                        ? make_dummy_particles(boundary, spec.particles.spacing, dummy_layers(spec))
-                        : make_surface_particles(boundary, spec.particles.spacing);
+  switch (walls.treatment) {
+    case WallTreatment::dummies:
+      walls.particles = make_dummy_particles(boundary, spec.particles.spacing, dummy_layers(spec));
+      break;
+    case WallTreatment::pressure_rows:
+      walls.particles = make_surface_particles(boundary, spec.particles.spacing);
+      break;
+    case WallTreatment::row_and_dummies:
+      walls.particles = make_row_and_dummy_particles(boundary, spec.particles.spacing, dummy_layers(spec));
+      break;
+  }
   for (const int wall : walls.particles.wall) walls.friction.push_back(boundary.walls[wall].friction);
   walls.velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
   return walls;
@@ -128,6 +140,7 @@ Flow<Dim>::Flow(const CaseSpec& spec)
   lattice = lattice_sums(kernel, spacing);
   air_law = AirLaw(kernel, spacing);
   W_0 = kernel_value(kernel, 0.0);
+  eta_squared = shao_lo_eta_squared(kernel_radius(kernel));
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,
@@ -138,8 +151,14 @@ Flow<Dim>::Flow(const CaseSpec& spec)
                   .cap = scheme.shifting_cap * spacing,
                   .spacing = spacing,
                   .W_spacing = kernel_value(kernel, spacing)};
-  time_step_rule = {
-      .courant = scheme.courant, .spacing = spacing, .reference_speed = std::sqrt(2.0 * g * length), .dimension = Dim};
+  const double reference_speed = std::sqrt(2.0 * g * length);
+  time_step_rule = {.courant = scheme.courant,
+                    .spacing = spacing,
+                    .reference_speed = reference_speed,
+                    .viscous_share = scheme.name == SchemeName::farmani2020 ? 0.1 : 0.25 / Dim};
+  if (scheme.source == SourceKind::density && reference_speed > 0.0) {
+    time_step_rule.fastest = fastest_counted_over_reference * reference_speed;
+  }
   const PeriodicDomain<Dim> domain = periodic_domain<Dim>(spec.domain);
   is_closed = std::all_of(domain.begin(), domain.end(), [](const auto& interval) { return interval.has_value(); });
   pressure_system.set_constant_is_free(is_closed);
@@ -148,13 +167,15 @@ Flow<Dim>::Flow(const CaseSpec& spec)
 template <int Dim>
 bool Flow<Dim>::uses_tensors() const {
   return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
-         scheme.divergence == DivergenceKind::consistent || scheme.surface != SurfaceTreatment::air ||
-         scheme.walls == WallTreatment::pressure_rows || scheme.shifting == ShiftingKind::farzin;
+         scheme.divergence == DivergenceKind::consistent || scheme.surface == SurfaceTreatment::cone ||
+         scheme.surface == SurfaceTreatment::farzin || scheme.walls == WallTreatment::pressure_rows ||
+         scheme.shifting == ShiftingKind::farzin;
 }
 
 template <int Dim>
 bool Flow<Dim>::uses_velocity_gradient() const {
-  return scheme.noise_viscosity > 0.0 || scheme.divergence_free == DivergenceFree::midway;
+  return scheme.noise_viscosity > 0.0 ||
+         (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
 }
 
 template <int Dim>

@@ -62,7 +62,8 @@ struct Flow {
   WallModel<Dim> walls;    ///< the same
   WallMotion<Dim> wall_motion;
   LatticeSums lattice;
-  double W_0;  ///< W(0)
+  double W_0;          ///< W(0)
+  double eta_squared;  ///< m^2; eta^2 of (B8)
   AirLaw air_law;
   ViscosityLaw viscosity_law;
   ShiftingLaw shifting_law;
@@ -81,7 +82,7 @@ struct Flow {
   PressureSystem pressure_system;
 
   // Work fields, one entry per particle, ghosts included. Geometry, valid for the present positions:
-  std::vector<double> concentration;  ///< C/C_0
+  std::vector<double> concentration;  ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies
   std::vector<Vec<Dim>> concentration_gradient;
   std::vector<double> wall_fluid_weight;
   std::vector<double> wall_overlap;  ///< share of the particle behind a wall
@@ -93,11 +94,12 @@ struct Flow {
   // One step:
   std::vector<Vec<Dim>> position_old;  ///< r^n, owned; in `shift`, the positions before it
   std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
-  std::vector<Vec<Dim>> u_star;        ///< predicted velocity without gravity
+  std::vector<Vec<Dim>> u_star;        ///< predicted velocity, without gravity unless `predicts_gravity`
   // Of moving walls, by row of the table of wall particles:
   std::vector<Vec<Dim>> wall_velocity_old;   ///< m/s; at the start of the step
   std::vector<Vec<Dim>> wall_velocity_next;  ///< m/s; at which `correct` aims
   std::vector<Vec<Dim>> wall_acceleration;   ///< m/s^2; that leads there, in the directions that the wall blocks
+  // The fluid:
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
@@ -125,6 +127,18 @@ struct Flow {
   /// Viscosity [m^2/s] with which noise is dissipated while this is the largest speed.
   double noise_viscosity(double speed) const {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
+  }
+  /// Whether gravity acts in the prediction, as published in both schemes, or in the correction: the wall rows decide.
+  /// Those of a row with dummies see it, and the wall's own motion, in the fluid that comes down on them; the others
+  /// ask for grad p . n = rho (g - a) . n, and it would count twice.
+  bool predicts_gravity() const { return walls.treatment == WallTreatment::row_and_dummies; }
+  /// Whether particle i has the pressure equation for its row: fluid, and the row on the wall that has dummies behind.
+  bool has_equation(std::size_t i) const {
+    return particles.is_fluid(i) || (walls.treatment == WallTreatment::row_and_dummies && is_on_wall(i));
+  }
+  /// Whether wall particle i stands on the wall itself.
+  bool is_on_wall(std::size_t i) const {
+    return static_cast<std::size_t>(particles.wall_row[i]) < walls.particles.on_wall;
   }
   bool uses_tensors() const;
   bool uses_velocity_gradient() const;

@@ -94,20 +94,7 @@ StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
                                                              : repeated_projection_step(flow, dt);
 }
 
-template <int Dim>
-StepReport advance(Flow<Dim>& flow, double dt) {
-  hold_open_ends(flow, dt);
-  const StepReport report = flow.scheme.integrator == Integrator::explicit_projection
-                                ? explicit_projection_step(flow, dt)
-                                : implicit_projection_step(flow, dt);
-  flow.time += dt;
-  ++flow.step;
-  return report;
-}
-
 template StepReport implicit_projection_step<2>(Flow<2>&, double);
 template StepReport implicit_projection_step<3>(Flow<3>&, double);
-template StepReport advance<2>(Flow<2>&, double);
-template StepReport advance<3>(Flow<3>&, double);
 
 }  // namespace tailwater

@@ -38,24 +38,25 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   for_each(particles.owned, [&](std::size_t i) {
     const bool is_fluid = particles.is_fluid(i);
     flow.takes_part[i] = is_fluid || flow.is_wet[i];
-    flow.concentration[i] =
-        is_fluid ? concentration<Dim>(pairs, i, particles.volume, flow.W_0) / flow.lattice.concentration : 0.0;
+    flow.concentration[i] = flow.has_equation(i)
+                                ? concentration<Dim>(pairs, i, particles.volume, flow.W_0) / flow.lattice.concentration
+                                : 1.0;
     flow.concentration_gradient[i] =
         is_fluid ? concentration_gradient<Dim>(pairs, i, particles.volume) : Vec<Dim>(Vec<Dim>::Zero());
   });
   halo.exchange(flow.is_wet);
   halo.exchange(flow.takes_part);
+  halo.exchange(flow.concentration);
   if (flow.uses_tensors()) {
     compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
   }
   if (flow.scheme.surface == SurfaceTreatment::air) {
-    halo.exchange(flow.concentration);
     find_interior<Dim>(pairs, particles, flow.concentration, flow.W_0, flow.interior);
   }
   if (keep_marks) return;
   find_free_surface<Dim>(flow.scheme.surface,
                          {pairs, particles, flow.concentration, flow.concentration_gradient, flow.tensors, flow.spacing,
-                          flow.lattice.concentration, flow.W_0},
+                          flow.lattice.concentration, flow.W_0, flow.scheme.surface_density},
                          flow.is_surface);
   halo.exchange(flow.is_surface);
   if (flow.scheme.surface != SurfaceTreatment::air) {

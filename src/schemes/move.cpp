@@ -5,6 +5,14 @@
 namespace tailwater {
 
 template <int Dim>
+void drift(Flow<Dim>& flow, double dt) {
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (flow.particles.is_fluid(i)) flow.particles.position[i] = flow.position_old[i] + dt * flow.u_star[i];
+  });
+  place_walls(flow, flow.time + dt);
+}
+
+template <int Dim>
 void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
   for_each(particles.owned, [&](std::size_t i) {
@@ -19,6 +27,8 @@ void move(Flow<Dim>& flow, double dt, Interventions& interventions) {
                                                 flow.position_old, particles, particles.velocity);
 }
 
+template void drift<2>(Flow<2>&, double);
+template void drift<3>(Flow<3>&, double);
 template void move<2>(Flow<2>&, double, Interventions&);
 template void move<3>(Flow<3>&, double, Interventions&);
 

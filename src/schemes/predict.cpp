@@ -27,11 +27,14 @@ void predict(Flow<Dim>& flow, double dt) {
   if (flow.scheme.laplacian == LaplacianKind::consistent) {
     add_consistent_viscosity<Dim>(pairs, particles, flow.tensors, flow.takes_part, flow.spacing, flow.viscosity,
                                   particles.velocity, flow.acceleration);
+  } else if (flow.scheme.laplacian == LaplacianKind::shao_lo) {
+    add_shao_lo_viscosity<Dim>(pairs, particles, flow.eta_squared, flow.concentration, flow.viscosity,
+                               particles.velocity, flow.acceleration);
   } else {
     add_morris_viscosity<Dim>(pairs, particles, flow.spacing, flow.viscosity, particles.velocity, flow.acceleration);
   }
   // The consistent Laplacian takes the velocity of particles that stand on the wall, and with it their friction.
-  if (flow.scheme.laplacian == LaplacianKind::morris || flow.walls.treatment == WallTreatment::dummies) {
+  if (flow.scheme.laplacian != LaplacianKind::consistent || flow.walls.treatment == WallTreatment::dummies) {
     add_wall_friction<Dim>(pairs, particles, flow.walls, flow.viscosity_law, flow.spacing, particles.velocity,
                            flow.wall_mean, flow.acceleration);
   }
@@ -55,12 +58,13 @@ void predict(Flow<Dim>& flow, double dt) {
     flow.neighbourhood.halo().exchange(flow.stress);
     add_stress_divergence<Dim>(pairs, particles, flow.stress, flow.acceleration);
   }
+  const Vec<Dim> gravity = flow.predicts_gravity() ? flow.gravity : Vec<Dim>(Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    flow.u_star[i] =
-        flow.is_leaving(i) ? particles.velocity[i] : Vec<Dim>(flow.velocity_old[i] + dt * flow.acceleration[i]);
+    flow.u_star[i] = flow.is_leaving(i) ? particles.velocity[i]
+                                        : Vec<Dim>(flow.velocity_old[i] + dt * (flow.acceleration[i] + gravity));
   });
-  update_wall_velocity(flow, flow.wall_velocity_old, flow.u_star);
+  update_wall_velocity(flow, flow.predicts_gravity() ? flow.wall_velocity_next : flow.wall_velocity_old, flow.u_star);
 }
 
 template <int Dim>

@@ -22,13 +22,4 @@ StepReport explicit_projection_step(Flow<Dim>& flow, double dt);
 template <int Dim>
 StepReport implicit_projection_step(Flow<Dim>& flow, double dt);
 
-/// Finds the pressure at the start, so that the first measurements show it and the first step starts from it. Nothing
-/// moves.
-template <int Dim>
-void start(Flow<Dim>& flow);
-
-/// A step by the integrator that the case chose; advances flow.time and flow.step.
-template <int Dim>
-StepReport advance(Flow<Dim>& flow, double dt);
-
 }  // namespace tailwater

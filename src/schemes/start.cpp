@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
-#include "schemes/projection.h"
+#include "schemes/advance.h"
+#include "schemes/two_step.h"
 #include "schemes/verbs.h"
 
 namespace tailwater {
@@ -14,6 +16,13 @@ void start(Flow<Dim>& flow) {
   if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either
   Interventions ignored;
   drive_walls_to_end(flow, dt);
+  if (flow.scheme.name == SchemeName::farmani2020) {
+    predict_pressure(flow, dt, ignored);
+    std::copy(flow.position_old.begin(), flow.position_old.end(), flow.particles.position.begin());
+    place_walls(flow, flow.time);
+    locate(flow);
+    return;
+  }
   predict(flow, dt);
   aim(flow, dt);
   assemble(flow, dt, ignored);

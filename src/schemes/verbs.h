@@ -1,9 +1,10 @@
-// The verbs of a step of scheme F (Farzin et al. 2014), shared by both time integrators. Each does one thing to the
-// flow; explicit_projection.cpp and implicit_projection.cpp say in which order.
+// The verbs of a step, shared by the schemes: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). Each does one
+// thing to the flow; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp say in which order.
 //
-// Gravity: the paper's predictor holds dt g, here u_star does not. A uniform vector has no divergence and the wall row
-// asks for grad p . n = rho g . n, so the pressure is the same; the corrector adds dt g. It also keeps gravity from
-// being counted twice at the walls (method.md 3) and the divergence of u_star small, so less cancels.
+// Gravity: the papers' predictors hold dt g, here u_star does not unless the walls are a row with dummies. A uniform
+// vector has no divergence and the other wall rows ask for grad p . n = rho g . n, so the pressure is the same; the
+// corrector adds dt g. It also keeps gravity from being counted twice at the walls (method.md 3) and the divergence of
+// u_star small, so less cancels.
 #pragma once
 
 #include "closures/wall_contact.h"
@@ -49,10 +50,15 @@ void hold_open_ends(Flow<Dim>& flow, double dt);
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
 
-/// (F14), (F21): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the present
-/// positions.
+/// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the
+/// present positions.
 template <int Dim>
 void predict(Flow<Dim>& flow, double dt);
+
+/// (B13): r = r^n + dt u_star, where the pressure equation of the two-step scheme is posed; walls move too. `move`
+/// starts from r^n again.
+template <int Dim>
+void drift(Flow<Dim>& flow, double dt);
 
 /// What the pressure equation shall leave of div u at its positions. Nothing as published (F18); with
 /// `divergence_free = "midway"` the divergence dt/2 tr(grad u . grad u) that the same motion loses on the first half of
@@ -61,12 +67,14 @@ void predict(Flow<Dim>& flow, double dt);
 template <int Dim>
 void aim(Flow<Dim>& flow, double dt);
 
-/// (F15), (F22): lap p = rho/dt div u_star, one row per particle: fluid, surface, wall.
+/// (F15), (F22): lap p = rho/dt div u_star, or (B17): lap p = (rho_0 - rho)/dt^2; one row per particle: fluid, surface,
+/// wall.
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
 
 /// Work [J] of the pressure on the expansion that the density source asks for: the energy it takes to lift water that
-/// had come too close. Needs the pressure of this step and `locate` at the positions of its equation.
+/// had come too close; 0 for sources without a share of the density error. Needs the pressure of this step and `locate`
+/// at the positions of its equation.
 template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt);
 
@@ -82,7 +90,7 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 template <int Dim>
 void finish_pressure(Flow<Dim>& flow, Interventions& interventions);
 
-/// (F16), (F24): u = u_star + dt (g - grad p/rho).
+/// (F16), (F24), (B16), (B18): u = u_star + dt (g - grad p/rho).
 template <int Dim>
 void correct(Flow<Dim>& flow, double dt);
 
@@ -95,7 +103,8 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions);
 
-/// r = r^n + dt u, or as published (F17), (F25): r = r^n + dt/2 (u^n + u); walls move too, and nobody passes one.
+/// r = r^n + dt u, or as published (F17), (F25), (B19): r = r^n + dt/2 (u^n + u); walls move too, and nobody passes
+/// one.
 template <int Dim>
 void move(Flow<Dim>& flow, double dt, Interventions& interventions);
 

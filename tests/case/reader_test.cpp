@@ -108,6 +108,7 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.laplacian = LaplacianKind::consistent;
   expected.gradient = GradientKind::consistent;
   expected.divergence = DivergenceKind::consistent;
+  expected.source = SourceKind::velocity_divergence;
   expected.surface = SurfaceTreatment::cone;
   expected.walls = WallTreatment::pressure_rows;
   expected.divergence_free = DivergenceFree::start;
@@ -120,7 +121,6 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.shifting = ShiftingKind::farzin;
   expected.shifting_strength = 0.10;
   expected.shifting_cap = 0.05;
-  expected.density_relaxation = 0.0;
   expected.implicit_form = ImplicitForm::repeated;
   expected.max_passes = 30;
   expected.relax_pressure = 0.4;
@@ -135,6 +135,18 @@ TEST(Formulation, PublishedDependsOnTheIntegrator) {
   EXPECT_EQ(scheme.kernel, KernelName::farzin);
   EXPECT_EQ(scheme.courant, 0.12);
   EXPECT_EQ(scheme.shifting_strength, 0.08);
+}
+
+TEST(Formulation, DependsOnTheSchemesName) {
+  const SchemeTable robust = read_text(required_keys + water, {"scheme.name=farmani2020"}).scheme;
+  EXPECT_EQ(robust.source, SourceKind::mixed);
+  EXPECT_EQ(robust.kernel, KernelName::wendland_c2);
+  const SchemeTable published =
+      read_text(required_keys + water, {"scheme.name=farmani2020", "scheme.formulation=published"}).scheme;
+  EXPECT_EQ(published.kernel, KernelName::cubic_spline);
+  EXPECT_EQ(published.support, 2.0 * 1.2);  // h = 1.2 dx
+  EXPECT_EQ(published.source, SourceKind::density);
+  EXPECT_EQ(published.courant, 0.1);
 }
 
 TEST(Formulation, RobustIsTheStructsOwnDefaults) {

@@ -218,6 +218,38 @@ TEST(SurfaceParticles, StandOnTheWallWithItsEndsAndCorners) {
   EXPECT_GE(find_at<2>(row, {0.0, 0.6}), 0) << "the rim";
 }
 
+TEST(RowAndDummies, AreOneLatticeBehindTheWall) {
+  const CaseSpec spec = tank();
+  const WallParticles<2> rows = make_row_and_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  EXPECT_EQ(rows.on_wall, 6u + 11u + 6u);
+  EXPECT_EQ(rows.size(), 3u * 7 * 2 + 9 * 3 + 2 * 3 * 2)
+      << "sides from the rim to the floor, floor between, corners below";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Vec<2>& x = rows.position[k];
+    const double depth = std::max({-x[0], x[0] - 1.0, -x[1]});
+    EXPECT_EQ(k < rows.on_wall, depth < 0.05);
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(x[d] / 0.1, std::round(x[d] / 0.1), 1e-9) << x.transpose();
+  }
+}
+
+TEST(RowAndDummies, SurroundABoxIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};
+  const WallParticles<3> nodes = make_row_and_dummy_particles<3>(make_boundary<3>(spec), 0.1, 3);
+  EXPECT_EQ(nodes.on_wall, 6u * 5 * 7 - 4 * 3 * 6);
+  EXPECT_EQ(nodes.size(), 10u * 9 * 9 - 4 * 3 * 6) << "two nodes more on each closed side";
+  const int behind = find_at<3>(nodes, {-0.2, 0.2, -0.1});
+  ASSERT_GE(behind, 0);
+  EXPECT_LT((nodes.normal[behind] - Vec<3>(1, 0, 1).normalized()).norm(), round_off);
+}
+
+TEST(RowAndDummies, FillAnObstacleIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.8, 0.8, 0.8}, {"-z"}, FluidSide::outside)};
+  const WallParticles<3> nodes = make_row_and_dummy_particles<3>(make_boundary<3>(spec), 0.1, 2);
+  EXPECT_EQ(nodes.size(), 9u * 9 * 9 - 5 * 5 * 7) << "but for a core three nodes deep that reaches the open bottom";
+}
+
 TEST(SurfaceParticles, CoverTheClosedFacesOfABoxIn3D) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};

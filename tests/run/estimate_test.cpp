@@ -12,7 +12,7 @@ namespace {
 
 TEST(ReachableEnd, LimitsTheStepsOfStillWater) {
   CaseSpec spec = pond_case<2>();
-  const TimeStepRule rule{.courant = 0.5, .spacing = 0.1, .reference_speed = 5.0, .dimension = 2};
+  const TimeStepRule rule{.courant = 0.5, .spacing = 0.1, .reference_speed = 5.0};
   const double step = 0.5 * 0.1 / 5.0;
   spec.time.end = 0.99e9 * step;
   EXPECT_NO_THROW(require_reachable_end(spec, rule));

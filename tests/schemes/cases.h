@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/formulation.h"
-#include "schemes/projection.h"
+#include "schemes/advance.h"
 #include "schemes/verbs.h"
 
 namespace tailwater {

@@ -12,15 +12,18 @@ namespace {
 constexpr double dx = 0.04;
 const double end = 3.0 * std::sqrt(0.6 / g);
 
-/// The three ways to advance a step.
+/// The ways to advance a step.
 struct Way {
   const char* name;
   Integrator integrator;
   ImplicitForm form = ImplicitForm::residual;
+  SchemeName scheme = SchemeName::farzin2014;
 };
 
 CaseSpec dam_break(const Way& way) {
   CaseSpec spec = zhou_case(dx, way.integrator);
+  spec.scheme.name = way.scheme;
+  apply_formulation(spec.scheme);
   spec.scheme.implicit_form = way.form;
   return spec;
 }
@@ -87,11 +90,12 @@ TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, DamBreak,
-                         testing::Values(Way{"explicit", Integrator::explicit_projection},
-                                         Way{"implicit", Integrator::implicit_projection},
-                                         Way{"repeated", Integrator::implicit_projection, ImplicitForm::repeated}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Integrators, DamBreak,
+    testing::Values(Way{"explicit", Integrator::explicit_projection}, Way{"implicit", Integrator::implicit_projection},
+                    Way{"repeated", Integrator::implicit_projection, ImplicitForm::repeated},
+                    Way{"two_step", Integrator::explicit_projection, ImplicitForm::residual, SchemeName::farmani2020}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace tailwater

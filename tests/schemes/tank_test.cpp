@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "schemes/cases.h"
 #include "support/dimensions.h"
@@ -32,9 +33,13 @@ TYPED_TEST(TankTest, StaysAtRestForFiftySteps) {
   constexpr int Dim = TypeParam::value;
   const double width = Dim == 2 ? 1.0 : 0.4;
   const double depth = Dim == 2 ? 0.5 : 0.3;
-  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+  for (const auto& [name, integrator] : {std::pair{SchemeName::farzin2014, Integrator::explicit_projection},
+                                         std::pair{SchemeName::farzin2014, Integrator::implicit_projection},
+                                         std::pair{SchemeName::farmani2020, Integrator::explicit_projection}}) {
     CaseSpec spec = tank_case<Dim>(dx, width, depth);
+    spec.scheme.name = name;
     spec.scheme.integrator = integrator;
+    if (name == SchemeName::farmani2020) apply_formulation(spec.scheme);
     Flow<Dim> flow(spec);
     const std::size_t count = flow.particles.owned;
     // Only the rows whose support the surface cuts, 3 of them, can be out of balance, by g at most, for a quarter of

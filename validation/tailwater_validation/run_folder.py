@@ -72,7 +72,8 @@ class RunFolder:
 
     @property
     def integrator(self):
-        return self.case["scheme"]["integrator"]
+        """"two-step" for the scheme that knows no other."""
+        return self.case["scheme"].get("integrator", "two-step")
 
     @property
     def walls(self):

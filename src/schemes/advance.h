@@ -1,0 +1,17 @@
+// What a run asks of a scheme, whichever the case chose.
+#pragma once
+
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+/// Finds the pressure at the start, so that the first measurements show it and the first step starts from it. Nothing
+/// moves.
+template <int Dim>
+void start(Flow<Dim>& flow);
+
+/// A step by the scheme and integrator that the case chose; advances flow.time and flow.step.
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, double dt);
+
+}  // namespace tailwater

@@ -1,0 +1,134 @@
+// The operators of the two-step scheme, (B6)-(B8): what holds pair by pair on any set, and what they have on a lattice.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "operators/concentration.h"
+#include "operators/gradient_conservative.h"
+#include "operators/gradient_density_weighted.h"
+#include "operators/laplacian_morris.h"
+#include "operators/laplacian_shao_lo.h"
+#include "operators/lattice.h"
+#include "support/dimensions.h"
+#include "support/particle_set.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double dx = 0.1;
+constexpr double radius = 2.4 * dx;  // h = 1.2 dx
+
+template <class D>
+class DensityWeightedTest : public testing::Test {};
+TYPED_TEST_SUITE(DensityWeightedTest, Dimensions);
+
+template <int Dim>
+ParticleSet<Dim> cube(double jitter) {
+  return ParticleSet<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 9, dx, jitter),
+                          make_kernel<Dim>(KernelName::cubic_spline, radius), dx);
+}
+
+/// Is the whole support inside the cube?
+template <int Dim>
+bool is_interior(const ParticleSet<Dim>& set, std::size_t i) {
+  return set.position(i).cwiseAbs().maxCoeff() < (0.5 * (Dim == 2 ? 14 : 9) - 0.5) * dx - radius;
+}
+
+/// Terms in a row, and rows: the factor of eps in a sum over all pairs.
+template <int Dim>
+double count_of_terms(const ParticleSet<Dim>& set) {
+  return static_cast<double>(set.size() + 200);
+}
+
+TYPED_TEST(DensityWeightedTest, ForcesSumToZeroAndHaveNoTorque) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = cube<Dim>(0.4);
+  Noise noise(21);
+  const auto pressure = sample(set, [&](const Vec<Dim>&) { return 1000.0 * noise(); });
+  const auto density = sample(set, [&](const Vec<Dim>&) { return 1.0 + 0.3 * noise(); });
+  const Pairs<Dim>& pairs = set.pairs();
+  const std::vector<double>& volume = set.particles.volume;
+  Vec<Dim> force = Vec<Dim>::Zero();
+  double torque = 0.0;  // about z
+  double terms = 0.0;
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {
+    const Vec<Dim> f = volume[i] * density_weighted_gradient<Dim>(pairs, i, volume, density, pressure);
+    force += f;
+    torque += set.position(i)[0] * f[1] - set.position(i)[1] * f[0];
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      terms += volume[i] * volume[j] * std::abs(pairs.dW[k]) *
+               (std::abs(pressure[i]) / std::pow(density[i], 2) + std::abs(pressure[j]) / std::pow(density[j], 2));
+    }
+  }
+  ASSERT_GT(terms, 0.0);
+  const double round_off = count_of_terms(set) * eps * terms;
+  EXPECT_LT(force.norm(), round_off);
+  EXPECT_LT(std::abs(torque), 2.0 * round_off);  // arms are shorter than 1 m
+}
+
+TYPED_TEST(DensityWeightedTest, IsTheConservativeGradientAtFullDensity) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = cube<Dim>(0.3);
+  Noise noise(22);
+  const auto pressure = sample(set, [&](const Vec<Dim>&) { return noise(); });
+  const std::vector<double> density(set.size(), 1.0);
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+    EXPECT_EQ(density_weighted_gradient<Dim>(set.pairs(), i, set.particles.volume, density, pressure),
+              conservative_gradient<Dim>(set.pairs(), i, set.particles.volume, pressure));
+  }
+}
+
+TYPED_TEST(DensityWeightedTest, ShaoLoWeightsAreSymmetricAndMorrisWithoutEta) {
+  const auto kernel = make_kernel<TypeParam::value>(KernelName::cubic_spline, radius);
+  for (int n = 1; n <= 240; ++n) {
+    const double r = 0.01 * n * dx;
+    const double dW = kernel_derivative(kernel, r);
+    const double weight = shao_lo_laplacian_weight(0.01, 0.7, 1.1, r, dW, shao_lo_eta_squared(radius));
+    EXPECT_GE(weight, 0.0);
+    EXPECT_EQ(weight, shao_lo_laplacian_weight(0.01, 1.1, 0.7, r, dW, shao_lo_eta_squared(radius)));
+    if (r >= least_morris_distance * dx) {
+      const double morris = morris_laplacian_weight(0.01, r, dW, dx);
+      EXPECT_NEAR(shao_lo_laplacian_weight(0.01, 1.0, 1.0, r, dW, 0.0), morris, 8.0 * eps * morris);
+    }
+  }
+}
+
+TYPED_TEST(DensityWeightedTest, LatticeHasFullDensityAndGivesLinearFieldsNoLaplacian) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = cube<Dim>(0.0);
+  const Kernel<Dim>& kernel = set.neighbourhood.kernel();
+  const LatticeSums lattice = lattice_sums(kernel, dx);
+  const Pairs<Dim>& pairs = set.pairs();
+  int tested = 0;
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {
+    if (!is_interior(set, i)) continue;
+    ++tested;
+    EXPECT_NEAR(concentration<Dim>(pairs, i, set.particles.volume, kernel_value(kernel, 0.0)) / lattice.concentration,
+                1.0, 1e3 * eps);
+    double sum = 0.0;
+    double linear = 0.0;
+    double square = 0.0;
+    double second_moment = 0.0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const double c_ij = shao_lo_laplacian_weight(set.particles.volume[pairs.j[k]], 1.0, 1.0, pairs.r[k], pairs.dW[k],
+                                                   shao_lo_eta_squared(radius));
+      const double x = -pairs.r[k] * pairs.e[k][0];
+      sum += c_ij;
+      linear += c_ij * x;
+      square += c_ij * x * x;
+      second_moment += c_ij * pairs.r[k] * pairs.r[k];
+    }
+    EXPECT_NEAR(sum, lattice.shao_lo, 1e3 * eps * sum);
+    EXPECT_NEAR(linear, 0.0, 1e3 * eps * sum * radius);
+    // A lattice knows no direction: lap(x^2) is lap(r^2)/Dim.
+    EXPECT_NEAR(square, second_moment / Dim, 1e3 * eps * second_moment);
+  }
+  EXPECT_GT(tested, 0);
+}
+
+}  // namespace
+}  // namespace tailwater
