@@ -215,8 +215,8 @@ class BadInput(ValidateTest):
 
 class Studies(unittest.TestCase):
     def test_runs_of_one_name_are_one_run_and_their_cases_are_there(self):
-        for level in LEVELS:
-            every = [run for one in studies(Plan(level)).values() for run in one.runs]
+        for plan in (*map(Plan, LEVELS), Plan("quick", "farmani2020")):
+            every = [run for one in studies(plan).values() for run in one.runs]
             self.assertEqual(len({run.name for run in every}), len(set(every)))
             for run in every:
                 if isinstance(run, runs.Run):
@@ -238,7 +238,9 @@ class Studies(unittest.TestCase):
         for name, one in studies(Plan("quick", "farmani2020")).items():
             if one.kind == study.COMPARISON:
                 self.assertEqual(one.runs, default[name].runs)
+                self.assertIn("scheme.integrator", str(one.runs))
             else:
+                self.assertNotIn("scheme.integrator", str(one.runs), "it has no integrators")
                 self.assertTrue(all("scheme.name=farmani2020" in run.settings for run in one.runs
                                     if isinstance(run, runs.Run)), name)
 

@@ -73,16 +73,13 @@ class Plan:
 
     @property
     def integrators(self):
-        """Only the default scheme has two."""
-        return ("explicit",) if self.scheme else ("explicit", "implicit")
+        """The plain one, then the one that the bars are for; "" where the scheme has no choice."""
+        return ("explicit", "implicit") if self.scheme in ("", "farzin2014") else ("", "")
 
-    @property
-    def best(self):
-        """The integrator that the bars are for."""
-        return self.integrators[-1]
-
-    def run(self, name, case, settings=(), seconds=10.0):
+    def run(self, name, case, settings=(), seconds=10.0, integrator=""):
         """Settings of the run itself come last: they win."""
+        if integrator:
+            name, settings = f"{name}_{integrator}", (f"scheme.integrator={integrator}", *settings)
         return Run("_".join(filter(None, (name, self.scheme))), CASES / case, (*self.settings, *settings), seconds)
 
 
