@@ -14,10 +14,10 @@ from matplotlib.collections import LineCollection
 from . import zhou1999
 from .curves import DataError
 from .particles import nearest_frames
+from .plots import BLACK, BLUE, GREY, ORANGE, STYLE
 from .run_folder import RunFolder
 
 FRAME_TIMES = (1.6, 3.0, 5.0, 6.6)  # T: collapse, run-up, fall, overturning on the water ahead
-BLUE, ORANGE, BLACK, GREY = "#0072B2", "#D55E00", "#000000", "#777777"
 COMPUTED = {"color": BLUE, "linewidth": 1.3, "zorder": 3}
 HIGHEST = {"color": ORANGE, "linewidth": 0.9, "linestyle": (0, (2, 1.2)), "zorder": 2}
 MEASURED = {
@@ -26,8 +26,6 @@ MEASURED = {
                  "markersize": 3.4, "linestyle": "none", "zorder": 1},
 }
 MEASURED_LABEL = {"openmps": "laboratory (read by OpenMPS)", "fluidity": "laboratory (read by Fluidity)"}
-STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
-         "axes.spines.top": False, "axes.spines.right": False}
 
 # Layout in inches: columns from the left, rows from the top. Two columns of particles; the colour bar right of them.
 WIDTH, LEFT, COLUMN, COLUMN_GAP, BAR_GAP, BAR = 11.0, 0.72, 4.42, 0.36, 0.14, 0.15

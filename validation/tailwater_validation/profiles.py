@@ -10,8 +10,9 @@ import numpy as np
 
 from .curves import LEAST_COVERAGE, DataError
 
-# s: a profile is written at the first step at or after its time; those of one run may be as near as 0.005 s
-TIME_TOLERANCE = 0.004
+# s: how late a profile may be where a run does not tell its longest step
+LATEST = 0.004
+ROUND_OFF = 1e-6  # s, of times written as text
 
 
 @dataclass(frozen=True)
@@ -48,14 +49,18 @@ def cut(x, y, start, end):
 
 
 def profile_at(run, probe, time):
-    """The profile that a probe of a run took at `time` (s). Throws DataError if there is none."""
+    """The profile that a probe of a run took at `time` (s): at the first step at or after it. Throws DataError if there is
+    none."""
     table = run.profile_table(probe)
     taken = np.unique(table["time_s"])
-    nearest = taken[np.argmin(np.abs(taken - time))]
-    if abs(nearest - time) > TIME_TOLERANCE:
+    latest = time + run.summary.get("steps", {}).get("dt_largest_s", LATEST)
+    due = taken[(taken > time - ROUND_OFF) & (taken < latest + ROUND_OFF)]
+    if due.size == 0:
+        nearest = taken[np.argmin(np.abs(taken - time))]
         raise DataError(f"{run.path}: {probe} has no profile at {time:.3f} s; the nearest is at {nearest:.3f} s")
-    rows = table["time_s"] == nearest
-    return Profile(float(nearest), *(table[name][rows] for name in ("x_m", "bed_m", "connected_m", "highest_m")))
+    taken_at = due[0]
+    rows = table["time_s"] == taken_at
+    return Profile(float(taken_at), *(table[name][rows] for name in ("x_m", "bed_m", "connected_m", "highest_m")))
 
 
 def single_valued(x, y, places):
