@@ -62,8 +62,8 @@ void predict(Flow<Dim>& flow, double dt) {
   const Vec<Dim> gravity = flow.predicts_gravity() ? flow.gravity : Vec<Dim>(Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    flow.u_star[i] = flow.is_leaving(i) ? particles.velocity[i]
-                                        : Vec<Dim>(flow.velocity_old[i] + dt * (flow.acceleration[i] + gravity));
+    if (flow.is_leaving(i)) flow.acceleration[i].setZero();  // nothing but gravity, which the end's pressure holds
+    flow.u_star[i] = flow.velocity_old[i] + dt * (flow.acceleration[i] + gravity);
   });
   update_wall_velocity(flow, flow.predicts_gravity() ? flow.wall_velocity_next : flow.wall_velocity_old, flow.u_star);
 }

@@ -52,6 +52,7 @@ TYPED_TEST(OutletTest, APlugLeavesUnchangedAndIsCounted) {
     spec.physics.gravity = Coordinates(Dim, 0.0);
     spec.scheme.integrator = integrator;
     spec.scheme.shifting = ShiftingKind::none;  // it would round the plug's ends off
+    spec.scheme.density_relaxation = 0.0;       // they have too few neighbours
     spec.scheme.length = 0.2;
     spec.fluid[0].velocity.assign(Dim, 0.0);
     spec.fluid[0].velocity[0] = speed;
@@ -80,8 +81,8 @@ TYPED_TEST(OutletTest, APlugLeavesUnchangedAndIsCounted) {
 /// it would leave at 8/27 sqrt(g h) h, six times as much. A column leaves at a time.
 TYPED_TEST(OutletTest, StillWaterIsNotDrawnDown) {
   constexpr int Dim = TypeParam::value;
-  const double width = Dim == 2 ? 1.0 : 0.6;
-  const double depth = Dim == 2 ? 0.5 : 0.3;
+  const double width = Dim == 2 ? 1.0 : 0.4;
+  const double depth = Dim == 2 ? 0.5 : 0.2;
   const double breadth = Dim == 2 ? 1.0 : width;
   const double celerity = std::sqrt(g * depth);
   for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
@@ -124,7 +125,9 @@ TEST(Outlet, LeftIsRightMirrored) {
 
 /// A level that comes by is that of a channel that goes on: the pressure in the end stretch is hydrostatic below it.
 TEST(Outlet, EndStretchIsHydrostatic) {
-  Flow<2> flow(open_tank<2>(1.0, 0.5));
+  CaseSpec spec = open_tank<2>(1.0, 0.5);
+  spec.pressure_solver.tolerance = 1e-12;
+  Flow<2> flow(spec);
   start(flow);
   int leaving = 0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
