@@ -12,5 +12,6 @@ void add_check_command(CLI::App& app, ExitCode& code);
 void add_run_command(CLI::App& app, ExitCode& code);
 void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
+void add_validate_command(CLI::App& app, ExitCode& code);
 
 }  // namespace tailwater

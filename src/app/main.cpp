@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   add_run_command(app, code);
   add_info_command(app, code);
   add_bench_command(app, code);
+  add_validate_command(app, code);
 
   if (argc == 1) {
     fmt::print(stderr, "{}", app.help());

@@ -14,6 +14,7 @@
 
 #include "linear/pressure_system.h"
 #include "support/dimensions.h"
+#include "support/record.h"
 #include "support/tensors.h"
 
 namespace tailwater {
@@ -23,6 +24,7 @@ constexpr double tolerance = 1e-9;
 
 template <int Dim>
 struct Problem {
+  const char* name;
   double (*pressure)(const Vec<Dim>&);
   double (*laplacian)(const Vec<Dim>&);
   double (*normal_derivative)(const Vec<Dim>&);  // dp/dy at y = 0
@@ -39,7 +41,7 @@ constexpr double tangential = Dim == 2 ? 4.0 : 4.0 * (1.0 + 0.49);
 /// normal derivative by symmetry.
 template <int Dim>
 Problem<Dim> straight_at_the_wall() {
-  return {[](const Vec<Dim>& x) { return std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1]); },
+  return {"straight", [](const Vec<Dim>& x) { return std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1]); },
           [](const Vec<Dim>& x) {
             return -(tangential<Dim> + 4.0) * std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1]);
           },
@@ -49,7 +51,7 @@ Problem<Dim> straight_at_the_wall() {
 /// p = cos(2 a + 0.3) sin(2 y + 0.8): curved at the wall.
 template <int Dim>
 Problem<Dim> curved_at_the_wall() {
-  return {[](const Vec<Dim>& x) { return std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1] + 0.8); },
+  return {"curved", [](const Vec<Dim>& x) { return std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1] + 0.8); },
           [](const Vec<Dim>& x) {
             return -(tangential<Dim> + 4.0) * std::cos(2.0 * along(x) + 0.3) * std::sin(2.0 * x[1] + 0.8);
           },
@@ -124,7 +126,10 @@ double solution_error(const Problem<Dim>& problem, int n, double jitter) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     squares += std::pow(solution[i] - problem.pressure(set.position(i)), 2);
   }
-  return std::sqrt(squares / static_cast<double>(set.size()));
+  const double error = std::sqrt(squares / static_cast<double>(set.size()));
+  const std::string set_name = jitter > 0.0 ? fmt::format("jitter{:g}", jitter) : "regular";
+  record_error(fmt::format("poisson_{}_{}", problem.name, set_name), Dim, dx, error);
+  return error;
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 
 #include "operators/laplacian_morris.h"
 #include "support/dimensions.h"
+#include "support/record.h"
 #include "support/tensors.h"
 
 namespace tailwater {
@@ -82,6 +83,11 @@ Errors interior_errors(double dx, double jitter, double radius_over_dx) {
   for (double* error : {&errors.gradient, &errors.laplacian, &errors.morris}) {
     *error = std::sqrt(*error / static_cast<double>(count));
   }
+  const std::string set_name = jitter > 0.0 ? fmt::format("jitter{:g}", jitter) : "regular";
+  const std::string support = fmt::format("support{:g}", radius_over_dx);
+  record_error(fmt::format("gradient_{}_{}", set_name, support), Dim, dx, errors.gradient);
+  record_error(fmt::format("laplacian_{}_{}", set_name, support), Dim, dx, errors.laplacian);
+  record_error(fmt::format("morris_{}_{}", set_name, support), Dim, dx, errors.morris);
   return errors;
 }
 

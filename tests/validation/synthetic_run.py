@@ -21,6 +21,8 @@ ARRIVAL = 0.59  # s: before the window in which noise is scored
 SAWTOOTH = 0.03  # of rho g H, over four samples: -1, -1/3, 1/3, 1 times this
 
 EFFECTIVE_CASE = """\
+[case]
+title = "Dam break of a 1.2 m x 0.6 m column, Zhou et al. (1999)"
 [particles]
 spacing = {spacing}
 [time]
@@ -50,21 +52,46 @@ def surface(x, T):
     return depth + max(T - 2.4, 0) * 0.28 * np.exp(-(3.22 - x) / 0.16)
 
 
-def write_frame(path, T, spacing):
-    x, z = np.meshgrid(np.arange(spacing / 2, 3.22, spacing), np.arange(spacing / 2, 3.0, spacing))
-    wet = z < surface(x, T)
-    position = np.stack([x[wet], z[wet], np.zeros(np.count_nonzero(wet))], axis=1)
+def water_below(level, length, height, spacing):
+    """Particles (n, 2) of a lattice below `level`, a function of x, and their hydrostatic pressures (Pa)."""
+    x, z = np.meshgrid(np.arange(spacing / 2, length, spacing), np.arange(spacing / 2, height, spacing))
+    wet = z < level(x)
+    return np.stack([x[wet], z[wet]], axis=1), 9810.0 * (level(x) - z)[wet]
+
+
+def write_frame(path, position, pressure):
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(position, deep=True))
+    points.SetData(numpy_to_vtk(np.pad(position, ((0, 0), (0, 1))), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    pressure = numpy_to_vtk(9810.0 * (surface(x, T) - z)[wet].astype(np.float32), deep=True)
+    pressure = numpy_to_vtk(pressure.astype(np.float32), deep=True)
     pressure.SetName("pressure")
     data.GetPointData().AddArray(pressure)
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
     writer.SetInputData(data)
     writer.Write()
+
+
+def write_frames(folder, frames):
+    """Field files of [(time in s, positions, pressures)]."""
+    entries = []
+    for k, (time, position, pressure) in enumerate(frames):
+        write_frame(folder / "fields" / f"fields_{k:05}.vtp", position, pressure)
+        entries.append(f'<DataSet timestep="{time}" file="fields_{k:05}.vtp"/>')
+    (folder / "fields" / "fields.pvd").write_text(
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0"><Collection>\n'
+        + "\n".join(entries) + "\n</Collection></VTKFile>\n")
+
+
+def make_folder(folder, effective_case):
+    """An empty run folder of a case."""
+    folder = Path(folder)
+    (folder / "probes").mkdir(parents=True)
+    (folder / "fields").mkdir()
+    (folder / "case.effective.toml").write_text(effective_case)
+    (folder / "summary.json").write_text(json.dumps(SUMMARY))
+    return folder
 
 
 def write_probe(folder, name, columns):
@@ -75,11 +102,7 @@ def write_probe(folder, name, columns):
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
     """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error`
     (of H) too high; the pressure at every point is a step at ARRIVAL and a sawtooth on it."""
-    folder = Path(folder)
-    (folder / "probes").mkdir(parents=True)
-    (folder / "fields").mkdir()
-    (folder / "case.effective.toml").write_text(EFFECTIVE_CASE.format(spacing=spacing, end=8 * zhou1999.TIME_SCALE))
-    (folder / "summary.json").write_text(json.dumps(SUMMARY))
+    folder = make_folder(folder, EFFECTIVE_CASE.format(spacing=spacing, end=8 * zhou1999.TIME_SCALE))
     regular = np.arange(0, end * zhou1999.TIME_SCALE + 1e-9, SAMPLING)
 
     def measured(quantity):
@@ -107,13 +130,8 @@ def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
             "pressure_Pa": np.where(regular >= ARRIVAL - 1e-9, 0.5 + sawtooth, 0) * zhou1999.PRESSURE_SCALE})
 
     frames = np.arange(0, end + 1e-9, 0.2)
-    entries = []
-    for k, T in enumerate(frames):
-        write_frame(folder / "fields" / f"fields_{k:05}.vtp", T, spacing)
-        entries.append(f'<DataSet timestep="{T * zhou1999.TIME_SCALE}" file="fields_{k:05}.vtp"/>')
-    (folder / "fields" / "fields.pvd").write_text(
-        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0"><Collection>\n'
-        + "\n".join(entries) + "\n</Collection></VTKFile>\n")
+    write_frames(folder, [(T * zhou1999.TIME_SCALE, *water_below(lambda x, T=T: surface(x, T), 3.22, 3.0, spacing))
+                          for T in frames])
 
 
 if __name__ == "__main__":

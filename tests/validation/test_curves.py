@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater_validation.curves import (Curve, DataError, arrival_time, best_shift, first_peak, noise, read_curve,
-                                         read_table, rms_difference, running_median)
+from tailwater_validation.curves import (Curve, DataError, arrival_time, best_shift, first_peak, noise, passage_time,
+                                         read_curve, read_table, rms_difference, running_median)
 
 
 class Reading(unittest.TestCase):
@@ -103,6 +103,13 @@ class Events(unittest.TestCase):
         self.assertEqual(arrival_time(curve, 0.05), 1)
         self.assertEqual(arrival_time(curve, 0.05, not_before=1.5), 3)
         self.assertIsNone(arrival_time(curve, 1.0))
+
+    def test_passage_is_the_first_rise_between_samples(self):
+        curve = Curve(np.array([0.0, 1, 3, 4, 5]), np.array([1.0, 1, 5, 2, 9]))
+        self.assertEqual(passage_time(curve, 4), 2.5)
+        for level in (0.5, 1, 10):
+            with self.subTest(level), self.assertRaisesRegex(DataError, "does not rise through"):
+                passage_time(curve, level)
 
     def test_first_peak_is_not_the_later_larger_one(self):
         curve = Curve(np.array([0.0, 1, 2, 3, 4]), np.array([0, 0.4, 0.6, 0.3, 2]))

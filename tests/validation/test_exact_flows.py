@@ -204,5 +204,144 @@ class Drop(unittest.TestCase):
         np.testing.assert_allclose(exact_flows.semi_axes(position[inside]), [2, 1], rtol=dx)
 
 
+class Poiseuille(RunTest):
+    GAP, VISCOSITY, FORCE = 2.0, 0.1, 0.3
+    CASE = """\
+[parameters]
+L = 2.0
+G = 0.3
+[physics]
+viscosity = 0.1
+[particles]
+spacing = 0.1
+"""
+
+    def profile(self, y, time):
+        return exact_flows.poiseuille_profile(np.asarray(y), time, self.GAP, self.VISCOSITY, self.FORCE)
+
+    def test_obeys_the_equation_and_its_edges(self):
+        y, d, dt = np.linspace(0.2, 1.8, 9), 1e-3, 1e-4
+        for time in (1.0, 5.0):
+            rate = (self.profile(y, time + dt) - self.profile(y, time - dt)) / (2 * dt)
+            curvature = (self.profile(y + d, time) - 2 * self.profile(y, time) + self.profile(y - d, time)) / d**2
+            # Truncation is d^2/12 of the fourth derivative, below 1e-6; round-off in the curvature about 1e-16/d^2.
+            np.testing.assert_allclose(rate, self.FORCE + self.VISCOSITY * curvature, atol=1e-6)
+            np.testing.assert_allclose(self.profile([0.0, self.GAP], time), 0, atol=1e-12)
+        # The first term left out is 4/pi^3 G L^2/nu/201^3 = 2e-7 at the start.
+        np.testing.assert_allclose(self.profile(y, 0.0), 0, atol=1e-6)
+        steady = 0.5 * self.FORCE / self.VISCOSITY * y * (self.GAP - y)
+        np.testing.assert_allclose(self.profile(y, 1000.0), steady, rtol=1e-12)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (1.0, self.GAP), 0.1)
+        scale = self.FORCE * self.GAP**2 / (self.VISCOSITY * math.sqrt(120))
+        frames = [(0.0, position, {"velocity": np.zeros((len(position), 3))})]
+        for time, error in ((1.0, 0.02), (2.0, -0.01)):
+            velocity = np.zeros((len(position), 3))
+            velocity[:, 0] = self.profile(position[:, 1], time) + error * scale
+            velocity[:, 1] = 0.5 * error * scale
+            frames.append((time, position, {"velocity": velocity}))
+        numbers = exact_flows.poiseuille(self.write_run(self.CASE, frames))
+        for name, value in (("profile_error", 0.02), ("steady_error", 0.01), ("across", 0.01)):
+            self.assertAlmostEqual(numbers[name], value, delta=4 * FLOAT32)
+
+
+class Couette(RunTest):
+    GAP, VISCOSITY, SPEED = 2.0, 0.1, 1.5
+    CASE = """\
+[parameters]
+L = 2.0
+U = 1.5
+[physics]
+viscosity = 0.1
+[particles]
+spacing = 0.1
+"""
+
+    def profile(self, y, time):
+        return exact_flows.couette_profile(np.asarray(y), time, self.GAP, self.VISCOSITY, self.SPEED)
+
+    def test_obeys_the_equation_and_its_edges(self):
+        y, d, dt = np.linspace(0.2, 1.8, 9), 1e-3, 1e-4
+        for time in (1.0, 5.0):
+            rate = (self.profile(y, time + dt) - self.profile(y, time - dt)) / (2 * dt)
+            curvature = (self.profile(y + d, time) - 2 * self.profile(y, time) + self.profile(y - d, time)) / d**2
+            np.testing.assert_allclose(rate, self.VISCOSITY * curvature, atol=1e-6)  # as above
+            np.testing.assert_allclose(self.profile([0.0, self.GAP], time), [0, self.SPEED], atol=1e-12)
+        # Before diffusion has come a tenth of the gap: erfc(0.2/(2 sqrt(0.1 * 0.01))) = 8e-6 of the plate's speed.
+        np.testing.assert_allclose(self.profile(y[:-1], 0.01), 0, atol=1e-5 * self.SPEED)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (1.0, self.GAP), 0.1)
+        velocity = np.zeros((len(position), 3))
+        velocity[:, 0] = self.profile(position[:, 1], 1.0) - 0.03 * self.SPEED / math.sqrt(3)
+        numbers = exact_flows.couette(self.write_run(self.CASE, [
+            (0.0, position, {"velocity": 0 * velocity}), (1.0, position, {"velocity": velocity})]))
+        self.assertAlmostEqual(numbers["profile_error"], 0.03, delta=4 * FLOAT32)
+
+
+class ShallowDamBreak(RunTest):
+    CASE = """\
+[parameters]
+h0 = 2.0
+h1 = 0.4
+[physics]
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.1
+"""
+    TIMES = (1.0, 3.0, 4.0, 5.0, 6.0)  # T
+    DX = 0.01  # of h0: places and volumes are known to dx, so slopes over T = 3..6 to a third of it
+
+    def run_with(self, depth):
+        """A run whose surface at the time T is depth(x/h0, T)."""
+        scale = math.sqrt(2.0 / 9.81)
+        x = np.arange(-8, 13, self.DX) + 0.5 * self.DX
+        rows = [np.column_stack([np.full(x.size, T * scale), 2.0 * x, 0 * x, 2.0 * depth(x, T), 2.0 * depth(x, T)])
+                for T in self.TIMES]
+        names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
+        return self.write_run(self.CASE, [(0.0, np.zeros((1, 2)), {})],
+                              {"probes/surface.csv": dict(zip(names, np.concatenate(rows).T))})
+
+    def test_ritter_keeps_mass(self):
+        xi = np.linspace(-1, 2, 3001)
+        h = exact_flows.ritter(xi)
+        u = 2 / 3 * (1 + xi)  # the rarefaction's velocity over sqrt(g h0)
+        # -xi h' + (h u)' = 0; differences of parabolas over 0.001 are good to 1e-6.
+        np.testing.assert_allclose(np.gradient(h * u, xi)[1:-1], xi[1:-1] * np.gradient(h, xi)[1:-1], atol=1e-6)
+        self.assertEqual(list(exact_flows.ritter([-2, 0, 3])), [1, 4 / 9, 0])
+
+    def test_stokers_bore_keeps_mass_and_momentum(self):
+        for ahead in (0.05, 0.2, 0.6):
+            depth, speed, bore = exact_flows.stoker_state(ahead)
+            self.assertAlmostEqual(bore * (depth - ahead), speed * depth, places=12)
+            self.assertAlmostEqual(bore * speed * depth, speed**2 * depth + 0.5 * (depth**2 - ahead**2), places=12)
+            self.assertAlmostEqual(speed + 2 * math.sqrt(depth), 2, places=12)  # the invariant of the rarefaction
+
+    def test_theory_has_no_error_and_a_lag_shows_in_the_profile_only(self):
+        cases = ((exact_flows.ritter_dam_break, exact_flows.ritter, "gate_error"),
+                 (exact_flows.stoker_dam_break, lambda xi: exact_flows.stoker(xi, 0.2), "plateau_error"))
+        for score, theory, other in cases:
+            numbers = score(self.run_with(lambda x, T, theory=theory: theory(x / T)))
+            for name in ("discharge_error", "front_error", other):
+                self.assertAlmostEqual(numbers[name], 0, delta=self.DX, msg=name)
+            self.assertAlmostEqual(numbers["profile_error"], 0, places=12)
+            late = score(self.run_with(lambda x, T, theory=theory: theory((x + 0.1) / T)))
+            self.assertAlmostEqual(late["front_error"], 0, delta=self.DX)
+            self.assertGreater(late["profile_error"], 1e-3)
+
+    def test_known_errors_come_back(self):
+        numbers = exact_flows.ritter_dam_break(self.run_with(lambda x, T: 1.02 * exact_flows.ritter(x / T)))
+        self.assertAlmostEqual(numbers["discharge_error"], 0.02, delta=self.DX)
+        self.assertAlmostEqual(numbers["gate_error"], 0.02, delta=self.DX)
+        faster = exact_flows.stoker_dam_break(self.run_with(lambda x, T: exact_flows.stoker(x / (1.1 * T), 0.2)))
+        self.assertAlmostEqual(faster["front_error"], 0.1, delta=self.DX)
+
+    def test_too_few_profiles_are_told(self):
+        self.TIMES = (1.0, 3.0)
+        with self.assertRaisesRegex(DataError, "too few"):
+            exact_flows.ritter_dam_break(self.run_with(lambda x, T: exact_flows.ritter(x / T)))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -7,91 +7,23 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import tomllib
 import unittest
-from pathlib import Path
 
+from fake_program import ProgramTest
 from tailwater_validation import report, robustness, runs
 from tailwater_validation.curves import DataError
-from tailwater_validation.metric import Metric
-
-# Writes the least that a run leaves. A run whose command line holds the word given by $FAKE_FAILS fails; one that holds
-# $FAKE_WAITS sleeps until it is interrupted.
-FAKE = """\
-#!/usr/bin/python3
-import json, os, pathlib, sys, time
-here = pathlib.Path(__file__)
-if sys.argv[1] == "--version":
-    print("tailwater 9.9.9 (commit " + here.with_name("commit").read_text() + ")")
-    sys.exit()
-line = " ".join(sys.argv)
-if sys.argv[1] == "check":
-    if "bogus" in line:
-        print("error: unknown key bogus", file=sys.stderr)
-        sys.exit(2)
-    sys.exit()
-out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
-with open(here.with_name("calls.txt"), "a") as calls:
-    print(out.name, file=calls)
-failing, waiting = os.environ.get("FAKE_FAILS"), os.environ.get("FAKE_WAITS")
-if waiting and waiting in line:
-    try:
-        time.sleep(60)
-    except KeyboardInterrupt:
-        sys.exit(130)
-if failing and failing in line:
-    print("error: made to fail", file=sys.stderr)
-    sys.exit(3)
-(out / "case.effective.toml").write_text("[particles]\\nspacing = 0.02\\n[scheme]\\nintegrator = 'explicit'\\n")
-(out / "summary.json").write_text(json.dumps({
-    "status": "done", "particles": {"fluid": 100}, "steps": {"count": 50},
-    "energy": {"start_J": 1.0, "largest_rise_over_start": 5e-5, "largest_rise_less_density_work_over_start": 0.0},
-    "volume": {"outside_the_walls_most": 0, "density_error_mean": 0.001, "density_error_rms": 0.02},
-    "interventions": {"put_back_from_walls": 3, "capped_shifts": 1, "per_step": 0.5}}))
-"""
 
 
-class BenchTest(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-        self.program = self.folder / "tailwater"
-        self.program.write_text(FAKE)
-        self.program.chmod(0o755)
-        self.commit("abc")
-        self.case = self.folder / "case.toml"
-        self.case.write_text("")
-
-    def commit(self, name):
-        (self.folder / "commit").write_text(name)
-
-    def calls(self):
-        """Names of the runs made so far, in order."""
-        path = self.folder / "calls.txt"
-        return path.read_text().split() if path.exists() else []
-
-    def fake(self, **variables):
-        """Behaviour of the fake program from here on."""
-        os.environ.update(variables)
-        for name in variables:
-            self.addCleanup(os.environ.pop, name, None)
-
+class BenchTest(ProgramTest):
     def make(self, *made, jobs=1):
         with contextlib.redirect_stderr(io.StringIO()) as messages:
             runs.make(made, runs.Program(self.program), self.folder / "out", jobs)
         return messages.getvalue()
 
     def bench(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                code = robustness.main(["--program", str(self.program), "--out", str(self.folder / "out"), *arguments])
-            except SystemExit as leave:
-                code = leave.code
-        return code, out.getvalue(), err.getvalue()
+        return self.command(robustness.main, *arguments)
 
 
 class Runs(BenchTest):
@@ -115,7 +47,7 @@ class Runs(BenchTest):
         run = runs.Run("a", self.case)
         self.make(run)
         self.make(run)
-        self.program.write_text(FAKE + "# changed\n")
+        self.program.write_text(self.program.read_text() + "# changed\n")
         self.make(run)
         self.assertEqual(self.calls(), ["a"] * 2)
 

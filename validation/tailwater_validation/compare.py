@@ -1,19 +1,52 @@
 """Compares a run with the laboratory: a table on standard output, comparison.json and CASE.png in the run's folder.
 
-Usage: python -m tailwater_validation.compare zhou1999 RUN_DIR
+Usage: python -m tailwater_validation.compare [CASE] RUN_DIR
+The case is known by the title of the run's case file; a run under another title needs its name.
 Exit codes: 0 done (whatever the verdicts are), 2 what was asked for is wrong, 4 a file cannot be read or written.
 """
 
 import argparse
 import json
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-from . import picture, zhou1999
+from . import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce1952_picture, ozmen_cagatay2014,
+               ozmen_cagatay2014_picture, picture, soares_frazao2002, soares_frazao2002_picture,
+               zhou1999)
 from .curves import DataError
 from .metric import bar
+from .run_folder import RunFolder
 
-CASES = {"zhou1999": (zhou1999.score, picture.draw_zhou1999)}
+
+@dataclass(frozen=True)
+class Case:
+    """A case with laboratory data: `score` takes a run's folder and returns the result of `scoring`, `draw` takes the
+    folder and the image to write."""
+
+    title: str
+    score: Callable
+    draw: Callable
+
+
+CASES = {
+    "janosi2004": Case(janosi2004.TITLE, janosi2004.score, janosi2004_picture.draw),
+    "martin_moyce1952": Case(martin_moyce1952.TITLE, martin_moyce1952.score, martin_moyce1952_picture.draw),
+    "ozmen_cagatay2014": Case(ozmen_cagatay2014.TITLE, ozmen_cagatay2014.score, ozmen_cagatay2014_picture.draw),
+    "soares_frazao2002": Case(soares_frazao2002.TITLE, soares_frazao2002.score, soares_frazao2002_picture.draw),
+    "zhou1999": Case(zhou1999.TITLE, zhou1999.score, picture.draw_zhou1999),
+}
+
+
+def recognise(run_folder):
+    """Name of the case that the run was made of. Throws DataError if it is none of these."""
+    title = RunFolder(run_folder).case.get("case", {}).get("title", "")
+    for name, case in CASES.items():
+        if case.title == title:
+            return name
+    raise DataError(f"{run_folder}: its title \"{title}\" is that of no case with laboratory data; name the case, one of "
+                    f"{', '.join(sorted(CASES))}")
 
 
 def cost_and_health(summary):
@@ -37,7 +70,7 @@ def table(result):
     for metric in result["metrics"]:
         value = "-" if metric["value"] is None else f"{metric['value']:.3f}"
         target = bar(metric["low"], metric["high"])
-        shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at T {metric['shift']:+.3f}"
+        shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at {metric['shift']:+.3f} {metric['shift_unit']}"
         rows.append((metric["what"], value, metric["unit"], target, metric["verdict"],
                      metric["note"] or metric["against"], shift))
     # The last two columns are long where the other is empty, so the width of the sixth is that of its short cells.
@@ -51,16 +84,17 @@ def table(result):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="tailwater_validation.compare",
                                      description="Compares a run with laboratory data.")
-    parser.add_argument("case", choices=sorted(CASES))
+    parser.add_argument("case", nargs="?", choices=sorted(CASES), help="default: by the title of the run's case file")
     parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote")
     options = parser.parse_args(arguments)
-    score, draw = CASES[options.case]
-    scores, image = options.run / "comparison.json", options.run / f"{options.case}.png"
     try:
-        result = score(options.run)
+        name = options.case or recognise(options.run)
+        case = CASES[name]
+        scores, image = options.run / "comparison.json", options.run / f"{name}.png"
+        result = case.score(options.run)
         print(table(result))
         scores.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-        draw(options.run, image)
+        case.draw(options.run, image)
     except (DataError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 4

@@ -96,9 +96,10 @@ def rms_difference(a, b, start, end, step):
 
 
 def best_shift(measured, computed, start, end, step, limit, trials=121):
-    """(delay, rms): how much later (at most `limit` either way) the measured curve fits best, and how well then."""
+    """(delay, rms): how much later (at most `limit` either way) the measured curve fits best, and how well then. The
+    window stays on the measured curve, which may end where the window does."""
     delays = np.linspace(-limit, limit, trials)
-    scores = [rms_difference(measured.shifted(delay), computed, start, end, step) for delay in delays]
+    scores = [rms_difference(measured, computed.shifted(-delay), start, end, step) for delay in delays]
     best = int(np.argmin(scores))
     return float(delays[best]), scores[best]
 
@@ -107,6 +108,16 @@ def arrival_time(pressure, threshold, not_before=-np.inf):
     """Time of the first sample above `threshold` at or after `not_before`; None if there is none."""
     arrived = (pressure.value > threshold) & (pressure.time >= not_before)
     return float(pressure.time[np.argmax(arrived)]) if arrived.any() else None
+
+
+def passage_time(curve, level):
+    """When the curve first rises through `level`, linear between samples."""
+    above = curve.value >= level
+    if not above.any() or above[0]:
+        raise DataError(f"the curve does not rise through {level:.3g}")
+    k = int(np.argmax(above))
+    share = (level - curve.value[k - 1]) / (curve.value[k] - curve.value[k - 1])
+    return float(curve.time[k - 1] + share * (curve.time[k] - curve.time[k - 1]))
 
 
 def first_peak(pressure, arrival, within):

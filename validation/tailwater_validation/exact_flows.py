@@ -1,9 +1,9 @@
-"""Errors of runs of cases/robustness against what theory says: still water, and three flows with known solutions.
+"""Errors of runs of cases/robustness and cases/verification against what theory says.
 
 Each function takes a RunFolder and returns its numbers by name; all are without unit unless the name ends in one. They
 throw DataError where the run does not have what they need.
 
-Usage: python -m tailwater_validation.exact_flows tank|taylor-green|standing-wave|drop RUN_DIR
+Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
 """
 
 import argparse
@@ -11,12 +11,14 @@ import cmath
 import json
 import math
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from .curves import DataError
 from .particles import list_frames, read_frame
+from .profiles import profile_at, rms
 from .run_folder import RunFolder
 
 REST = 5.0  # s from which a tank counts as at rest; at most half the run
@@ -224,12 +226,162 @@ def drop(run):
     }
 
 
-FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop}
+# ----------------------------------------------------------------------------------------- flow between two plates
+
+
+def poiseuille_profile(y, time, gap, viscosity, force):
+    """Speed at the distance y (m) from a plate, at `time` after a body force (m/s^2) begins to act on water at rest."""
+    steady = 0.5 * force / viscosity * y * (gap - y)
+    k = np.arange(1, 200, 2) * math.pi / gap
+    # Terms are below the last by far when (k gap)^2 nu t/gap^2 > 1 with k gap = 600: from t = 3e-6 gap^2/nu on.
+    share = np.exp(-viscosity * k**2 * time) * 4 * force / (viscosity * gap * k**3)
+    return steady - np.sin(np.multiply.outer(y, k)) @ share
+
+
+def couette_profile(y, time, gap, viscosity, speed):
+    """Speed at the distance y (m) from a plate at rest, at `time` after the other one has begun to move along itself."""
+    k = np.arange(1, 400) * math.pi / gap
+    # The terms left out are below exp(-(400 pi)^2 nu t/gap^2): nothing from t = 3e-5 gap^2/nu on.
+    share = np.exp(-viscosity * k**2 * time) * 2 * speed / (k * gap) * np.cos(k * gap)
+    return speed * y / gap + np.sin(np.multiply.outer(y, k)) @ share
+
+
+def channel_flow(run, profile, scale):
+    """profile_error: largest over all frames of the rms error of the speed along the plates, over `scale`, the rms speed
+    of the steady flow; profile(y, time) is the exact one. steady_error: the same of the last frame only. across: largest
+    rms speed across the channel, likewise."""
+    errors, across = [], []
+    for frame in frames(run)[1:]:
+        velocity, = fields(run, frame, "velocity")
+        errors.append(rms(velocity[:, 0] - profile(frame.position[:, 1].astype(float), frame.time)) / scale)
+        across.append(rms(velocity[:, 1]) / scale)
+    return {"profile_error": max(errors), "steady_error": errors[-1], "across": max(across)}
+
+
+def poiseuille_exact(run):
+    """(profile(y, time), rms speed of the steady flow) of a run."""
+    gap, force, viscosity = run.parameters["L"], run.parameters["G"], run.case["physics"]["viscosity"]
+    return (partial(poiseuille_profile, gap=gap, viscosity=viscosity, force=force),
+            force * gap**2 / (viscosity * math.sqrt(120)))
+
+
+def couette_exact(run):
+    gap, speed, viscosity = run.parameters["L"], run.parameters["U"], run.case["physics"]["viscosity"]
+    return partial(couette_profile, gap=gap, viscosity=viscosity, speed=speed), speed / math.sqrt(3)
+
+
+def poiseuille(run):
+    return channel_flow(run, *poiseuille_exact(run))
+
+
+def couette(run):
+    return channel_flow(run, *couette_exact(run))
+
+
+# ------------------------------------------------------------------------------- dam breaks in the shallow-water limit
+
+LATE = 3.0  # T = t sqrt(g/h0) from which a dam break is compared with shallow-water theory
+TIP = 0.1  # of h0: depth whose place counts as the front; the tip itself is thinner than a particle
+
+
+def ritter(similarity):
+    """Depth over h0 at x/(t sqrt(g h0)): Ritter's rarefaction onto a dry bed."""
+    similarity = np.asarray(similarity, dtype=float)
+    return np.where(similarity < -1, 1.0, np.where(similarity < 2, (2 - similarity) ** 2 / 9, 0.0))
+
+
+def stoker_state(ahead):
+    """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a depth
+    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. By bisection."""
+    low, high = ahead, 1.0
+    for _ in range(60):
+        depth = 0.5 * (low + high)
+        bore = math.sqrt(0.5 * depth * (depth + ahead) / ahead)
+        if 2 * (1 - math.sqrt(depth)) > bore * (1 - ahead / depth):  # the rarefaction brings more than the bore takes
+            low = depth
+        else:
+            high = depth
+    return depth, 2 * (1 - math.sqrt(depth)), bore
+
+
+def stoker(similarity, ahead):
+    """Depth over h0 at x/(t sqrt(g h0)): Stoker's dam break onto still water of the depth `ahead`."""
+    depth, speed, bore = stoker_state(ahead)
+    similarity = np.asarray(similarity, dtype=float)
+    return np.where(similarity > bore, ahead, np.where(similarity > speed - math.sqrt(depth), depth, ritter(similarity)))
+
+
+def late_profiles(run, scale):
+    """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
+    times = np.unique(run.profile_table("surface")["time_s"])
+    taken = [profile_at(run, "surface", time) for time in times]
+    depth = run.parameters["h0"]
+    return [(profile.time / scale, profile.x / depth, profile.connected / depth) for profile in taken
+            if profile.time > (LATE - 0.01) * scale]
+
+
+def speed_of(profiles, place):
+    """Slope of place(x, depth) over T, least squares."""
+    return float(np.polyfit([T for T, _, _ in profiles], [place(x, depth) for _, x, depth in profiles], 1)[0])
+
+
+def last_place(x, depth, level):
+    """The farthest x at which the depth is `level`, linear between samples."""
+    above = np.flatnonzero(depth >= level)
+    if above.size == 0 or above[-1] == len(x) - 1:
+        raise DataError(f"the depth passes {level:.3g} h0 nowhere")
+    k = above[-1]
+    return x[k] + (depth[k] - level) / (depth[k] - depth[k + 1]) * (x[k + 1] - x[k])
+
+
+def volume_ahead(x, depth, still):
+    """Water that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
+    return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
+
+
+def shallow_dam_break(run, exact, still, discharge, level, speed):
+    """Numbers that both dam breaks have. A real dam break needs the time sqrt(h0/g) to become shallow: it lags behind by
+    a length that stays, so speeds and the discharge are slopes over T, and the profile is the last one's."""
+    profiles = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))
+    if len(profiles) < 3:
+        raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
+    T, x, depth = profiles[-1]
+    inside = (x > -1.2 * T) & (x < 2.0 * T)
+    return {
+        "discharge_error": speed_of(profiles, partial(volume_ahead, still=still)) / discharge - 1,
+        "front_error": speed_of(profiles, partial(last_place, level=level)) / speed - 1,
+        "profile_error": rms(depth[inside] - exact(x[inside] / T)),
+    }
+
+
+def ritter_dam_break(run):
+    """discharge_error: of the discharge at the gate, 8/27 sqrt(g) h0^1.5, relative. gate_error: of the depth there, 4/9 h0,
+    at the last profile. front_error: of the speed of the place where the depth is TIP, relative. profile_error: rms over
+    h0 of the last profile."""
+    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    return shallow_dam_break(run, ritter, 0.0, 8 / 27, TIP, 2 - 3 * math.sqrt(TIP)) | {
+        "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
+
+
+def stoker_dam_break(run):
+    """discharge_error and profile_error as for Ritter's; front_error: of the speed of the bore, where the depth is halfway;
+    plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile, relative."""
+    still = run.parameters["h1"] / run.parameters["h0"]
+    level, speed, bore = stoker_state(still)
+    T, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    tail = speed - math.sqrt(level)
+    middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
+    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, 0.5 * (level + still), bore) | {
+        "plateau_error": float(depth[middle].mean()) / level - 1}
+
+
+FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
+         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break}
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="tailwater_validation.exact_flows",
-                                     description="Errors of a run of cases/robustness against theory, as JSON.")
+                                     description="Errors of a run against theory, as JSON.")
     parser.add_argument("flow", choices=FLOWS)
     parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote")
     options = parser.parse_args(arguments)

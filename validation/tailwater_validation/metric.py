@@ -8,7 +8,9 @@ from .curves import DataError
 @dataclass(frozen=True)
 class Metric:
     """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences
-    from laboratory curves also have the value at the best shift of the measured curve, and that shift (of T)."""
+    from laboratory curves also have the value at the best shift in time of the measured curve, and that shift. `paper` is
+    what the case's paper reports for its own code, `peers` what other codes give: (name, lowest, highest). An error that
+    was taken at several spacings has its observed `order`."""
 
     name: str
     what: str
@@ -19,7 +21,11 @@ class Metric:
     value: float | None = None
     shifted_value: float | None = None
     shift: float | None = None
+    shift_unit: str = "T"
+    order: float | None = None
     note: str = ""
+    paper: float | None = None
+    peers: tuple | None = None
 
     @property
     def verdict(self):

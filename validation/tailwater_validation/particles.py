@@ -1,6 +1,7 @@
 """The field files of a run, read with VTK."""
 
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -53,3 +54,21 @@ def nearest_frames(run_folder, times):
     if not frames:
         raise DataError(f"{run_folder}: the run wrote no field files")
     return [read_frame(*min(frames, key=lambda frame: abs(frame[0] - time))) for time in times]
+
+
+def detached(position, reach):
+    """How many particles (2D) no chain of others joins with the largest body of water: of cells `reach` wide, neighbours
+    join."""
+    count = Counter(map(tuple, np.floor(position[:, :2] / reach).astype(int)))
+    cells = set(count)
+    bodies = []
+    while cells:
+        waiting, body = [cells.pop()], 0
+        while waiting:
+            x, y = waiting.pop()
+            body += count[x, y]
+            near = {(x + dx, y + dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)} & cells
+            cells -= near
+            waiting += near
+        bodies.append(body)
+    return len(position) - max(bodies)

@@ -14,10 +14,10 @@ from matplotlib.collections import LineCollection
 from . import zhou1999
 from .curves import DataError
 from .particles import nearest_frames
+from .plots import BLACK, BLUE, GREY, ORANGE, STYLE
 from .run_folder import RunFolder
 
 FRAME_TIMES = (1.6, 3.0, 5.0, 6.6)  # T: collapse, run-up, fall, overturning on the water ahead
-BLUE, ORANGE, BLACK, GREY = "#0072B2", "#D55E00", "#000000", "#777777"
 COMPUTED = {"color": BLUE, "linewidth": 1.3, "zorder": 3}
 HIGHEST = {"color": ORANGE, "linewidth": 0.9, "linestyle": (0, (2, 1.2)), "zorder": 2}
 MEASURED = {
@@ -26,8 +26,6 @@ MEASURED = {
                  "markersize": 3.4, "linestyle": "none", "zorder": 1},
 }
 MEASURED_LABEL = {"openmps": "laboratory (read by OpenMPS)", "fluidity": "laboratory (read by Fluidity)"}
-STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
-         "axes.spines.top": False, "axes.spines.right": False}
 
 # Layout in inches: columns from the left, rows from the top. Two columns of particles; the colour bar right of them.
 WIDTH, LEFT, COLUMN, COLUMN_GAP, BAR_GAP, BAR = 11.0, 0.72, 4.42, 0.36, 0.14, 0.15
@@ -41,18 +39,18 @@ def view_height(frames):
     return float(np.clip(1.08 * reach, LOWEST_VIEW, HIGHEST_VIEW))
 
 
-def draw_particles(axes, frame, spacing, walls, view, points_per_metre):
-    """One particle picture, each particle a disc that covers its share of the water. Returns the dots."""
+def draw_particles(axes, frame, spacing, walls, view, points_per_metre, largest_pressure, label):
+    """One particle picture, each particle a disc that covers its share of the water, coloured up to `largest_pressure`
+    (Pa), with `label` at its top. Returns the dots."""
     if "pressure" not in frame.fields:
         raise DataError(f"the field files hold no pressure, only {', '.join(frame.fields)}: "
                         'add "pressure" to output.fields')
     dots = axes.scatter(frame.position[:, 0], frame.position[:, 1], c=frame.fields["pressure"] / 1000,
                         s=(2**0.5 * spacing * points_per_metre) ** 2, linewidths=0, cmap="viridis", vmin=0,
-                        vmax=zhou1999.PRESSURE_SCALE / 1000, rasterized=True, zorder=2)
+                        vmax=largest_pressure / 1000, rasterized=True, zorder=2)
     axes.add_collection(LineCollection(walls, colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
     axes.set(xlim=view[0], ylim=view[1], aspect="equal")
-    axes.text(0.5, 0.95, f"$T$ = {frame.time / zhou1999.TIME_SCALE:.1f}   ($t$ = {frame.time:.2f} s)",
-              transform=axes.transAxes, ha="center", va="top", fontsize=10,
+    axes.text(0.5, 0.95, label, transform=axes.transAxes, ha="center", va="top", fontsize=10,
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5}, zorder=4)
     return dots
 
@@ -130,6 +128,23 @@ class Page:
     def text(self, left, top, text, **style):
         self.figure.text(left / WIDTH, 1 - top / self.height, text, va="center", **style)
 
+    def head(self, title, run, frame):
+        """Two lines: the experiment, and with what it was computed."""
+        self.text(LEFT, 0.25, title, fontsize=12.5)
+        self.text(LEFT, 0.5, f"Tailwater, dx = {run.spacing:.3g} m, {frame.position.shape[0]} particles, "
+                  f"{run.integrator} projection", fontsize=9.5, color="#444444")
+
+    def pressure_bar(self, dots, left, top, height):
+        bar = self.figure.colorbar(dots, cax=self.axes(left, top, BAR, height), extend="max")
+        bar.set_label("pressure (kPa)")
+
+
+def finish_axes(axes):
+    """Grid and legend of a plot of curves."""
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.legend(frameon=False)
+
 
 def draw_page(run, frames):
     corners = np.array([point for chain in run.walls for point in chain])
@@ -143,21 +158,19 @@ def draw_page(run, frames):
     end = run.case["time"]["end"] / zhou1999.TIME_SCALE
 
     page = Page(HEAD + particles + PRESSURE_HEAD + PRESSURE + DEPTH_HEAD + DEPTH + FOOT)
-    page.text(LEFT, 0.25, "Dam break of a 1.2 m x 0.6 m column, Zhou, De Kat and Buchner (1999)", fontsize=12.5)
-    page.text(LEFT, 0.5, f"Tailwater, dx = {run.spacing:g} m, {frames[0].position.shape[0]} particles, "
-              f"{run.integrator} projection", fontsize=9.5, color="#444444")
+    page.head("Dam break of a 1.2 m x 0.6 m column, Zhou, De Kat and Buchner (1999)", run, frames[0])
     for k, frame in enumerate(frames):
         row, column = divmod(k, 2)
         axes = page.axes(LEFT + column * (COLUMN + COLUMN_GAP), HEAD + row * (row_height + ROW_GAP), COLUMN, row_height)
-        dots = draw_particles(axes, frame, run.spacing, run.walls, view, 72 * inches_per_metre)
+        dots = draw_particles(axes, frame, run.spacing, run.walls, view, 72 * inches_per_metre, zhou1999.PRESSURE_SCALE,
+                              f"$T$ = {frame.time / zhou1999.TIME_SCALE:.1f}   ($t$ = {frame.time:.2f} s)")
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=row == 1, labelleft=column == 0)
         axes.set_xlabel("x (m)" if row == 1 else "", labelpad=1)
         axes.set_ylabel("z (m)" if column == 0 else "")
         if k == 0:
             mark_gauges(axes, view[1][1])
-    bar = page.figure.colorbar(dots, cax=page.axes(LEFT + both_columns + BAR_GAP, HEAD, BAR, particles), extend="max")
-    bar.set_label("pressure (kPa)")
+    page.pressure_bar(dots, LEFT + both_columns + BAR_GAP, HEAD, particles)
 
     top = HEAD + particles + PRESSURE_HEAD
     draw_pressure(page.axes(LEFT, top, both_columns, PRESSURE), run, end)

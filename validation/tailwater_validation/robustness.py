@@ -9,21 +9,20 @@ Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 
 interrupted.
 """
 
-import argparse
-import difflib
-import signal
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
 
-from . import exact_flows, report, zhou1999
+from . import command, report, zhou1999
+from .checks import Check, runs_of
 from .curves import DataError, read_table
-from .metric import Metric, measure
-from .runs import INTERRUPTED, Program, Run, duration, finished, make, outcome, require_accepted
+from .metric import Metric
+from .reading import (divergence, divergence_of_old_positions, energy_at, exact, interventions, mean_level,
+                      observed_order, order, summary, zhou)
+from .runs import Run, finished, outcome
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 C1 = CASES / "robustness" / "data"  # errors of the conservative formulation C1, which the program no longer has
@@ -38,22 +37,6 @@ STARTS = {
 
 
 @dataclass(frozen=True)
-class Check:
-    """One number of a gate: `compute` takes the folders of `runs`. With `also_failed` it takes the runs themselves and
-    the bench's folder instead, whatever became of them."""
-
-    metric: Metric
-    runs: tuple
-    compute: Callable
-    also_failed: bool = False
-
-    def score(self, out):
-        if self.also_failed:
-            return measure(self.metric, value=lambda: self.compute(self.runs, out))
-        return measure(self.metric, value=lambda: self.compute(*(finished(run, out) for run in self.runs)))
-
-
-@dataclass(frozen=True)
 class Gate:
     name: str
     what: str
@@ -61,8 +44,7 @@ class Gate:
 
     @property
     def runs(self):
-        """Without repetition, in order."""
-        return list(dict.fromkeys(run for check in self.checks for run in check.runs))
+        return runs_of(self.checks)
 
 
 @dataclass(frozen=True)
@@ -93,60 +75,6 @@ class Bench:
 
 
 @lru_cache(maxsize=None)
-def flow_numbers(flow, path):
-    return exact_flows.FLOWS[flow](exact_flows.RunFolder(path))
-
-
-@lru_cache(maxsize=None)
-def zhou_metrics(path):
-    return {metric["name"]: metric for metric in zhou1999.score(path)["metrics"]}
-
-
-def exact(flow, name, run):
-    return abs(flow_numbers(flow, run.path)[name])
-
-
-def zhou(name, run, field="value"):
-    metric = zhou_metrics(run.path)[name]
-    if metric[field] is None:
-        raise DataError(f"{run.path.name}: {metric['note']}")
-    return metric[field]
-
-
-def summary(block, name, run):
-    return run.summary[block][name]
-
-
-def interventions(run, *kinds):
-    """Clamps, limiters and fallbacks of these kinds, or of all, per particle and step."""
-    counts = {kind: count for kind, count in run.summary["interventions"].items() if isinstance(count, int)}
-    return (sum(counts[kind] for kind in kinds or counts)
-            / (run.summary["particles"]["fluid"] * run.summary["steps"]["count"]))
-
-
-def energy_at(T, run):
-    """Total energy at a time T over that of the start."""
-    kinetic, potential = run.step_curve("kinetic_J"), run.step_curve("potential_J")
-    return float(np.interp(T * zhou1999.TIME_SCALE, kinetic.time, kinetic.value + potential.value)
-                 / run.summary["energy"]["start_J"])
-
-
-def divergence(positions, run):
-    """Rms over the run, in sqrt(g/H), at the "old" or "new" positions."""
-    return run.summary["divergence"][f"rms_at_{positions}_positions_per_s"] * zhou1999.TIME_SCALE
-
-
-def divergence_of_old_positions(run):
-    """What the motion of a step adds: the part of the divergence that is at the new positions only, in quadrature."""
-    return max(divergence("new", run) ** 2 - divergence("old", run) ** 2, 0.0) ** 0.5
-
-
-def order(errors):
-    """Observed order of {dx: error}: slope of log error over log dx, least squares."""
-    return float(np.polyfit(np.log(list(errors)), np.log(list(errors.values())), 1)[0])
-
-
-@lru_cache(maxsize=None)
 def c1_table(flow):
     return read_table(C1 / f"c1_{flow}.csv")
 
@@ -163,22 +91,6 @@ def c1_error(flow, name, dx):
 def worst_ratio(flow, name, *runs):
     """Largest ratio of an error to that of C1 at equal dx."""
     return max(exact(flow, name, run) / c1_error(flow, name, run.spacing) for run in runs)
-
-
-def observed_order(flow, name, *runs):
-    return order({run.spacing: exact(flow, name, run) for run in runs})
-
-
-def mean_level(run):
-    """Mean height of the water over the floor at the end (m): the highest particle of each column of two spacings."""
-    position = exact_flows.frames(run)[-1].position.astype(float)
-    dx = run.spacing
-    column = (position[:, 0] // (2 * dx)).astype(int)
-    highest = np.full(column.max() + 1, np.nan)
-    for k in range(highest.size):
-        if (column == k).any():
-            highest[k] = position[column == k, 1].max() + 0.5 * dx
-    return float(np.nanmean(highest))
 
 
 # --------------------------------------------------------------------------------------------------------- gates
@@ -462,89 +374,30 @@ def gates(bench):
     return {gate.name: gate for gate in found}
 
 
-def chosen_gates(bench, names):
-    """Throws DataError for a name that no gate has."""
-    every = gates(bench)
-    for name in names:
-        if name not in every:
-            near = difflib.get_close_matches(name, every, 1)
-            hint = f"did you mean {near[0]}? " if near else ""
-            raise DataError(f"--gate {name}: there is no such gate; {hint}Gates: {', '.join(every)}")
-    return [gate for name, gate in every.items() if not names or name in names]
-
-
-def seconds_of(runs):
-    return sum(run.seconds for run in runs)
-
-
-def list_gates(chosen):
-    width = max(len(gate.name) for gate in chosen)
-    for gate in chosen:
-        print(f"{gate.name.ljust(width)}  {len(gate.runs):3} runs  {duration(seconds_of(gate.runs)):>7}  {gate.what}")
-
-
-def interrupt(*_):
-    raise KeyboardInterrupt
-
-
-class Parser(argparse.ArgumentParser):
-    """Complains like the rest of the program."""
-
-    def error(self, message):
-        print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
-        sys.exit(2)
+def score(chosen, program, options):
+    """Scores the gates and writes bench.json and bench.md; returns the table."""
+    scores = [(gate, [(check, check.score(options.out)) for check in gate.checks]) for gate in chosen]
+    result = report.collect(scores, program, options.level, options.settings)
+    report.write(result, options.out)
+    return report.table(result)
 
 
 def main(arguments=None):
-    parser = Parser(prog="tailwater bench robustness", allow_abbrev=False,
-                    description="Runs and scores every gate of the robust core.",
-                    epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
-    parser.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--out", type=Path, default=Path("bench"), metavar="DIR",
-                        help="folder for runs and results (bench)")
+    parser = command.Parser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
                         help="quick: a subset in about ten minutes; full: the whole table, many hours")
     parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (1)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="change the default under test, as in --set scheme.courant=0.2; may be repeated")
-    parser.add_argument("--list", action="store_true", help="show gates, number of runs and estimates, and do nothing")
     options = parser.parse_args(arguments)
-    signal.signal(signal.SIGTERM, interrupt)
-    bench = Bench(tuple(options.settings), options.level == "full")
-    try:
-        if options.jobs < 1:
-            raise DataError(f"--jobs {options.jobs}: give a number of runs at a time, at least 1")
+
+    def choose():
         if wrong := [setting for setting in options.settings if "=" not in setting]:
             raise DataError(f"--set {wrong[0]}: write key=value, as in --set scheme.courant=0.2")
-        chosen = chosen_gates(bench, options.gate)
-        if options.list:
-            list_gates(chosen)
-            return 0
-        program = Program(options.program)
-        runs = list(dict.fromkeys(run for gate in chosen for run in gate.runs))
-        (options.out / "runs").mkdir(parents=True, exist_ok=True)
-        if options.settings:
-            require_accepted(runs[0], program, options.out)
-    except (DataError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2 if isinstance(error, DataError) else 4
-    print(f"{len(chosen)} gates, {len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all",
-          file=sys.stderr)
-    try:
-        make(runs, program, options.out, options.jobs)
-    except KeyboardInterrupt:
-        print("interrupted: the runs that have finished will not be made again", file=sys.stderr)
-        return INTERRUPTED
-    try:
-        scores = [(gate, [(check, check.score(options.out)) for check in gate.checks]) for gate in chosen]
-        result = report.collect(scores, program, options.level, options.settings)
-        report.write(result, options.out)
-    except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
-    print(report.table(result))
-    return 0
+        every = gates(Bench(tuple(options.settings), options.level == "full"))
+        return command.choose(every, options.gate, "gate", "--gate ")
+
+    return command.execute(options, choose, score)
 
 
 if __name__ == "__main__":

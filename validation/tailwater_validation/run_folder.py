@@ -10,6 +10,7 @@ from .curves import DataError, read_curve, read_table
 class RunFolder:
     def __init__(self, path):
         self.path = Path(path)
+        self._profile_tables = {}
         effective = self.path / "case.effective.toml"
         try:
             self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
@@ -22,6 +23,12 @@ class RunFolder:
     def probe(self, name, column):
         """The curve of a probe's column over time in s."""
         return read_curve(self.path / "probes" / f"{name}.csv", column)
+
+    def profile_table(self, name):
+        """Columns of a profile probe's CSV, by name; read once, since one file holds the profiles of all times."""
+        if name not in self._profile_tables:
+            self._profile_tables[name] = read_table(self.path / "probes" / f"{name}.csv")
+        return self._profile_tables[name]
 
     def steps(self):
         """Columns of steps.csv, by name."""
@@ -70,9 +77,23 @@ class RunFolder:
 
     @property
     def walls(self):
-        """Chains of wall points (m), closed ones with their first point again at the end."""
-        chains = []
-        for wall in self.case.get("wall", []):
-            points = [tuple(point) for point in wall["points"]]
-            chains.append(points + points[:1] if wall["shape"] == "polygon" else points)
-        return chains
+        """Chains of wall points (m) of the walls that stay where they are drawn (2D), closed ones with their first point
+        again at the end."""
+        return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
+
+    @property
+    def moving_walls(self):
+        """The same of those that move, where they start."""
+        return [wall_chain(wall) for wall in self.case.get("wall", []) if is_moving(wall)]
+
+
+def is_moving(wall):
+    return any(wall.get("displacement", ())) or wall.get("rotation", 0) != 0
+
+
+def wall_chain(wall):
+    if wall["shape"] == "box":
+        (left, low), (right, high) = wall["min"], wall["max"]
+        return [(left, low), (right, low), (right, high), (left, high), (left, low)]
+    points = [tuple(point) for point in wall["points"]]
+    return points + points[:1] if wall["shape"] == "polygon" else points

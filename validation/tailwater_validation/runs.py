@@ -25,6 +25,11 @@ PATIENCE = 10
 LEAST_PATIENCE = 600  # s
 
 
+def digest(path):
+    """Of a file's content; "" if there is none."""
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+
+
 @dataclass(frozen=True)
 class Run:
     """A case with settings (key=value); `seconds` is about what it costs on one core. The name is that of its folder
@@ -35,12 +40,52 @@ class Run:
     settings: tuple = ()
     seconds: float = 10.0
 
+    def recipe(self, program):
+        """What the results depend on."""
+        return {"case": digest(self.case), "settings": list(self.settings), "program": program.identity,
+                "ranks": program.ranks}
+
+    def command(self, program, folder):
+        return [str(program.path), "run", str(self.case), "--out", str(folder), "--force", "--quiet",
+                "-n", str(program.ranks), *settings_of(self)]
+
+    def open(self, folder):
+        return RunFolder(folder)
+
+
+@dataclass(frozen=True)
+class TestRun:
+    """The GoogleTest program of a room of the build, for the numbers that the tests matching `tests` record."""
+
+    name: str
+    room: str
+    tests: str
+    seconds: float = 10.0
+
+    def file(self, program):
+        return program.path.with_name(f"test_{self.room}")
+
+    def recipe(self, program):
+        return {"tests": digest(self.file(program)), "filter": self.tests}
+
+    def command(self, program, folder):
+        # Through env, whose message is the run's if the tests have not been built.
+        return ["/usr/bin/env", str(self.file(program)), f"--gtest_filter={self.tests}", "--gtest_brief=1",
+                f"--gtest_output=json:{folder / 'tests.json'}"]
+
+    def open(self, folder):
+        """{name: number} of all that the tests recorded (RecordProperty), which are texts that hold a number."""
+        suites = json.loads((folder / "tests.json").read_text(encoding="utf-8"))["testsuites"]
+        entries = [entry for suite in suites for test in suite["testsuite"] for entry in test.items()]
+        return {name: float(value) for name, value in entries
+                if isinstance(value, str) and re.fullmatch(r"[-+.\deE]*\d", value)}
+
 
 class Program:
-    """The program under test. Throws DataError if it cannot be started."""
+    """The program under test, on so many ranks. Throws DataError if it cannot be started."""
 
-    def __init__(self, path):
-        self.path = Path(path)
+    def __init__(self, path, ranks=1):
+        self.path, self.ranks = Path(path).absolute(), ranks
         try:
             told = subprocess.run([self.path, "--version"], capture_output=True, text=True, check=True).stdout
         except (OSError, subprocess.CalledProcessError) as error:
@@ -55,13 +100,7 @@ class Program:
         """The commit; of a program with changes that have none, its content."""
         if not self.commit.endswith("-dirty") and self.commit != "unknown":
             return self.commit
-        return hashlib.sha256(self.path.read_bytes()).hexdigest()
-
-
-def recipe(run, program):
-    """What the results of a run depend on."""
-    return {"case": hashlib.sha256(run.case.read_bytes()).hexdigest(), "settings": list(run.settings),
-            "program": program.identity}
+        return digest(self.path)
 
 
 def outcome(folder):
@@ -73,14 +112,15 @@ def outcome(folder):
 
 
 def finished(run, out):
-    """The folder of a run that reached its end. Throws DataError with the program's own message for any other."""
+    """What a run that reached its end left: a RunFolder, or the numbers of tests. Throws DataError with the program's
+    own message for any other."""
     folder = out / "runs" / run.name
     made = outcome(folder)
     if not made:
         raise DataError(f"{run.name}: not made")
     if made["exit_code"] != 0:
         raise DataError(f"{run.name}: {made['message'] or 'failed'}")
-    return RunFolder(folder)
+    return run.open(folder)
 
 
 def settings_of(run):
@@ -94,10 +134,6 @@ def require_accepted(run, program, out):
     result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if result.returncode != 0:
         raise DataError(result.stderr.strip().removeprefix("error: ") or f"{run.name}: exit code {result.returncode}")
-
-
-def command(run, program, folder):
-    return [str(program.path), "run", str(run.case), "--out", str(folder), "--force", "--quiet", *settings_of(run)]
 
 
 def message_of(folder, errors):
@@ -122,7 +158,7 @@ class Progress:
         self.estimated += run.seconds
         self.taken += seconds
         self.estimated_left -= run.seconds
-        left = self.estimated_left * self.taken / self.estimated / self.jobs
+        left = max(0.0, self.estimated_left) * self.taken / self.estimated / self.jobs
         print(f"[{self.done}/{self.total}] {run.name}: {how} in {seconds:.0f} s; ETA {duration(left)}",
               file=sys.stderr, flush=True)
 
@@ -138,12 +174,13 @@ class Child:
 
     def __init__(self, run, program, out):
         self.run, self.folder = run, out / "runs" / run.name
-        self.made = {"recipe": recipe(run, program), "command": shlex.join(command(run, program, self.folder))}
+        command = run.command(program, self.folder)
+        self.made = {"recipe": run.recipe(program), "command": shlex.join(command)}
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / "made.json").unlink(missing_ok=True)
         self.messages = open(self.folder / "messages.txt", "w+", encoding="utf-8")
         # A session of its own: Ctrl-C reaches it through `stop` only, once.
-        self.process = subprocess.Popen(command(run, program, self.folder), stdout=subprocess.DEVNULL,
+        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL,
                                         stderr=self.messages, start_new_session=True)
         self.start = time.monotonic()
         self.stopped = ""
@@ -177,7 +214,7 @@ class Child:
 def make(runs, program, out, jobs):
     """Makes the runs that are not there yet, `jobs` at a time. A run that fails is left as it is. On KeyboardInterrupt
     the runs under way are stopped, to be made again next time, and it is raised again."""
-    waiting = [run for run in runs if outcome(out / "runs" / run.name).get("recipe") != recipe(run, program)]
+    waiting = [run for run in runs if outcome(out / "runs" / run.name).get("recipe") != run.recipe(program)]
     if len(waiting) < len(runs):
         print(f"{len(runs) - len(waiting)} of {len(runs)} runs are there already", file=sys.stderr)
     progress, children = Progress(waiting, jobs), []

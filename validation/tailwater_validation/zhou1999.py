@@ -4,14 +4,15 @@ T = t sqrt(g/H); depths over H; pressures over rho g H. Two people digitised the
 their distance from each other is scored too: it is the least uncertainty that the data can have.
 """
 
-from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 
-from .curves import DataError, arrival_time, best_shift, first_peak, noise, read_curve, rms_difference
+from .curves import DataError, arrival_time, first_peak, noise, read_curve, rms_difference
 from .metric import Metric, measure
 from .run_folder import RunFolder
+from .scoring import compare_curves, result
 
+TITLE = "Dam break of a 1.2 m x 0.6 m column, Zhou et al. (1999)"  # of the case file: how a run is recognised
 H = 0.6
 TANK = 3.22
 GRAVITY = 9.81
@@ -107,13 +108,7 @@ def score_noise(run):
 
 
 def score_curve(metric, measured, compute, window):
-    """RMS difference as published, and with the shift within the data's own uncertainty that fits best. `compute`
-    makes the computed curve."""
-    scored = measure(metric, value=lambda: rms_difference(measured, compute(), *window, GRID))
-    if scored.value is None:
-        return scored
-    shift, value = best_shift(measured, compute(), *window, GRID, TIME_UNCERTAINTY)
-    return replace(scored, shift=shift, shifted_value=value)
+    return compare_curves(metric, measured, compute, window, GRID, TIME_UNCERTAINTY)
 
 
 def score_curves(run):
@@ -148,15 +143,7 @@ def score_digitisations():
 
 
 def score(run_folder):
-    """Scores a run; returns {case, run, spacing_m, integrator, summary (the run's own), metrics: [Metric's fields and
-    its verdict]}. Throws DataError if the folder is not that of a run."""
+    """Scores a run; returns the result of `scoring`. Throws DataError if the folder is not that of a run."""
     run = RunFolder(run_folder)
-    metrics = score_impact(run) + score_noise(run) + score_curves(run) + score_digitisations()
-    return {
-        "case": "zhou1999",
-        "run": str(run.path),
-        "spacing_m": run.spacing,
-        "integrator": run.integrator,
-        "summary": run.summary,
-        "metrics": [asdict(metric) | {"verdict": metric.verdict} for metric in metrics],
-    }
+    return result("zhou1999", run,
+                  score_impact(run) + score_noise(run) + score_curves(run) + score_digitisations())

@@ -1,0 +1,124 @@
+"""The laboratory's surfaces and the scores of a made-up run of cases/janosi2004."""
+
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import matplotlib.image
+import numpy as np
+
+import synthetic_run
+from tailwater_validation import compare, janosi2004, janosi2004_picture
+from tailwater_validation.curves import read_table
+
+CASE = janosi2004.DATA.parent / "case.toml"
+
+EFFECTIVE_CASE = """\
+[case]
+title = "{title}"
+[physics]
+density = 1000.0
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.01
+[scheme]
+integrator = "explicit"
+[[wall]]
+name = "channel"
+shape = "polyline"
+points = [[0.0, 0.3], [0.0, 0.0], [1.5, 0.0], [1.5, 0.3]]
+"""
+
+
+def slope(instant, column="y_shifted_m"):
+    """A surface that is a straight line, so that profiles of any spacing hold it exactly; as published 2 mm lower."""
+    return np.array([0.38, 1.0]), np.array([0.08, 0.04]) - 0.002 * (column == "y_m")
+
+
+def write_run(folder, too_high=0.0, late=0.0):
+    """Surfaces `too_high` (m) above the straight line; the one of an instant appears `late` (s) later, and 2 cm higher at
+    all other times. The highest water is 1 mm above that."""
+    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(title=janosi2004.TITLE))
+    x = np.arange(0.005, 1.5, 0.01)
+    (x0, x1), (y0, y1) = slope(0.0)
+    line = y0 + (x - x0) / (x1 - x0) * (y1 - y0)
+    rows = []
+    for instant in janosi2004.INSTANTS:
+        for shift in janosi2004.SHIFTS:
+            level = line + too_high + 0.02 * (abs(shift - late) > 1e-9)
+            rows.append(np.stack([np.full_like(x, instant + shift), x, np.zeros_like(x), level, level + 0.001]))
+    names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
+    synthetic_run.write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
+    water = synthetic_run.water_below(lambda x: np.full_like(x, 0.05), 1.5, 0.1, 0.01)
+    synthetic_run.write_frames(folder, [(instant, *water) for instant in janosi2004.INSTANTS])
+    return folder
+
+
+class Data(unittest.TestCase):
+    def test_every_file_says_where_it_comes_from(self):
+        self.assertEqual(len(list(janosi2004.DATA.iterdir())), len(janosi2004.INSTANTS))
+        for path in janosi2004.DATA.iterdir():
+            for word in ("# WHAT:", "# PAPER:", "# SOURCE:", "# CAVEATS:", "# ADDED:"):
+                self.assertIn(word, path.read_text(), path)
+
+    def test_added_columns_follow_from_the_raw_ones(self):
+        for path in janosi2004.DATA.iterdir():
+            table = read_table(path)
+            np.testing.assert_allclose(table["x_m"], table["x_cm"] / 100, rtol=1e-5)
+            np.testing.assert_allclose(table["y_m"], table["y_cm"] / 100, rtol=1e-5)
+            # One shift for each picture.
+            self.assertLess(np.ptp(table["y_shifted_m"] - table["y_m"]), 1e-5)
+
+    def test_the_case_is_the_one_that_is_scored(self):
+        with open(CASE, "rb") as file:
+            case = tomllib.load(file)
+        self.assertEqual(case["case"]["title"], janosi2004.TITLE)
+        self.assertEqual(case["parameters"]["d"], janosi2004.DEPTH)
+        surface, = (probe for probe in case["probe"] if probe["name"] == "surface")
+        np.testing.assert_allclose(surface["times"], [instant + shift for instant in janosi2004.INSTANTS
+                                                      for shift in janosi2004.SHIFTS], rtol=1e-9)
+
+
+class Scores(unittest.TestCase):
+    def setUp(self):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        self.run = Path(parent.name) / "run"
+
+    def score(self, **options):
+        write_run(self.run, **options)
+        with mock.patch.object(janosi2004, "laboratory", slope):
+            return {metric["name"]: metric for metric in janosi2004.score(self.run)["metrics"]}
+
+    def test_surfaces_that_are_too_high(self):
+        for height, verdict in ((0.003, "met"), (0.005, "missed")):
+            metrics = self.score(too_high=height)
+            for instant in janosi2004.INSTANTS:
+                self.assertEqual(metrics[f"rms {instant:g}"]["shift"], 0)
+                self.assertAlmostEqual(metrics[f"rms {instant:g}"]["value"], 1000 * height, places=9)
+                self.assertAlmostEqual(metrics[f"largest {instant:g}"]["value"], 1000 * height, places=9)
+                self.assertAlmostEqual(metrics[f"rms published {instant:g}"]["value"], 1000 * height + 2, places=9)
+                self.assertAlmostEqual(metrics[f"rms highest {instant:g}"]["value"], 1000 * height + 1, places=9)
+                self.assertEqual(metrics[f"rms {instant:g}"]["verdict"],
+                                 verdict if instant >= janosi2004.TARGET_FROM else "")
+            self.run = self.run.with_name("other")
+
+    def test_surfaces_that_come_late(self):
+        metrics = self.score(late=0.005)
+        for instant in janosi2004.INSTANTS:
+            metric = metrics[f"rms {instant:g}"]
+            self.assertEqual(metric["shift"], 0.005)
+            self.assertAlmostEqual(metric["value"], 20, places=9)
+            self.assertAlmostEqual(metric["shifted_value"], 0, places=9)
+
+    def test_recognised_and_drawn(self):
+        write_run(self.run)
+        self.assertEqual(compare.recognise(self.run), "janosi2004")
+        janosi2004_picture.draw(self.run, self.run / "picture.png")
+        self.assertEqual(matplotlib.image.imread(self.run / "picture.png").shape[1], 11 * 160)
+
+
+if __name__ == "__main__":
+    unittest.main()

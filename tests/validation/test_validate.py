@@ -1,0 +1,315 @@
+"""The command `validate`: studies, numbers and verdicts, what is repeated, and the report."""
+
+import html.parser
+import json
+import tempfile
+import unittest
+import unittest.mock
+from pathlib import Path
+
+import numpy as np
+
+import synthetic_run
+from fake_program import ProgramTest
+from tailwater_validation import plots, runs, study, validate, zhou1999
+from tailwater_validation.checks import Check
+from tailwater_validation.curves import DataError
+from tailwater_validation.metric import Metric
+from tailwater_validation.particles import detached
+from tailwater_validation.study import LEVELS, Plan
+from tailwater_validation.studies import operators, studies
+
+DEPTH_ERROR = 0.03  # of H: between the bars of the depths and nothing
+EMPTY_TAGS = {"meta", "img", "br"}
+
+
+class Page(html.parser.HTMLParser):
+    """Collects what a page refers to; fails on tags that do not nest."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.links, self.sources, self.text = [], set(), [], [], []
+        self.feed(text)
+        self.close()
+        if self.open:
+            raise AssertionError(f"never closed: {self.open}")
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.ids |= {attributes[key] for key in ("id",) if key in attributes}
+        self.links += [attributes["href"]] if "href" in attributes else []
+        self.sources += [attributes["src"]] if "src" in attributes else []
+        if tag not in EMPTY_TAGS:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        if tag not in EMPTY_TAGS:
+            raise AssertionError(f"<{tag}/> is no empty element")
+        self.handle_starttag(tag, attributes)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            raise AssertionError(f"</{tag}> closes nothing that is open")
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def setUpModule():
+    """The folder of a run of cases/zhou1999 in which every number that a study needs is known."""
+    global scratch
+    scratch = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(scratch.cleanup)
+    folder = synthetic_folder()
+    synthetic_run.write_run(folder, spacing=0.06, depth_error=DEPTH_ERROR)
+    summary = json.loads((folder / "summary.json").read_text())
+    (folder / "summary.json").write_text(json.dumps(summary | {
+        "spacing_m": 0.06, "pressure_solver": {"iterations_per_solve": 8.0}}))
+    case = folder / "case.effective.toml"
+    case.write_text(case.read_text().replace("[case]", "[case]\ndimension = 2")
+                    + "[physics]\ndensity = 1000.0\ngravity = [0.0, -9.81]\n")
+    time = np.linspace(0, 8 * zhou1999.TIME_SCALE, 50)
+    columns = {"time_s": time, "kinetic_J": 100 * time, "potential_J": 2000 - 150 * time, "passes": 1 + 0 * time,
+               "density_error_mean": 0 * time, "density_error_rms": 0.01 + 0 * time}
+    np.savetxt(folder / "steps.csv", np.stack(list(columns.values()), axis=1), delimiter=",", header=",".join(columns),
+               comments="")
+
+
+def synthetic_folder():
+    return Path(scratch.name) / "zhou"
+
+
+class ValidateTest(ProgramTest):
+    def validate(self, *arguments, draw=False):
+        """Without `draw` no picture is drawn, which takes longer than all else."""
+        pictures = validate.pictures if draw else lambda *_: []
+        with unittest.mock.patch.object(validate, "pictures", pictures):
+            return self.command(validate.main, "--jobs", "1", *arguments)
+
+    def only_run(self, *arguments):
+        """Without scores and report."""
+        with unittest.mock.patch.object(validate, "score", lambda *_: ""):
+            return self.command(validate.main, "--jobs", "1", *arguments)
+
+    def result(self):
+        return json.loads((self.folder / "out/validation.json").read_text())
+
+    def metrics(self):
+        return {metric["name"]: metric for record in self.result()["studies"] for metric in record["metrics"]}
+
+
+class Scores(ValidateTest):
+    def test_numbers_and_verdicts(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        code, out, err = self.validate("zhou1999")
+        self.assertEqual(code, 0, err)
+        result, metrics = self.result(), self.metrics()
+        # The depths are one reading of the laboratory's, DEPTH_ERROR too high; the other reading is a few hundredths away.
+        apart = zhou1999.score(synthetic_folder())["metrics"]
+        other, = (m["value"] for m in apart if m["name"] == "rms H2 T 0..6 fluidity")
+        self.assertAlmostEqual(metrics["zhou1999.H2.T6"]["value"], 0.5 * (DEPTH_ERROR + other), places=9)
+        self.assertEqual(metrics["zhou1999.H2.T6"]["verdict"], "met")
+        self.assertEqual(metrics["zhou1999.noise"]["verdict"], "missed")  # the sawtooth is 0.02 rho g H
+        self.assertEqual((metrics["zhou1999.cost"]["value"], metrics["zhou1999.cost"]["verdict"]), (30.0, "missed"))
+        self.assertEqual(metrics["zhou1999.H1.T6.highest"]["verdict"], "shown")
+        self.assertEqual(metrics["zhou1999.cost"]["peers"][0], {"name": "DFSPH (SPlisHSPlasH)", "range": [2.0, 2.0]})
+        self.assertEqual((result["commit"], result["level"], result["scheme"], result["ranks"]), ("abc", "quick", "", 1))
+        self.assertLess({"name", "processor", "cores"}, set(result["machine"]) | {"any"})
+        verdicts = [metric["verdict"] for metric in metrics.values()]
+        self.assertEqual(result["verdicts"], {verdict: verdicts.count(verdict) for verdict in ("met", "missed", "shown")})
+        self.assertIn("report/index.html", out)
+
+    def test_a_failed_run_is_missed_and_told(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()), FAKE_FAILS="particles.spacing=0.015")
+        self.assertEqual(self.validate("zhou1999")[0], 0)
+        metric = self.metrics()["zhou1999.H2.T6"]
+        self.assertEqual((metric["value"], metric["verdict"]), (None, "missed"))
+        self.assertIn("made to fail", metric["note"])
+        self.assertIn("made to fail", (self.folder / "out/report/index.html").read_text())
+
+    def test_finished_runs_are_not_repeated(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.only_run("slip")
+        made = self.calls()
+        self.assertEqual(len(made), 3)
+        self.only_run("slip", "time-step")
+        self.assertEqual(len(self.calls()), 5)  # the default belongs to both
+        self.commit("def")
+        self.only_run("slip")
+        self.assertEqual(self.calls()[5:], made)
+
+    def test_scheme_and_ranks_reach_the_program(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.only_run("zhou1999", "--scheme", "farmani2020", "-n", "3")
+        for path in (self.folder / "out/runs").glob("*/made.json"):
+            command = json.loads(path.read_text())["command"]
+            self.assertIn("--set scheme.name=farmani2020", command)
+            self.assertIn("-n 3", command)
+        self.assertTrue(all(name.endswith("_farmani2020") for name in self.calls()))
+
+
+class Report(ValidateTest):
+    def test_the_page_needs_nothing_else_and_nests(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.validate("zhou1999", "slip", draw=True)
+        text = (self.folder / "out/report/index.html").read_text()
+        page = Page(text)
+        self.assertGreater(len(page.sources), 8)
+        for source in page.sources:
+            self.assertTrue(source.startswith("data:image/svg+xml;base64,"), source[:60])
+        for link in page.links:
+            self.assertTrue(link.startswith("#") and link[1:] in page.ids, link)
+        for word in ("http://", "https://", "<script", "url("):
+            self.assertFalse(word in text, word)
+        told = " ".join(page.text)
+        for word in ("targets missed", "Zhou, De Kat & Buchner", "Two people read the same", "(5 codes)", "no slip"):
+            self.assertTrue(word in told, word)
+        self.assertFalse("Not drawn" in told)
+
+    def test_what_is_missed_is_red(self):
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.validate("zhou1999")
+        text = (self.folder / "out/report/index.html").read_text()
+        missed = sum(metric["verdict"] == "missed" for metric in self.metrics().values())
+        self.assertGreater(missed, 0)
+        self.assertEqual(text.count('<tr class="missed">'), 2 * missed)  # in the summary and in the section
+
+
+class BadInput(ValidateTest):
+    def test_is_refused_before_anything_runs(self):
+        taken = self.folder / "taken"
+        taken.write_text("")
+        for arguments, part in ((("zhou",), "did you mean zhou1999? Cases: zhou1999, "), (("--level", "some"), "quick"),
+                                (("--jobs", "0"), "at least 1"), (("-n", "0"), "at least 1"), (("-n", "two"), "-n"),
+                                (("--scheme", "bogus"), "unknown key bogus"), (("--bogus",), "--help")):
+            with self.subTest(arguments):
+                code, out, err = self.validate(*arguments)
+                self.assertEqual((code, out), (2, ""))
+                self.assertRegex(err, "^error: ")
+                self.assertIn(part, err)
+        code, _, err = self.validate("drop", "--out", str(taken))
+        self.assertEqual(code, 4)
+        self.assertIn("taken", err)
+        self.assertEqual(self.calls(), [])
+
+    def test_a_folder_with_other_things_is_kept(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out/mine.txt").write_text("mine")
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.assertEqual(self.only_run("zhou1999")[0], 0)
+        self.assertEqual((self.folder / "out/mine.txt").read_text(), "mine")
+
+    def test_a_program_that_refuses_every_run(self):
+        self.fake(FAKE_REFUSES="run")
+        code, _, err = self.validate("slip")
+        self.assertEqual(code, 2)
+        self.assertIn("every run was refused", err)
+        self.assertIn("not accepted", err)
+
+    def test_list_does_nothing(self):
+        code, out, _ = self.validate("--list")
+        self.assertEqual(code, 0)
+        self.assertEqual([line.split()[0] for line in out.splitlines()], list(studies(Plan())))
+        self.assertFalse((self.folder / "out").exists())
+
+
+class Studies(unittest.TestCase):
+    def test_runs_of_one_name_are_one_run_and_their_cases_are_there(self):
+        for plan in (*map(Plan, LEVELS), Plan("quick", "farmani2020")):
+            every = [run for one in studies(plan).values() for run in one.runs]
+            self.assertEqual(len({run.name for run in every}), len(set(every)))
+            for run in every:
+                if isinstance(run, runs.Run):
+                    self.assertTrue(run.case.is_file(), run.case)
+
+    def test_names_of_numbers_are_unique_and_begin_with_the_study(self):
+        names = [(one.name, check.metric.name) for one in studies(Plan()).values() for check in one.checks
+                 if isinstance(check, Check)]
+        self.assertEqual(len(names), len(set(names)))
+        for one, name in names:
+            self.assertTrue(name.startswith(f"{one}."), name)
+
+    def test_quick_is_under_ten_minutes_on_two_cores(self):
+        every = {run for one in studies(Plan("quick")).values() for run in one.runs}
+        self.assertLess(sum(run.seconds for run in every), 2 * 600)
+
+    def test_a_scheme_under_test_leaves_the_comparisons_alone(self):
+        default = studies(Plan("quick"))
+        for name, one in studies(Plan("quick", "farmani2020")).items():
+            if one.kind == study.COMPARISON:
+                self.assertEqual(one.runs, default[name].runs)
+                self.assertIn("scheme.integrator", str(one.runs))
+            else:
+                self.assertNotIn("scheme.integrator", str(one.runs), "it has no integrators")
+                self.assertTrue(all("scheme.name=farmani2020" in run.settings for run in one.runs
+                                    if isinstance(run, runs.Run)), name)
+
+
+class Checks(unittest.TestCase):
+    def test_the_order_is_that_of_a_power_law(self):
+        spacings = (0.4, 0.2, 0.1)
+        folders = {dx: unittest.mock.Mock(spacing=dx) for dx in spacings}
+        made = tuple(runs.Run(f"{dx}", Path("case"), (), 1) for dx in spacings)
+        check = study.OrderCheck(Metric("a", "a", "", "", high=0.1), made, lambda folder: 3 * folder.spacing**1.7)
+        with unittest.mock.patch.object(study, "finished", lambda run, out: folders[float(run.name)]):
+            metric = check.score(None)
+        self.assertAlmostEqual(metric.order, 1.7, places=9)
+        self.assertAlmostEqual(metric.value, 3 * 0.1**1.7, places=12)
+        self.assertEqual(metric.verdict, "met")
+
+    def test_all_numbers_of_a_module_come_with_its_name(self):
+        made = (runs.Run("r", Path("case")),)
+        found = {"a": {"name": "a", "what": "  deep", "unit": "m", "against": "b", "low": None, "high": 1.0, "value": 2.0,
+                       "verdict": "missed"}, "z": {"name": "z"}}
+        checks = study.ModuleChecks("case", None, made, lambda name: name == "a", (("a", 9.24),))
+        with unittest.mock.patch.object(study, "finished"), unittest.mock.patch.object(study, "scores", lambda *_: found):
+            metric, = checks.scores(None)
+        self.assertEqual((metric.name, metric.what, metric.paper, metric.verdict), ("case.a", "deep", 9.24, "missed"))
+        with unittest.mock.patch.object(study, "finished", side_effect=DataError("r: it broke")):
+            metric, = checks.scores(None)
+        self.assertEqual((metric.name, metric.verdict, metric.note), ("case.finished", "missed", "r: it broke"))
+
+    def test_numbers_of_tests_come_from_their_record(self):
+        run = runs.TestRun("t", "operators", "*")
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "tests.json").write_text(json.dumps({"testsuites": [{"name": "A", "testsuite": [
+                {"name": "one", "line": 3, "time": "0.1s", "timestamp": "2026-11-21T08:00:00Z",
+                 "grad_2D_dx0.02": "4.0e-04", "grad_2D_dx0.01": "1.0e-04", "grad_3D_dx0.01": "5e+00"}]}]}))
+            numbers = run.open(Path(folder))
+        self.assertEqual(operators.recorded("grad", 2, numbers), {0.02: 4e-4, 0.01: 1e-4})
+        self.assertAlmostEqual(operators.observed_order("grad", 2, numbers), 2.0, places=12)
+        with self.assertRaisesRegex(DataError, "no grad in 1D"):
+            operators.recorded("grad", 1, numbers)
+
+
+class Detached(unittest.TestCase):
+    def test_counts_what_no_chain_joins(self):
+        block = np.array([(x, y, 0.0) for x in np.arange(20.0) for y in np.arange(5.0)])
+        bridge = np.array([(x, 5.0, 0.0) for x in np.arange(20.0, 26.0)])
+        drops = np.array([(10.0, 20.0, 0.0), (10.5, 20.5, 0.0), (40.0, 0.0, 0.0)])
+        self.assertEqual(detached(np.concatenate([block, bridge, drops]), 1.5), 3)
+        self.assertEqual(detached(block, 1.5), 0)
+
+
+class Plots(unittest.TestCase):
+    def test_labels_tell_runs_apart(self):
+        def run(name, dx):
+            folder = unittest.mock.Mock(spacing=dx, integrator="explicit")
+            folder.path.name = name
+            return folder
+        self.assertEqual(plots.labels([run("a", 0.02), run("b", 0.01)]), ["dx = 20 mm, explicit", "dx = 10 mm, explicit"])
+        self.assertEqual(plots.labels([run("a", 0.02), run("b", 0.02)]), ["a", "b"])
+
+    def test_flat_channels_are_exaggerated(self):
+        def view(length):
+            run = unittest.mock.Mock(walls=[[(0, 1), (0, 0), (length, 0), (length, 1)]])
+            frame = unittest.mock.Mock(position=np.array([[0.5, 0.5, 0], [length - 0.5, 0.99, 0]]))
+            return plots.View(run, [frame])
+        self.assertEqual(view(3).exaggeration, 1)
+        long = view(50)
+        self.assertGreater(long.exaggeration, 1)
+        self.assertGreaterEqual(long.ratio, plots.FLATTEST)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,32 @@
+"""Numbers to be read from runs, and how they are held against their bars."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .metric import Metric, measure
+from .runs import finished
+
+
+@dataclass(frozen=True)
+class Check:
+    """One number: `compute` takes what `runs` left. With `also_failed` it takes the runs themselves and the folder of
+    the whole instead, whatever became of them. In a comparison `variant` is what is compared."""
+
+    metric: Metric
+    runs: tuple
+    compute: Callable
+    also_failed: bool = False
+    variant: str = ""
+
+    def scores(self, out):
+        return [self.score(out)]
+
+    def score(self, out):
+        if self.also_failed:
+            return measure(self.metric, value=lambda: self.compute(self.runs, out))
+        return measure(self.metric, value=lambda: self.compute(*(finished(run, out) for run in self.runs)))
+
+
+def runs_of(parts):
+    """The runs of checks or of groups of them, without repetition, in order."""
+    return list(dict.fromkeys(run for part in parts for run in part.runs))

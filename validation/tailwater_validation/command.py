@@ -1,0 +1,96 @@
+"""What the commands that make and score runs have in common: options, complaints, and the order of their work."""
+
+import argparse
+import difflib
+import signal
+import sys
+from pathlib import Path
+
+from .checks import runs_of
+from .curves import DataError
+from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
+
+
+class Parser(argparse.ArgumentParser):
+    """With the options that all have; complains like the rest of the program."""
+
+    def __init__(self, name, what, out, jobs):
+        super().__init__(prog=name, description=what, allow_abbrev=False,
+                         epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
+        self.set_defaults(ranks=1, settings=[])
+        self.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
+        self.add_argument("--out", type=Path, default=Path(out), metavar="DIR",
+                          help=f"folder for runs and results ({out})")
+        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
+        self.add_argument("--list", action="store_true", help="show what there is to do, with estimates, and do nothing")
+
+    def error(self, message):
+        print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
+        sys.exit(2)
+
+
+def choose(every, names, kind, option=""):
+    """Those of the groups {name: group} that are named, in their order; all if none is. Throws DataError for a name
+    that none has."""
+    for name in names:
+        if name not in every:
+            near = difflib.get_close_matches(name, every, 1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise DataError(f"{option}{name}: there is no such {kind}; {hint}{kind.capitalize()}s: {', '.join(every)}")
+    return [group for name, group in every.items() if not names or name in names]
+
+
+def seconds_of(runs):
+    return sum(run.seconds for run in runs)
+
+
+def show(groups):
+    width = max(len(group.name) for group in groups)
+    for group in groups:
+        print(f"{group.name.ljust(width)}  {len(group.runs):3} runs  {duration(seconds_of(group.runs)):>7}  "
+              f"{group.what}")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+def execute(options, choose_groups, score):
+    """Makes the runs of the groups that `choose_groups()` returns, then prints what `score(groups, program, options)`
+    returns. The exit code: 0 whatever the verdicts are; 2 for bad input, also if the program refuses every run; 4 if a
+    file cannot be written; 130 if interrupted."""
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        for name, value, meaning in (("--jobs", options.jobs, "runs at a time"), ("-n", options.ranks, "ranks")):
+            if value < 1:
+                raise DataError(f"{name} {value}: give a number of {meaning}, at least 1")
+        groups = choose_groups()
+        if options.list:
+            show(groups)
+            return 0
+        program = Program(options.program, options.ranks)
+        runs = runs_of(groups)
+        (options.out / "runs").mkdir(parents=True, exist_ok=True)
+        if options.settings:
+            require_accepted(runs[0], program, options.out)
+    except (DataError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2 if isinstance(error, DataError) else 4
+    print(f"{len(groups)} groups, {len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all",
+          file=sys.stderr)
+    try:
+        make(runs, program, options.out, options.jobs)
+    except KeyboardInterrupt:
+        print("interrupted: the runs that have finished will not be made again", file=sys.stderr)
+        return INTERRUPTED
+    ends = [outcome(options.out / "runs" / run.name) for run in runs]
+    if all(end["exit_code"] == 2 for end in ends):
+        print(f"error: every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}",
+              file=sys.stderr)
+        return 2
+    try:
+        print(score(groups, program, options))
+    except OSError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 4
+    return 0

@@ -1,0 +1,81 @@
+"""Scores a run of cases/janosi2004 against the laboratory data beside the case (its README says what was measured).
+
+Surfaces at eight instants after the gate opens: x from the closed end of the lock, heights above the bed, m.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from .curves import DataError, read_table
+from .metric import Metric, measure
+from .profiles import profile_at, rms, vertical_differences
+from .run_folder import RunFolder
+from .scoring import result
+
+TITLE = "Dam break over a wet bed, Janosi et al. (2004)"  # of the case file: how a run is recognised
+DATA = Path(__file__).resolve().parents[2] / "cases" / "janosi2004" / "data"
+DEPTH = 0.038  # m, of the water ahead
+INSTANTS = (0.156, 0.219, 0.281, 0.343, 0.406, 0.468, 0.531, 0.593)  # s
+START = 0.40  # m: nearer to the gate its guides and what hangs on them are seen
+STEP = 0.001  # m, between the places that are compared
+
+# The instants are odd 32nds of a second and 1/16 s apart: pictures at 16 a second, of which the gate began to move between two.
+# So the instants have one common error of up to 1/32 s. A run takes its profile also so much (s) off each instant:
+SHIFTS = (-0.03, -0.025, -0.02, -0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03)
+
+DISTANCE_TARGET = 4.0  # mm
+TARGET_FROM = 0.28  # s: before that the bar does not hold
+
+
+def laboratory(instant, column="y_shifted_m"):
+    """(x, y) of the measured surface, in the order of the digitisation (it may overturn). `y_m` is as published, in
+    `y_shifted_m` the water far ahead is 38 mm deep in every picture."""
+    k = INSTANTS.index(instant) + 1
+    table = read_table(DATA / f"janosi2004_d38mm_profile{k}_t{instant:.3f}s.csv")
+    return table["x_m"], table[column]
+
+
+def distances(run, instant, column="y_shifted_m", shift=0.0, computed="level"):
+    """Computed less measured height (mm) wherever the measured surface is single-valued. `shift` (s) is how much later
+    the run is read; `computed` is "level", of the water joined with the bed, or "highest_level"."""
+    profile = profile_at(run, "surface", instant + shift)
+    return 1000 * vertical_differences(laboratory(instant, column), (profile.x, getattr(profile, computed)), STEP,
+                                       start=START)
+
+
+def best_shift(run):
+    """How much later (s), within the data's uncertainty, all measured surfaces fit best. Throws DataError if the run did not
+    take the profiles for it."""
+    instants = [instant for instant in INSTANTS if instant >= TARGET_FROM]
+    scores = [sum(rms(distances(run, instant, shift=shift)) ** 2 for instant in instants) for shift in SHIFTS]
+    return SHIFTS[int(np.argmin(scores))]
+
+
+def score_instant(run, instant, shift):
+    """Scores at one instant; `shift` is that of the whole run, None without."""
+    target = DISTANCE_TARGET if instant >= TARGET_FROM else None
+    scored = measure(Metric(f"rms {instant:g}", f"RMS distance of the surface, t = {instant:g} s", "mm",
+                            "far water at 38 mm", high=target), value=lambda: rms(distances(run, instant)))
+    if shift is not None and scored.value is not None:
+        scored = replace(scored, shift=shift, shift_unit="s", shifted_value=rms(distances(run, instant, shift=shift)))
+    return [
+        scored,
+        measure(Metric(f"largest {instant:g}", "  largest distance", "mm", "far water at 38 mm"),
+                value=lambda: float(np.abs(distances(run, instant)).max())),
+        measure(Metric(f"rms published {instant:g}", "  RMS, heights as published", "mm", "as published"),
+                value=lambda: rms(distances(run, instant, "y_m"))),
+        measure(Metric(f"rms highest {instant:g}", "  RMS of the highest water", "mm", "far water at 38 mm"),
+                value=lambda: rms(distances(run, instant, computed="highest_level"))),
+    ]
+
+
+def score(run_folder):
+    """Scores a run; returns the result of `scoring`. Throws DataError if the folder is not that of a run."""
+    run = RunFolder(run_folder)
+    try:
+        shift = best_shift(run)
+    except DataError:
+        shift = None  # the run ended early
+    return result("janosi2004", run, [metric for instant in INSTANTS for metric in score_instant(run, instant, shift)])

@@ -1,0 +1,100 @@
+"""Water surfaces over x at one instant: those of a run's profile probe, measured ones, and the distances between them.
+
+A measured surface is a polyline in the order it was digitised; where the water overturns it has several heights over one x.
+Only the places where it has one are compared.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .curves import LEAST_COVERAGE, DataError
+
+# s: how late a profile may be where a run does not tell its longest step
+LATEST = 0.004
+ROUND_OFF = 1e-6  # s, of times written as text
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Over the places x (m): the height of the bed, the depth of the water that is joined with it, and the height of the
+    highest water above it (m)."""
+
+    time: float
+    x: np.ndarray
+    bed: np.ndarray
+    connected: np.ndarray
+    highest: np.ndarray
+
+    @property
+    def level(self):
+        """Of the water joined with the bed; the bed where it is dry."""
+        return self.bed + self.connected
+
+    @property
+    def highest_level(self):
+        return self.bed + self.highest
+
+    def area(self, start, end):
+        """Water between two places that is joined with the bed, m^2."""
+        places, depths = cut(self.x, self.connected, start, end)
+        return float(np.sum(np.diff(places) * (depths[1:] + depths[:-1]) / 2))
+
+
+def cut(x, y, start, end):
+    """(x, y) of a curve over increasing x between two places, linear between its points and constant outside."""
+    inside = (x > start) & (x < end)
+    return (np.concatenate([[start], x[inside], [end]]),
+            np.concatenate([[np.interp(start, x, y)], y[inside], [np.interp(end, x, y)]]))
+
+
+def profile_at(run, probe, time):
+    """The profile that a probe of a run took at `time` (s): at the first step at or after it. Throws DataError if there is
+    none."""
+    table = run.profile_table(probe)
+    taken = np.unique(table["time_s"])
+    latest = time + run.summary.get("steps", {}).get("dt_largest_s", LATEST)
+    due = taken[(taken > time - ROUND_OFF) & (taken < latest + ROUND_OFF)]
+    if due.size == 0:
+        nearest = taken[np.argmin(np.abs(taken - time))]
+        raise DataError(f"{run.path}: {probe} has no profile at {time:.3f} s; the nearest is at {nearest:.3f} s")
+    taken_at = due[0]
+    rows = table["time_s"] == taken_at
+    return Profile(float(taken_at), *(table[name][rows] for name in ("x_m", "bed_m", "connected_m", "highest_m")))
+
+
+def single_valued(x, y, places):
+    """Heights of a polyline at `places`; nan where it passes none or several times."""
+    x, y, places = (np.asarray(values, dtype=float) for values in (x, y, places))
+    passes, height = np.zeros(places.size, dtype=int), np.zeros(places.size)
+    for x0, y0, x1, y1 in zip(x[:-1], y[:-1], x[1:], y[1:]):
+        if x0 == x1:
+            continue
+        # One end belongs to the piece, the other to the next: no place is met twice where two pieces join.
+        met = (x0 <= places) & (places < x1) if x0 < x1 else (x1 < places) & (places <= x0)
+        passes += met
+        height[met] = y0 + (places[met] - x0) / (x1 - x0) * (y1 - y0)
+    return np.where(passes == 1, height, np.nan)
+
+
+def vertical_differences(measured, computed, step, start=-np.inf, end=np.inf):
+    """Computed minus measured height at places `step` apart, where the measured polyline is single-valued and between
+    `start` and `end`. Both are (x, y) in m; the computed x increase. Throws DataError if the computed curve ends before."""
+    (x, y), (x_computed, y_computed) = measured, computed
+    first, last = max(np.min(x), start), min(np.max(x), end)
+    if x_computed[0] > first or x_computed[-1] < last:
+        shared = min(last, x_computed[-1]) - max(first, x_computed[0])
+        if shared < LEAST_COVERAGE * (last - first):
+            raise DataError(f"the computed profile spans {x_computed[0]:.3g}..{x_computed[-1]:.3g} m of the measured "
+                            f"{first:.3g}..{last:.3g} m")
+        first, last = max(first, x_computed[0]), min(last, x_computed[-1])
+    places = np.linspace(first, last, int(np.ceil((last - first) / step)) + 1)
+    height = single_valued(x, y, places)
+    known = np.isfinite(height)
+    if not known.any():
+        raise DataError("the measured profile is nowhere single-valued")
+    return np.interp(places[known], x_computed, y_computed) - height[known]
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,0 +1,198 @@
+"""The papers' comparisons: one thing changed at a time, the same numbers for each variant."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from .. import janosi2004, plots, soares_frazao2002
+from ..checks import Check
+from ..metric import Metric
+from ..reading import energy_at, scored, summary, zhou
+from ..study import COMPARISON, Plot, Study
+from .laboratory import case_run
+from .zhou import draw_depths, draw_pressure, mean_of_readings, zhou_run
+
+
+def milliseconds(run):
+    return 1000 * summary("steps", "dt_mean_s", run)
+
+
+def passes(run):
+    return float(np.mean(run.steps()["passes"]))
+
+
+# {key: (words, unit, how it is read from a run)}
+GENERAL = {
+    "rise": ("largest rise of the energy", "of the start", partial(summary, "energy", "largest_rise_over_start")),
+    "density": ("density error, rms", "", partial(summary, "volume", "density_error_rms")),
+    "dt": ("time step, mean", "ms", milliseconds),
+    "passes": ("passes per step", "", passes),
+    "iterations": ("iterations per solve", "", partial(summary, "pressure_solver", "iterations_per_solve")),
+    "cost": ("CPU time per simulated second", "s", partial(summary, "cost", "cpu_s_per_simulated_s")),
+}
+ZHOU = {
+    "H2": ("depth H2, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H2 T 0..6")),
+    "H1": ("depth H1, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H1 T 0..6")),
+    "pressure": ("wall pressure, z = 0.12 m, RMS over T = 2.4..7, best shift", "rho g H",
+                 partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value")),
+    "noise": ("noise of the wall pressure, z = 0.16 m", "rho g H", partial(zhou, "noise")),
+    "front": ("front at the wall", "s", partial(zhou, "arrival_front")),
+    "energy": ("energy at T = 8", "of the start", partial(energy_at, 8)),
+} | GENERAL
+JANOSI = {
+    **{f"rms_{instant:g}": (f"surface at t = {instant:g} s, RMS distance", "mm",
+                            partial(scored, janosi2004.score, f"rms {instant:g}"))
+       for instant in janosi2004.INSTANTS if instant >= janosi2004.TARGET_FROM},
+} | GENERAL
+UNCERTAINTY = ("The variants share everything but what is compared. A dam break is chaotic after the impact: what another start of the "
+               "same case changes (the study of starts) is the least difference that means anything. The laboratory's own "
+               "uncertainty is that of the study zhou1999.")
+
+
+def spacing(plan):
+    return plan.at(0.02, 0.012, 0.008)
+
+
+def ratio(read, run, other):
+    return read(run) / read(other)
+
+
+def comparison(name, title, about, variants, quantities, more_plots=(), claims=()):
+    """A study of {variant: run}: each quantity of each variant. `more_plots` are (caption, draw), where `draw` takes the
+    folders of the runs and their `names`."""
+    runs = tuple(variants.values())
+    names = {run.name: variant for variant, run in variants.items()}
+    checks = [Check(Metric(f"{name}.{key}.{variant}", words, unit, ""), (run,), read, variant=variant)
+              for key, (words, unit, read) in quantities.items() for variant, run in variants.items()]
+    bars = Plot("The same numbers for each variant; each panel has its own scale.", runs,
+                partial(plots.draw_numbers, quantities, names))
+    return Study(name, title, COMPARISON, about, UNCERTAINTY, (*claims, *checks),
+                 (bars, *(Plot(caption, runs, partial(draw, names=names)) for caption, draw in more_plots)), names=names)
+
+
+def zhou_comparison(name, title, about, variants, claims=()):
+    return comparison(name, title, about, variants, ZHOU, (("Pressure on the wall.", draw_pressure),
+                                                           ("Water levels.", draw_depths)), claims)
+
+
+def integrators(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    explicit, implicit = zhou_run(plan, dx), zhou_run(plan, dx, "implicit")
+    both = (implicit, explicit)
+    claims = (
+        Check(Metric("integrators.dt_ratio", "time step, implicit over explicit", "",
+                     "the paper: alpha = 0.12 against 0.05", paper=2.4), both, partial(ratio, milliseconds)),
+        Check(Metric("integrators.cost_ratio", "CPU time per simulated second, implicit over explicit", "",
+                     "the paper: about twice or more", paper=2.0), both,
+              partial(ratio, partial(summary, "cost", "cpu_s_per_simulated_s"))),
+        Check(Metric("integrators.passes", "passes per step, implicit", "", "the paper: 8 to 30", paper=8.0, high=3.0),
+              (implicit,), passes),
+        *(Check(Metric(f"integrators.{key}_ratio", f"{words}: implicit over explicit", "",
+                       "the paper's claim: below 1"), both, partial(ratio, read))
+          for key, (words, _, read) in ZHOU.items() if key in ("H2", "H1", "pressure", "noise")),
+    )
+    return zhou_comparison(
+        "integrators", "Explicit against implicit integration", "Farzin et al. claim that the implicit integrator is nearer to the "
+        "measured profiles, takes steps about twice as large, needs 8 to 30 iterations and costs about twice as much or more.",
+        {"explicit": explicit, "implicit": implicit}, claims)
+
+
+def wet_bed(plan):
+    """The pair on the paper's case for it, and what the gate does."""
+    plan = replace(plan, scheme="")
+    count = plan.at(25, 51, 80)
+    run = partial(case_run, plan, "janosi2004", "h0", count, 0.7)
+    return comparison(
+        "wet-bed", "Explicit against implicit, and the gate, on a wet bed", "Farzin et al. claim that the implicit integrator is nearer to the "
+        "surfaces of Janosi et al. and blame the gate for the early differences: it is computed as a wall that rises at 1.5 m/s, and at "
+        "30 m/s, as good as removed at once.",
+        {"explicit": run(integrator="explicit"), "implicit": run(integrator="implicit"),
+         "explicit, gate at once": run(integrator="explicit", variant="at-once", settings=("parameters.gate_speed=30",))},
+        JANOSI)
+
+
+def schemes(plan):
+    plan, two_step = replace(plan, scheme=""), replace(plan, scheme="farmani2020")
+    dx = spacing(plan)
+    published = ("scheme.formulation=published",)
+    return zhou_comparison(
+        "schemes", "Scheme F against scheme B", "The projection of Farzin et al. (2014) and the two steps of Farmani et al. (2020), each as "
+        "published and in its robust formulation.",
+        {"F": zhou_run(plan, dx), "F as published": zhou_run(plan, dx, variant="published", settings=published),
+         "B": zhou_run(two_step, dx, ""),
+         "B as published": zhou_run(two_step, dx, "", "published", published)})
+
+
+def sill_time_step(plan):
+    """The paper's time-step study, on its case; surfaces are compared with those of the smallest step."""
+    plan = replace(plan, scheme="")
+    count = plan.at(8, 11, 16)
+    run = partial(case_run, plan, "soares_frazao2002", "h0", count, 40, "explicit")
+    variants = {f"courant {courant:g}": run(variant=f"courant{courant:g}", settings=(f"scheme.courant={courant:g}",))
+                for courant in (0.5, 0.25, 0.125)}
+    reference = variants["courant 0.125"]
+
+    def distance(k, one, other):
+        return 1000 * soares_frazao2002.distances(one, other)[k][1]
+
+    claims = tuple(Check(Metric(f"sill-time-step.{instant:g}.{variant}",
+                                f"surface at t = {instant:g} s, RMS distance from that of courant 0.125, {variant}", "mm",
+                                "the paper: largest error 21 % with 3 ms, 10.2 % with 1.4 ms"), (run, reference),
+                         partial(distance, k))
+                   for k, instant in enumerate(soares_frazao2002.INSTANTS) for variant, run in variants.items()
+                   if run is not reference)
+    return comparison("sill-time-step", "Time step on the sill", "Farmani et al. find their scheme sensitive to the time step in the dam break over "
+                      "a sill of Soares-Frazao (2002). Here the step is halved and doubled.", variants, GENERAL, (), claims)
+
+
+def devices(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    no_noise = ("scheme.noise_viscosity=0",)
+    return zhou_comparison(
+        "devices", "With and without artificial viscosity, sub-particle stress and shifting",
+        "The default damps only what neighbouring particles do differently from a smooth field. The papers damp speed "
+        "(c_a = 0.2), add a sub-particle stress (c_s = 0.10), and shift particles.",
+        {"default": zhou_run(plan, dx),
+         "no viscosity": zhou_run(plan, dx, variant="inviscid", settings=no_noise),
+         "c_a = 0.2 instead": zhou_run(plan, dx, variant="ca0.2",
+                                       settings=(*no_noise, "scheme.artificial_viscosity=0.2")),
+         "with stress": zhou_run(plan, dx, variant="sps", settings=("scheme.smagorinsky=0.10",)),
+         "no shifting": zhou_run(plan, dx, variant="no-shifting", settings=("scheme.shifting=none",))})
+
+
+def slip(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    return zhou_comparison(
+        "slip", "Free slip, partial slip and no slip on walls",
+        "No slip is a wall law here (Werner & Wengle 1991): the stress of a smooth wall whether dx resolves the boundary layer or "
+        "not. The papers' u = 0 on one layer of particles delays the front far more.",
+        {"free": zhou_run(plan, dx),
+         "partial (0.5)": zhou_run(plan, dx, variant="partial", settings=("wall[0].slip=partial", "wall[0].friction=0.5")),
+         "no slip": zhou_run(plan, dx, variant="no-slip", settings=("wall[0].slip=no-slip",))})
+
+
+def time_step(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    return zhou_comparison(
+        "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.25), at the default, and near "
+        "the limit of stability.",
+        {"courant 0.125": zhou_run(plan, dx, variant="courant0.125", settings=("scheme.courant=0.125",)),
+         "courant 0.25": zhou_run(plan, dx),
+         "courant 0.4": zhou_run(plan, dx, variant="courant0.4", settings=("scheme.courant=0.4",))})
+
+
+def starts(plan):
+    plan = replace(plan, scheme="")
+    dx = spacing(plan)
+    return zhou_comparison(
+        "starts", "Starts: how far chance goes", "The same case from the regular lattice and from particles displaced at random. The "
+        "scatter is the uncertainty of every single run of this case.",
+        {"regular": zhou_run(plan, dx),
+         **{f"displaced by {jitter:g} dx": zhou_run(plan, dx, variant=f"jitter{jitter:g}",
+                                                   settings=(f"particles.jitter={jitter:g}",))
+            for jitter in (0.02, 0.1, 0.15)}})

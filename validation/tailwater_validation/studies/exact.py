@@ -1,0 +1,132 @@
+"""Flows whose solution is known: errors by spacing, observed orders."""
+
+from functools import partial
+
+import numpy as np
+
+from .. import exact_flows, plots
+from ..metric import Metric
+from ..reading import exact
+from ..study import EXACT, OrderCheck, Plot, Study
+
+
+def error_checks(name, flow, runs, quantities):
+    """Of each quantity (key, words, unit, bar) the error on the last run, and its observed order."""
+    return tuple(OrderCheck(Metric(f"{name}.{key}", words, unit, "exact solution", high=high), runs, partial(exact, flow, key))
+                 for key, words, unit, high in quantities)
+
+
+def draw_errors(flow, quantities, *runs):
+    return plots.draw_convergence({words: {run.spacing: exact(flow, key, run) for run in runs}
+                                   for key, words, _, _ in quantities}, "error, relative")
+
+
+def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=(), has_histories=True):
+    """A study of one flow at several spacings, the finest last, of which the errors are shown."""
+    return Study(name, title, EXACT, about, uncertainty, error_checks(name, flow, runs, quantities),
+                 (Plot("Errors by spacing, with observed orders.", runs, partial(draw_errors, flow, quantities)),
+                  *more_plots), shown=runs[-1], moments=moments, has_histories=has_histories)
+
+
+EXACTLY = "The solution is exact; what the number tells is the discretisation's error, and round-off far below it."
+
+
+def taylor_green(plan):
+    runs = tuple(plan.run(f"taylor_green_dx{dx:g}", "robustness/taylor_green.toml", (f"particles.spacing={dx:g}",),
+                          0.4 * (0.04 / dx) ** 3.4)
+                 for dx in plan.at((0.04, 0.02, 0.01), (0.04, 0.02, 0.01), (0.04, 0.02, 0.01, 0.005)))
+    return flow_study(
+        "taylor-green", "Decaying Taylor-Green vortices, Re = 100", "taylor-green",
+        "Four vortices in a periodic box decay by viscosity, from particles displaced at random by up to 0.1 dx. Velocity and "
+        "pressure against the exact Navier-Stokes solution at t = L/U, decay rate of the kinetic energy over the run.",
+        EXACTLY, runs, (("decay_error", "decay rate of the energy, relative error", "", 0.02),
+                        ("velocity_error", "velocity at t = L/U, relative L2 error", "", None),
+                        ("pressure_error", "pressure at t = L/U, relative L2 error", "", None)), (0.2, 1.0))
+
+
+def standing_wave(plan):
+    runs = tuple(plan.run(f"standing_wave_dx{dx:g}", "robustness/standing_wave.toml", (f"particles.spacing={dx:g}",),
+                          1.5 * (0.05 / dx) ** 3.2)
+                 for dx in plan.at((0.05, 0.025, 0.016666667), (0.05, 0.025, 0.0125), (0.05, 0.025, 0.0125, 0.00625)))
+    return flow_study(
+        "standing-wave", "Standing wave with viscous decay", "standing-wave",
+        "The slowest wave of a tank 1 m long and 0.5 m deep, amplitude a = 0.05/k, five periods. Period and decay of the centre "
+        "of mass against linear theory with viscosity (Lamb 1932), whose root is solved exactly.",
+        "Linear theory leaves out terms of order (k a)^2 = 0.25 %; in the period of a standing wave their factor is about 1/8.", runs,
+        (("period_error", "period, relative error", "", 0.005), ("decay_error", "decay, relative error", "", 0.05),
+         ("wave_error", "whole curve, rms error over the amplitude", "", None)), ())
+
+
+def drop(plan):
+    runs = tuple(plan.run(f"drop_dx{dx:g}", "robustness/drop.toml", (f"particles.spacing={dx:g}", "time.end=2.5/A",
+                                                                    "output.fields_interval=0.25/A"),
+                          0.5 * (0.1 / dx) ** 3.2)
+                 for dx in plan.at((0.1, 0.05, 0.025), (0.1, 0.05, 0.025), (0.05, 0.025, 0.0125)))
+    return flow_study(
+        "drop", "Stretching elliptical drop", "drop",
+        "A round drop without gravity in u = (A x, -A y) becomes an ellipse whose axes obey an ordinary differential equation "
+        "(Monaghan 1994), to t = 2.5/A. No dissipation: its energy should stay.",
+        EXACTLY, runs, (("axes_error", "semi-axes, largest relative error over the run", "", 0.005),
+                        ("energy_error", "kinetic energy at the end, relative error", "", None),
+                        ("velocity_error", "velocity at the end, relative L2 error", "", None),
+                        ("pressure_error", "pressure at the end, relative L2 error", "", None)), (0.0, 1.0, 2.5))
+
+
+def tank(plan):
+    runs = tuple(plan.run(f"tank_dx{dx:g}", "tank/case.toml",
+                          (f"particles.spacing={dx:g}", "particles.jitter=0.2", "time.end=10",
+                           "output.fields_interval=1.0"), 1.5 * (0.05 / dx) ** 3.2)
+                 for dx in plan.at((0.05, 0.025), (0.05, 0.025, 0.02), (0.05, 0.025, 0.0125)))
+    quantities = (("pressure_error", "pressure at t = 10 s, rms error over rho g H", "", 3e-3),
+                  ("u_rms", "speed from 5 s on, largest rms over sqrt(g H)", "", 3e-4),
+                  ("level_error_dx", "level, largest error", "dx", 0.25),
+                  ("bottom_density", "density error within 4 dx of the bottom", "", 2e-3))
+    return flow_study(
+        "tank", "Water at rest from disordered particles", "tank",
+        "A tank of 1 m x 0.5 m starts with particles displaced at random by up to 0.2 dx and should come to rest: hydrostatic "
+        "pressure, no motion, no compression.", EXACTLY, runs, quantities, (10.0,))
+
+
+def draw_channel(exact_of, *runs):
+    """Speeds of the particles across the channel at several times, over the series."""
+    figure = plots.new_figure(height=3.2)
+    for axes, run in zip(figure.subplots(1, len(runs), sharey=True, squeeze=False).flat, runs):
+        profile, _ = exact_of(run)
+        y = np.linspace(0, run.parameters["L"], 200)
+        for frame, style in zip(exact_flows.frames(run)[1::3], plots.CYCLE):
+            velocity, = exact_flows.fields(run, frame, "velocity")
+            axes.plot(velocity[:, 0], frame.position[:, 1], ".", markersize=3, color=style["color"],
+                      label=f"$t$ = {frame.time:.1f} s")
+            axes.plot(profile(y, frame.time), y, **plots.EXACT)
+        axes.set_title(f"dx = {run.spacing:g} m", loc="left")
+        axes.set_xlabel("speed (m/s)")
+        plots.grid(axes)
+    axes.plot([], [], label="series", **plots.EXACT)
+    figure.axes[0].set_ylabel("y (m)")
+    axes.legend(frameon=False)
+    return figure
+
+
+def channel_study(plan, name, title, about, exact_of):
+    runs = tuple(plan.run(f"{name}_dx{dx:g}", f"verification/{name}.toml", (f"particles.spacing={dx:g}",),
+                          1.5 * (0.05 / dx) ** 3.6)
+                 for dx in plan.at((0.1, 0.05), (0.1, 0.05, 0.025), (0.1, 0.05, 0.025)))
+    return flow_study(
+        name, title, name, f"{about} Re = 20, particles displaced at random by up to 0.1 dx, speeds at ten instants against the series "
+        "solution. No slip is a wall law for any Reynolds number: here it must give the laminar limit.", EXACTLY, runs,
+        (("profile_error", "speed, largest rms error of ten instants over the rms speed", "", 0.01),
+         ("across", "speed across the channel, rms over the rms speed, largest", "", None)), (),
+        (Plot("Speeds of the particles (dots) over the series.", runs, partial(draw_channel, exact_of)),),
+        has_histories=False)
+
+
+def poiseuille(plan):
+    return channel_study(plan, "poiseuille", "Poiseuille flow from rest",
+                         "Water between two no-slip plates 1 m apart is set in motion by a body force.",
+                         exact_flows.poiseuille_exact)
+
+
+def couette(plan):
+    return channel_study(plan, "couette", "Couette flow from rest",
+                         "Water between two no-slip plates 1 m apart is set in motion by one of them, which moves along itself.",
+                         exact_flows.couette_exact)

@@ -1,0 +1,110 @@
+"""The laboratory's dam breaks but the impact: each scored by its own module, which says what is compared with what."""
+
+from dataclasses import replace
+from functools import partial
+
+from .. import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce1952_picture, ozmen_cagatay2014,
+                ozmen_cagatay2014_picture, plots, soares_frazao2002, soares_frazao2002_picture)
+from ..checks import Check
+from ..metric import Metric
+from ..reading import scored
+from ..study import LABORATORY, ModuleChecks, Plot, Study
+
+ALWAYS = ("The gate's removal, friction of side walls and surface tension, which the laboratory had, are in no error bar.")
+
+
+def case_run(plan, name, length, count, seconds, integrator=None, variant="", settings=()):
+    """A run with `count` particles over the case's own length; `seconds` is what it costs with ten of them."""
+    return plan.run("_".join(filter(None, (f"{name}_{length}-{count}", variant))), f"{name}/case.toml",
+                    (f"particles.spacing={length}/{count}", *settings), seconds * (count / 10) ** 3.1,
+                    plan.integrators[-1] if integrator is None else integrator)
+
+
+def water_error(run):
+    """Particles of the start that are neither inside nor have left."""
+    balance = run.summary["water_balance"]
+    return balance["start"]["particles"] - balance["inside"]["particles"] - balance["out"]["particles"]
+
+
+def draw_convergence(module, names, ylabel, *runs):
+    """Scores of a case's module by spacing: `names` are (label, name of the score)."""
+    return plots.draw_convergence({label: {run.spacing: scored(module.score, name, run) for run in runs}
+                                   for label, name in names}, ylabel)
+
+
+def everything(_):
+    return True
+
+
+def laboratory_study(name, title, module, draw, about, uncertainty, runs, converging, ylabel, paper=(), keep=everything,
+                     more_checks=(), **more):
+    """A study of the scores of the last of `runs`, with the case's own picture of it."""
+    plots_of = (Plot("Differences from the laboratory by spacing; they end at the uncertainty of the data.", runs,
+                     partial(draw_convergence, module, converging, ylabel)),) if converging else ()
+    return Study(name, title, LABORATORY, about, f"{uncertainty} {ALWAYS}",
+                 (ModuleChecks(name, module.score, runs[-1:], keep, paper), *more_checks), plots_of,
+                 sheets=((f"Computed ({runs[-1].name}) and measured.", runs[-1], draw),), shown=runs[-1], **more)
+
+
+def martin_moyce(plan):
+    name = "martin_moyce1952"
+    runs = tuple(case_run(plan, name, "a", count, 0.5) for count in plan.at((15, 30), (30, 60, 96), (60, 96, 160)))
+    return laboratory_study(
+        name, "Collapse of a square column: Martin & Moyce (1952)", martin_moyce1952, martin_moyce1952_picture.draw,
+        "A column 57 mm wide and as high collapses and runs over a dry, smooth bed. Front x/a over T = t sqrt(g/a) and height of "
+        "the column at its back wall. Farzin et al. compute it with 3898 and 9320 particles (a/60 and a/96) on a frictionless bed "
+        "and give no numbers.",
+        "The release takes time: until friction can matter the laboratory's fronts come 0.13 to 0.19 of T after that of a "
+        "column let go at once, so the best shift is looked for within 0.2. Readings of one figure differ by 0.006 to 0.04 a, "
+        "columns of two sizes by 0.12 a where they should coincide.", runs,
+        (("front, the table (a)", "rms front table"), ("column height (n2 a)", "rms height")), "RMS difference")
+
+
+def janosi(plan):
+    name = "janosi2004"
+    runs = tuple(case_run(plan, name, "h0", count, 0.7) for count in plan.at((12, 25), (25, 51), (51, 80)))
+    return laboratory_study(
+        name, "Bore on a wet bed behind a rising gate: Janosi et al. (2004)", janosi2004, janosi2004_picture.draw,
+        "A lock 0.38 m long and 0.15 m deep opens onto water 38 mm deep; the gate is a moving wall that rises at 1.5 m/s and does work "
+        "on the water. Surfaces "
+        "at eight instants. Farzin et al. compute it with 11 905 particles and compare four of them.",
+        "Each photograph has its own vertical offset (the still water reads 35.3 to 45.7 mm and is moved to 38 mm); the instant at "
+        "which the gate began to move is known to 0.015 s, in which the bore runs 15 mm; below 2 mm nothing means anything.", runs,
+        tuple((f"t = {instant:g} s", f"rms {instant:g}") for instant in janosi2004.INSTANTS[2::2]), "RMS distance (mm)",
+        keep=lambda score: not score.startswith("rms published"))
+
+
+def ozmen_cagatay(plan):
+    name = "ozmen_cagatay2014"
+    runs = tuple(case_run(plan, name, "h0", count, 18) for count in plan.at((9, 13), (9, 18), (18, 27)))
+    farmani = (("mean error profile", 9.24), ("largest error profile", 14.2), ("mean error gauge", 12.47),
+               ("largest error gauge", 15.3))
+
+    def errors(score):
+        return not score.startswith("level ")
+
+    two_step = case_run(replace(plan, scheme="farmani2020"), name, "h0", plan.at(13, 18, 27), 18)
+    return laboratory_study(
+        name, "Dam break over a hump with an open end: Ozmen-Cagatay, Kocaman & Guzel (2014)", ozmen_cagatay2014,
+        ozmen_cagatay2014_picture.draw,
+        "A reservoir 0.25 m deep empties over a dry floor and a triangular hump 0.075 m high; part is reflected, the rest leaves "
+        "through the open end and takes its energy along. Heights at eight places and instants of profiles and at six gauges. Farmani et al. compute it with "
+        "5976 particles, dx = 0.014 m (h0/18).",
+        "Published are 14 numbers with two or three digits, chosen by the paper as its model's worst; the data's own error is not given.",
+        runs, (("profile points", "mean error profile"), ("gauge points", "mean error gauge")), "mean error (%)", farmani,
+        errors, (Check(Metric(f"{name}.water", "water of the start that is neither inside nor counted as out", "particles",
+                              "the outlet's balance is exact", 0, 0), runs[-1:], water_error),
+                 ModuleChecks(f"{name}.farmani2020", ozmen_cagatay2014.score, (two_step,), errors, farmani, ", scheme B"),),
+        moments=tuple(T * ozmen_cagatay2014.TIME_SCALE for T in (8, 15.16, 23.05, 41.84)),
+        time_scale=ozmen_cagatay2014.TIME_SCALE)
+
+
+def soares_frazao(plan):
+    name = "soares_frazao2002"
+    runs = tuple(case_run(plan, name, "h0", count, 40) for count in plan.at((8, 11), (8, 11, 16), (11, 16, 22)))
+    return laboratory_study(
+        name, "Dam break over a sill into still water: Soares-Frazao (2002)", soares_frazao2002, soares_frazao2002_picture.draw,
+        "A reservoir 0.111 m deep empties over a sill 0.065 m high into still water before a closed end. Farmani et al. show surfaces "
+        "at five instants and state a worst error of 12.3 % without giving a measured number: arrivals, reflections and "
+        "surfaces are shown.", "No measured numbers are published: nothing here has a target.", runs, (), "",
+        moments=soares_frazao2002.INSTANTS[:4])

@@ -1,0 +1,173 @@
+"""`tailwater validate`: runs the papers' cases and the exact solutions, scores them, writes a report.
+
+OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and verdict, OUT/report/
+index.html the report, one page that needs no other file.
+
+Usage: python -m tailwater_validation.validate --program FILE [CASE...] [--level quick|paper|fine] [--out DIR]
+Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
+interrupted.
+"""
+
+import datetime
+import html
+import json
+import os
+import platform
+import sys
+
+from matplotlib import rc_context
+
+from . import command, plots
+from .curves import DataError
+from .metric import bar
+from .page import figure_element, page, sheet_element
+from .runs import TestRun, finished
+from .studies import studies
+from .study import LEVELS, Plan
+
+
+def metric_record(check, metric):
+    return {"name": metric.name, "what": metric.what, "value": metric.value, "unit": metric.unit, "low": metric.low,
+            "high": metric.high, "paper": metric.paper,
+            "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
+            "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": metric.shifted_value,
+            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": metric.order, "note": metric.note, "variant": check.variant, "runs": [run.name for run in check.runs]}
+
+
+def run_record(run, out):
+    """What a run was and cost; only why it failed, if it did; of tests, that they passed."""
+    try:
+        left = finished(run, out)
+    except DataError as error:
+        return {"name": run.name, "message": str(error)}
+    if isinstance(run, TestRun):
+        return {"name": run.name, "message": ""}
+    told = left.summary
+    return {"name": run.name, "message": "", "case": str(run.case.name), "settings": list(run.settings),
+            "spacing_m": told["spacing_m"], "particles": told["particles"]["fluid"], "steps": told["steps"]["count"],
+            "dt_mean_s": told["steps"]["dt_mean_s"],
+            "iterations_per_solve": told["pressure_solver"]["iterations_per_solve"], "cpu_s": told["cost"]["cpu_s"],
+            "cpu_s_per_simulated_s": told["cost"]["cpu_s_per_simulated_s"],
+            "energy_end_over_start": told["energy"]["end_J"] / told["energy"]["start_J"],
+            "energy_rise_over_start": told["energy"]["largest_rise_over_start"],
+            "density_error_mean": told["volume"]["density_error_mean"],
+            "density_error_rms": told["volume"]["density_error_rms"]}
+
+
+def study_record(study, out):
+    return {"name": study.name, "title": study.title, "kind": study.kind, "about": study.about,
+            "uncertainty": study.uncertainty,
+            "metrics": [metric_record(check, metric) for check in study.checks for metric in check.scores(out)],
+            "runs": [run_record(run, out) for run in study.runs]}
+
+
+def collect(chosen, program, options):
+    """What validation.json holds."""
+    records = [study_record(study, options.out) for study in chosen]
+    verdicts = [metric["verdict"] for record in records for metric in record["metrics"]]
+    cost = {run["name"]: run.get("cpu_s", 0.0) for record in records for run in record["runs"]}
+    return {
+        "version": program.version, "commit": program.commit, "level": options.level, "scheme": options.scheme,
+        "ranks": program.ranks, "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "machine": {"name": platform.node(), "processor": processor(), "cores": os.cpu_count()},
+        "cpu_s": sum(cost.values()),
+        "verdicts": {verdict: verdicts.count(verdict) for verdict in ("met", "missed", "shown")},
+        "studies": records,
+    }
+
+
+def processor():
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            return next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.machine()
+
+
+def finished_of(runs, out):
+    """What those of the runs left that are cases and reached their end."""
+    found = []
+    for run in runs:
+        try:
+            found.append(finished(run, out))
+        except DataError:
+            continue
+    return found
+
+
+def try_picture(caption, draw):
+    """A picture for the page, or the reason why there is none."""
+    try:
+        with rc_context(plots.STYLE):
+            return figure_element(draw(), caption)
+    except DataError as error:
+        return not_drawn(error, caption)
+
+
+def not_drawn(error, caption):
+    return f'<p class="soft">Not drawn ({html.escape(str(error))}): {html.escape(caption)}</p>'
+
+
+def pictures(study, out):
+    """The figures of a study, as text of the page: start, particles, its own plots, histories."""
+    found = []
+    if study.shown:
+        found.append(try_picture(f"The start of {study.shown.name}.",
+                                 lambda: plots.draw_start(finished(study.shown, out))))
+        if study.moments:
+            found.append(try_picture(f"Particles of {study.shown.name}, coloured by pressure.", lambda: plots.draw_moments(
+                finished(study.shown, out), study.moments, study.time_scale)))
+    for caption, run, draw in study.sheets:
+        try:
+            found.append(sheet_element(draw, finished(run, out).path, caption))
+        except DataError as error:
+            found.append(not_drawn(error, caption))
+    for plot in study.plots:
+        left = finished_of(plot.runs, out)
+        if left:
+            found.append(try_picture(plot.caption, lambda plot=plot, left=left: plot.draw(*left)))
+        else:
+            found.append(not_drawn("no run reached its end", plot.caption))
+    cases = finished_of([run for run in study.runs if not isinstance(run, TestRun)], out)[:plots.MOST_RUNS]
+    if cases and study.has_histories:
+        found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases, study.names)))
+    return found
+
+
+def overview(result):
+    """The numbers that have a target, for the terminal."""
+    rows = [(study["name"], metric["what"], "-" if metric["value"] is None else f"{metric['value']:.3g}",
+             metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"])
+            for study in result["studies"] for metric in study["metrics"] if metric["verdict"] != "shown"]
+    widths = [max((len(row[k]) for row in rows), default=0) for k in range(6)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
+    return "\n".join([*lines, "", ", ".join(f"{count} {verdict}" for verdict, count in result["verdicts"].items())])
+
+
+def score(chosen, program, options):
+    """Writes validation.json and the report; returns what to print."""
+    result = collect(chosen, program, options)
+    file, report = options.out / "validation.json", options.out / "report" / "index.html"
+    file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    report.parent.mkdir(exist_ok=True)
+    report.write_text(page(result, {study.name: pictures(study, options.out) for study in chosen}), encoding="utf-8")
+    return f"{overview(result)}\n\nscores: {file}\nreport: {report}"
+
+
+def main(arguments=None):
+    parser = command.Parser("tailwater validate", "Runs the papers' cases and the exact solutions, scores them against "
+                            "measurements and theory, and writes a report.", "validation", max(1, os.cpu_count() or 1))
+    parser.epilog += " Examples: tailwater validate --list; tailwater validate zhou1999 drop --level paper --out my_validation"
+    parser.add_argument("cases", nargs="*", metavar="CASE", help="only these (default: all; --list names them)")
+    parser.add_argument("--level", choices=LEVELS, default="quick",
+                        help="quick: under ten minutes on two cores; paper: the papers' particle counts; fine: beyond")
+    parser.add_argument("--scheme", default="", metavar="NAME", help="scheme.name of all runs but the comparisons'")
+    parser.add_argument("-n", type=int, default=1, dest="ranks", metavar="RANKS", help="ranks of each run (1)")
+    options = parser.parse_args(arguments)
+    plan = Plan(options.level, options.scheme)
+    options.settings = plan.settings
+    return command.execute(options, lambda: command.choose(studies(plan), options.cases, "case"), score)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
