@@ -81,6 +81,7 @@ struct PhysicsTable {
   double density = 1000.0;
   double viscosity = 1e-6;
   Coordinates gravity = {0.0, -9.81};
+  double channel_width = 0.0;
 
   bool operator==(const PhysicsTable&) const = default;
 
@@ -90,6 +91,9 @@ struct PhysicsTable {
     v.number("viscosity", self.viscosity, "m^2/s", Range::at_least(0.0), "Kinematic viscosity of the fluid, nu_0");
     v.coordinates("gravity", self.gravity, "m/s^2",
                   "Acceleration of gravity, one number per dimension (default in 3D: 0, 0, -9.81)");
+    v.number(
+        "channel_width", self.channel_width, "m", Range::at_least(0.0),
+        "2D: width of the channel between two smooth side walls, whose friction acts on all water; 0: no side walls");
   }
 };
 

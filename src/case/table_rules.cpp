@@ -116,6 +116,16 @@ void check(const SchemeTable& scheme, TableReader& reader) {
   }
 }
 
+void check(const PhysicsTable& physics, TableReader& reader) {
+  const toml::node* node = reader.given("channel_width");
+  if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {
+    reader.wrong(
+        "channel_width", *node,
+        "stands for the side walls that a computation in two dimensions does not have, but case.dimension = 3; "
+        "remove it and give the side walls as [[wall]] tables");
+  }
+}
+
 void check(const FluidTable& fluid, TableReader& reader) {
   check_shape_dimension(name_of(fluid.shape), fluid.shape == BlockShape::polygon, reader);
   check_box(fluid.min, fluid.max, reader);

@@ -25,6 +25,7 @@ void set_defaults(ProbeTable& probe, TableReader& reader);
 template <class Table>
 void check(const Table&, TableReader&) {}
 void check(const DomainTable& domain, TableReader& reader);
+void check(const PhysicsTable& physics, TableReader& reader);
 void check(const FluidTable& fluid, TableReader& reader);
 void check(const WallTable& wall, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);

@@ -16,6 +16,13 @@ double ViscosityLaw::at_wall(double speed) const {
   return std::max(molecular, std::pow(8.3, -1.75) * std::pow(speed * wall_distance, 0.75) * std::pow(molecular, 0.25));
 }
 
+double ViscosityLaw::side_wall_rate(double speed) const {
+  if (channel_width == 0.0) return 0.0;
+  const double turbulent =
+      std::pow(8.0 / 7.0 / 8.3, 1.75) * std::pow(speed, 0.75) * std::pow(molecular / (0.5 * channel_width), 0.25);
+  return 2.0 / channel_width * std::max(6.0 * molecular / channel_width, turbulent);
+}
+
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {
   for_each(velocity.size(), [&](std::size_t i) { viscosity[i] = law.at_speed(velocity[i].norm()); });
@@ -79,6 +86,15 @@ void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
 }
 
 template <int Dim>
+void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
+                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
+  if (law.channel_width == 0.0) return;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) acceleration[i] -= law.side_wall_rate(velocity[i].norm()) * velocity[i];
+  });
+}
+
+template <int Dim>
 void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
                          std::span<Vec<Dim>> acceleration) {
@@ -131,6 +147,8 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
   template void add_wall_friction<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,               \
                                        const ViscosityLaw&, double, std::span<const Vec<Dim>>,                        \
                                        std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                               \
+  template void add_side_wall_friction<Dim>(const Particles<Dim>&, const ViscosityLaw&, std::span<const Vec<Dim>>,    \
+                                            std::span<Vec<Dim>>);                                                     \
   template void add_consistent_viscosity<Dim>(                                                                        \
       const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
       double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);

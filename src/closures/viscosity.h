@@ -2,6 +2,7 @@
 //
 //   nu_eff = nu_0 + max(c_a |u| dx, c_f dx sqrt(g L))        (F3) with a floor
 //   nu_wall = nu_0 max(1, 8.3^(-7/4) (|u| y/nu_0)^(3/4))     wall stress nu_wall u/y of Werner & Wengle (1991)
+//   a = -2 tau_side(|u|)/(rho b) u/|u|                       side walls of a channel of width b, in 2D
 //
 // (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (method.md 3). Neither has anything
 // to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that of water.
@@ -20,12 +21,19 @@ struct ViscosityLaw {
   double artificial = 0.0;     ///< m; c_a dx, times |u| gives nu_a
   double floor = 0.0;          ///< m^2/s; c_f dx sqrt(g L)
   double wall_distance = 0.0;  ///< m; y of the wall law
+  double channel_width = 0.0;  ///< m; b between two side walls, 0 without
 
   double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
 
   /// Viscosity [m^2/s] with which no slip over `wall_distance` has the stress of a smooth wall: the laminar one up to
   /// u y/nu_0 = 140 (y+ = 11.8), above it that of the power law u/u_tau = 8.3 (y u_tau/nu_0)^(1/7).
   double at_wall(double speed) const;
+
+  /// Rate [1/s] at which the two side walls slow water of this speed, a mean over the width: 2 tau/(rho b u). tau/rho
+  /// is u_tau^2 of the same power law, of which the speed is the mean over half the width (y = 0 .. b/2, u = 7/8 of
+  /// that at b/2: Werner & Wengle's integral), or 6 nu u/b of laminar flow between plates, whichever is larger. 0
+  /// without side walls.
+  double side_wall_rate(double speed) const;
 };
 
 /// Effective viscosity [m^2/s] of every particle, ghosts included.
@@ -53,6 +61,11 @@ template <int Dim>
 void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
                        const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
                        std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
+
+/// Friction of a 2D channel's side walls on fluid particles. Only slows down.
+template <int Dim>
+void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
+                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
 
 /// Dissipation of noise only: the two-point viscous force between fluid particles, not of the velocity difference
 /// itself but of what a linear field does not explain of it,

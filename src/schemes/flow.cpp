@@ -145,7 +145,8 @@ Flow<Dim>::Flow(const CaseSpec& spec)
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,
                    .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length),
-                   .wall_distance = wall_law_distance_over_spacing * spacing};
+                   .wall_distance = wall_law_distance_over_spacing * spacing,
+                   .channel_width = spec.physics.channel_width};
   shifting_law = {.kind = scheme.shifting,
                   .strength = scheme.shifting_strength,
                   .cap = scheme.shifting_cap * spacing,

@@ -38,6 +38,7 @@ void predict(Flow<Dim>& flow, double dt) {
     add_wall_friction<Dim>(pairs, particles, flow.walls, flow.viscosity_law, flow.spacing, particles.velocity,
                            flow.wall_mean, flow.acceleration);
   }
+  add_side_wall_friction<Dim>(particles, flow.viscosity_law, particles.velocity, flow.acceleration);
   if (flow.uses_velocity_gradient()) {
     flow.velocity_gradient.resize(particles.size());
     for_each(particles.owned, [&](std::size_t i) {

@@ -194,6 +194,33 @@ TEST(WallLaw, StressOfWernerAndWengle) {
   EXPECT_EQ((ViscosityLaw{.wall_distance = y}.at_wall(3.0)), 0.0);
 }
 
+TEST(SideWalls, StressIsTheMeanOfThePowerLawOverHalfTheWidth) {
+  const double nu = 1e-6;
+  const double b = 0.3;
+  const ViscosityLaw law{.molecular = nu, .wall_distance = 0.012, .channel_width = b};
+  for (const double u_tau : {0.01, 0.1}) {
+    // The mean of 8.3 u_tau (y u_tau/nu)^(1/7) over y = 0 .. b/2 is 7/8 of its value at b/2.
+    const double speed = 7.0 / 8.0 * 8.3 * u_tau * std::pow(0.5 * b * u_tau / nu, 1.0 / 7.0);
+    EXPECT_NEAR(law.side_wall_rate(speed) * speed, 2.0 * u_tau * u_tau / b, 64.0 * eps * u_tau * u_tau / b);
+  }
+  // Slow water: the two walls of plane Poiseuille flow, whose pressure gradient is 12 nu u/b^2.
+  EXPECT_DOUBLE_EQ(law.side_wall_rate(1e-9), 12.0 * nu / (b * b));
+  EXPECT_EQ((ViscosityLaw{.molecular = nu}.side_wall_rate(3.0)), 0.0);
+}
+
+TYPED_TEST(WallTest, SideWallsSlowFluidAgainstItsVelocityOnly) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  const std::vector<Vec<Dim>> velocity(wall.set.size(), some_velocity<Dim>());
+  const ViscosityLaw law{.molecular = 1e-6, .wall_distance = 0.6 * dx, .channel_width = 0.3};
+  std::vector<Vec<Dim>> acceleration(wall.set.size(), Vec<Dim>::Zero());
+  add_side_wall_friction<Dim>(wall.set.particles, law, velocity, acceleration);
+  const Vec<Dim> expected = -law.side_wall_rate(some_velocity<Dim>().norm()) * some_velocity<Dim>();
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    EXPECT_EQ(acceleration[i], wall.set.particles.is_fluid(i) ? expected : Vec<Dim>(Vec<Dim>::Zero()));
+  }
+}
+
 /// Floor y = 0 and a wall x = 0 meet in the origin; the fluid is in the first quadrant. Fluid at `positions`, then one
 /// wall particle, which is everybody's neighbour.
 struct Corner {

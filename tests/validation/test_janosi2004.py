@@ -96,6 +96,7 @@ class Scores(unittest.TestCase):
         for height, verdict in ((0.003, "met"), (0.005, "missed")):
             metrics = self.score(too_high=height)
             for instant in janosi2004.INSTANTS:
+                self.assertEqual(metrics[f"rms {instant:g}"]["shift"], 0)
                 self.assertAlmostEqual(metrics[f"rms {instant:g}"]["value"], 1000 * height, places=9)
                 self.assertAlmostEqual(metrics[f"largest {instant:g}"]["value"], 1000 * height, places=9)
                 self.assertAlmostEqual(metrics[f"rms published {instant:g}"]["value"], 1000 * height + 2, places=9)

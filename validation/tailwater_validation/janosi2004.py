@@ -21,8 +21,9 @@ INSTANTS = (0.156, 0.219, 0.281, 0.343, 0.406, 0.468, 0.531, 0.593)  # s
 START = 0.40  # m: nearer to the gate its guides and what hangs on them are seen
 STEP = 0.001  # m, between the places that are compared
 
-# The instants are odd 32nds of a second, one picture every 1/16 s; when the gate began to move lies between pictures.
-SHIFTS = (-0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015)  # s: a run takes its profiles also so much off each instant
+# The instants are odd 32nds of a second and 1/16 s apart: pictures at 16 a second, of which the gate began to move between two.
+# So the instants have one common error of up to 1/32 s. A run takes its profile also so much (s) off each instant:
+SHIFTS = (-0.03, -0.025, -0.02, -0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03)
 
 DISTANCE_TARGET = 4.0  # mm
 TARGET_FROM = 0.28  # s: before that the bar does not hold
@@ -44,23 +45,21 @@ def distances(run, instant, column="y_shifted_m", shift=0.0, computed="level"):
                                        start=START)
 
 
-def best_time(run, instant):
-    """(shift, RMS in mm): how much later, within the data's uncertainty, the measured surface fits best."""
-    scores = [rms(distances(run, instant, shift=shift)) for shift in SHIFTS]
-    best = int(np.argmin(scores))
-    return SHIFTS[best], scores[best]
+def best_shift(run):
+    """How much later (s), within the data's uncertainty, all measured surfaces fit best. Throws DataError if the run did not
+    take the profiles for it."""
+    instants = [instant for instant in INSTANTS if instant >= TARGET_FROM]
+    scores = [sum(rms(distances(run, instant, shift=shift)) ** 2 for instant in instants) for shift in SHIFTS]
+    return SHIFTS[int(np.argmin(scores))]
 
 
-def score_instant(run, instant):
+def score_instant(run, instant, shift):
+    """Scores at one instant; `shift` is that of the whole run, None without."""
     target = DISTANCE_TARGET if instant >= TARGET_FROM else None
     scored = measure(Metric(f"rms {instant:g}", f"RMS distance of the surface, t = {instant:g} s", "mm",
                             "far water at 38 mm", high=target), value=lambda: rms(distances(run, instant)))
-    if scored.value is not None:
-        try:
-            shift, value = best_time(run, instant)
-            scored = replace(scored, shift=shift, shift_unit="s", shifted_value=value)
-        except DataError:
-            pass  # a run without the profiles about the instant has no best shift
+    if shift is not None and scored.value is not None:
+        scored = replace(scored, shift=shift, shift_unit="s", shifted_value=rms(distances(run, instant, shift=shift)))
     return [
         scored,
         measure(Metric(f"largest {instant:g}", "  largest distance", "mm", "far water at 38 mm"),
@@ -75,4 +74,8 @@ def score_instant(run, instant):
 def score(run_folder):
     """Scores a run; returns the result of `scoring`. Throws DataError if the folder is not that of a run."""
     run = RunFolder(run_folder)
-    return result("janosi2004", run, [metric for instant in INSTANTS for metric in score_instant(run, instant)])
+    try:
+        shift = best_shift(run)
+    except DataError:
+        shift = None  # the run ended early
+    return result("janosi2004", run, [metric for instant in INSTANTS for metric in score_instant(run, instant, shift)])

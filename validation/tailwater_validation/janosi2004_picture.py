@@ -6,7 +6,6 @@ import matplotlib.pyplot as plt
 from . import janosi2004 as case
 from .particles import nearest_frames
 from .picture import BAR_GAP, LEFT, ORANGE, STYLE, Page, draw_particles
-from .profiles import profile_at
 from .run_folder import RunFolder
 
 VIEW = ((0.25, 1.1), (-0.006, 0.135))  # m
@@ -27,16 +26,12 @@ def draw_page(run, frames):
                               run.density * run.gravity * 0.1, f"$t$ = {instant:.3f} s")
         axes.plot(*case.laboratory(instant), color=ORANGE, linewidth=1.2, zorder=5,
                   label="laboratory, far water at 38 mm")
-        profile = profile_at(run, "surface", instant)
-        axes.plot(profile.x, profile.level, color="white", linewidth=0.7, zorder=5, label="computed, joined with the bed")
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=row == rows - 1, labelleft=column == 0)
         axes.set_xlabel("x (m)" if row == rows - 1 else "", labelpad=1)
         axes.set_ylabel("z (m)" if column == 0 else "")
         if k == 0:
-            page.figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=2, frameon=False,
-                               bbox_to_anchor=(LEFT / page.figure.get_figwidth(), 1 - 0.6 / page.height),
-                               facecolor="#888888")
+            axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False)
     page.pressure_bar(dots, LEFT + 2 * COLUMN + COLUMN_GAP + BAR_GAP, HEAD, pictures)
     return page.figure
 
