@@ -212,6 +212,10 @@ class BadInput(ValidateTest):
         self.assertEqual([line.split()[0] for line in out.splitlines()], list(studies(Plan())))
         self.assertFalse((self.folder / "out").exists())
 
+    def test_cases_may_stand_between_options(self):
+        code, out, _ = self.validate("drop", "--list", "tank")
+        self.assertEqual((code, [line.split()[0] for line in out.splitlines()]), (0, ["tank", "drop"]))
+
 
 class Studies(unittest.TestCase):
     def test_runs_of_one_name_are_one_run_and_their_cases_are_there(self):

@@ -163,7 +163,7 @@ def main(arguments=None):
                         help="quick: under ten minutes on two cores; paper: the papers' particle counts; fine: beyond")
     parser.add_argument("--scheme", default="", metavar="NAME", help="scheme.name of all runs but the comparisons'")
     parser.add_argument("-n", type=int, default=1, dest="ranks", metavar="RANKS", help="ranks of each run (1)")
-    options = parser.parse_args(arguments)
+    options = parser.parse_intermixed_args(arguments)
     plan = Plan(options.level, options.scheme)
     options.settings = plan.settings
     return command.execute(options, lambda: command.choose(studies(plan), options.cases, "case"), score)
