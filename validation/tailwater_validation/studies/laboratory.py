@@ -62,7 +62,7 @@ def martin_moyce(plan):
 
 def janosi(plan):
     name = "janosi2004"
-    runs = tuple(case_run(plan, name, "h0", count, 0.7) for count in plan.at((12, 25), (25, 51), (51, 80)))
+    runs = tuple(case_run(plan, name, "d", count, 50) for count in plan.at((4, 7), (7, 13), (13, 21)))
     return laboratory_study(
         name, "Bore on a wet bed behind a rising gate: Janosi et al. (2004)", janosi2004, janosi2004_picture.draw,
         "A lock 0.38 m long and 0.15 m deep opens onto water 38 mm deep; the gate is a moving wall that rises at 1.5 m/s and does work "
