@@ -7,7 +7,7 @@ from .. import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce19
                 ozmen_cagatay2014_picture, plots, soares_frazao2002, soares_frazao2002_picture)
 from ..checks import Check
 from ..metric import Metric
-from ..reading import scored
+from ..reading import scored, summary
 from ..study import LABORATORY, ModuleChecks, Plot, Study
 
 ALWAYS = ("The gate's removal, friction of side walls and surface tension, which the laboratory had, are in no error bar.")
@@ -22,8 +22,8 @@ def case_run(plan, name, length, count, seconds, integrator=None, variant="", se
 
 def water_error(run):
     """Particles of the start that are neither inside nor have left."""
-    balance = run.summary["water_balance"]
-    return balance["start"]["particles"] - balance["inside"]["particles"] - balance["out"]["particles"]
+    start, inside, out = (summary("water_balance", where, run)["particles"] for where in ("start", "inside", "out"))
+    return start - inside - out
 
 
 def draw_convergence(module, names, ylabel, *runs):
