@@ -286,6 +286,18 @@ class Checks(unittest.TestCase):
             operators.recorded("grad", 1, numbers)
 
 
+class Records(ValidateTest):
+    def test_a_flow_that_starts_without_energy(self):
+        path = synthetic_folder() / "summary.json"
+        told = path.read_text()
+        self.addCleanup(path.write_text, told)
+        path.write_text(json.dumps(json.loads(told) | {"energy": {"start_J": 0.0, "end_J": 5.0, "largest_rise_over_start": 0}}))
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.only_run("slip")
+        record = validate.run_record(studies(Plan())["slip"].runs[0], self.folder / "out")
+        self.assertEqual((record["energy_end_over_start"], record["energy_rise_over_start"]), (None, None))
+
+
 class Detached(unittest.TestCase):
     def test_counts_what_no_chain_joins(self):
         block = np.array([(x, y, 0.0) for x in np.arange(20.0) for y in np.arange(5.0)])
