@@ -17,6 +17,7 @@ namespace {
 
 constexpr double least_distance = 0.5;       // dx, between wall particles
 constexpr double farthest_share = 1.5;       // of the layers' depth: what is left of a sharp mitre
+constexpr double least_way_to_tip = 0.3;     // dx, of the particles in the tip of a crest
 constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
 constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
@@ -198,6 +199,32 @@ bool is_behind_another(const Boundary<Dim>& boundary, const Vec<Dim>& x, const V
   return false;
 }
 
+/// The tip of a crest sharper than a right angle, before which the first row stops: particles every dx/2 from the row's
+/// corner towards the tip. Without them a particle that comes to stand on the tip, a whole dx from the next one, finds
+/// nothing there that holds it off.
+void fill_tips(const Boundary<2>& boundary, const Joints& joints, double depth, double spacing, PointGrid<2>& taken,
+               WallParticles<2>& particles) {
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const WallFace<2>& from = boundary.faces[f];
+    if (joints.next[f] < 0) {
+      continue;
+    }
+    const WallFace<2>& to = boundary.faces[joints.next[f]];
+    const bool is_convex = from.normal[0] * to.normal[1] - from.normal[1] * to.normal[0] < 0.0;
+    const Vec<2> back = mitre(from, to, depth) - from.corners[1];
+    if (!is_convex || from.normal.dot(to.normal) > -corner_tolerance) {
+      continue;
+    }
+    for (double way = back.norm() - 0.5 * spacing; way >= least_way_to_tip * spacing; way -= 0.5 * spacing) {
+      const Vec<2> x = from.corners[1] + way * back.normalized();
+      if (!taken.has_near(x)) {
+        taken.add(x);
+        append(particles, x, std::vector<Vec<2>>{from.normal, to.normal}, from.wall);
+      }
+    }
+  }
+}
+
 /// Rows of wall particles, the first `first_depth` (m) behind the walls, first come, first kept. Rows on the wall and
 /// in line with it include free ends. Nothing stands more than `farthest` (m) from its wall.
 WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, double first_depth, int layers,
@@ -213,6 +240,9 @@ WallParticles<2> sample_rows(const Boundary<2>& boundary, double spacing, double
 
   WallParticles<2> particles;
   PointGrid<2> taken((least_distance - corner_tolerance) * spacing);
+  if (first_depth > 0.0) {
+    fill_tips(boundary, joints, first_depth, spacing, taken, particles);
+  }
   const double free_end = first_depth > 0.0 ? 0.5 : 0.0;
   for (int layer = 0; layer < layers; ++layer) {
     const double depth = first_depth + layer * spacing;

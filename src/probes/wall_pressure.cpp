@@ -1,21 +1,35 @@
 #include "probes/wall_pressure.h"
 
+#include <memory>
+
+#include "geometry/wall_motion.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
 
 namespace tailwater {
 namespace {
 
+/// A point of a wall, which goes where the wall goes.
 template <int Dim>
-Vec<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const CaseSpec& spec,
-                       const Boundary<Dim>& boundary) {
+struct PointOnWall {
+  Vec<Dim> drawn;
+  std::shared_ptr<const WallPath<Dim>> path;  ///< null: the wall rests
+
+  Vec<Dim> at(double time) const { return path ? path->at(time)(drawn) : drawn; }
+};
+
+template <int Dim>
+PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const CaseSpec& spec,
+                               const Boundary<Dim>& boundary) {
   const double support = spec.scheme.support * spec.particles.spacing;
   const NearestWall<Dim> nearest = boundary.nearest(x, support);
   if (nearest.face < 0) {
     throw InputError(fmt::format("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall",
                                  label(probe), support, place(x)));
   }
-  return nearest.point;
+  const int wall = boundary.faces[nearest.face].wall;
+  if (!boundary.walls[wall].moves()) return {nearest.point, nullptr};
+  return {nearest.point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 
 }  // namespace
@@ -38,23 +52,23 @@ std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<
 
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const Vec<Dim> x_w = point_on_wall(probe, to_vec<Dim>(probe.at, label(probe), "at"), spec, boundary);
-  return {{"pressure_Pa"}, [x_w](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            return {{wall_pressure(context, x_w).value_or(0.0)}};
+  const PointOnWall<Dim> point = point_on_wall(probe, to_vec<Dim>(probe.at, label(probe), "at"), spec, boundary);
+  return {{"pressure_Pa"}, [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            return {{wall_pressure(context, point.at(context.time)).value_or(0.0)}};
           }};
 }
 
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::vector<Vec<Dim>> points;
+  std::vector<PointOnWall<Dim>> points;
   for (const Vec<Dim>& x : places_between<Dim>(probe, 0.5 * spec.particles.spacing)) {
     points.push_back(point_on_wall(probe, x, spec, boundary));
   }
   return {{"pressure_Pa", "wet_share"}, [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
             double sum = 0.0;
             double wet = 0.0;
-            for (const Vec<Dim>& x_w : points) {
-              if (const std::optional<double> pressure = wall_pressure(context, x_w)) {
+            for (const PointOnWall<Dim>& point : points) {
+              if (const std::optional<double> pressure = wall_pressure(context, point.at(context.time))) {
                 sum += *pressure;
                 wet += 1.0;
               }

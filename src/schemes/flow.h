@@ -103,7 +103,7 @@ struct Flow {
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
-  std::vector<std::uint8_t> is_held;        ///< owned; suction limited by the pressure equation (`solve`)
+  std::vector<std::uint8_t> is_held;        ///< suction limited by the pressure equation (`solve`)
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> divergence;           ///< 1/s; as last measured, owned
   std::vector<double> viscosity;

@@ -16,6 +16,7 @@ void resize_geometry(Flow<Dim>& flow) {
   flow.wall_overlap.resize(count);
   flow.is_wet.resize(count);
   flow.takes_part.resize(count);
+  flow.is_held.resize(count);
   if (flow.uses_tensors()) flow.tensors.resize(count);
   flow.is_surface.resize(count);
   flow.interior.resize(count);

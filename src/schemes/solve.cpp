@@ -75,7 +75,7 @@ void finish_pressure(Flow<Dim>& flow, Interventions& interventions) {
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   const std::span<double> pressure = std::span(flow.particles.pressure).first(flow.particles.owned);
-  flow.is_held.assign(flow.particles.owned, 0);
+  flow.is_held.assign(flow.particles.size(), 0);
   int rough_iterations = 0;
   if (has_air(flow)) {
     rough_iterations = flow.pressure_system.solve(pressure, rough_tolerance).iterations;

@@ -96,6 +96,31 @@ TYPED_TEST(WallTest, OnlyWallsInReachOfFluidAreWet) {
   }
 }
 
+TYPED_TEST(WallTest, AWallThatMovesWithTheWaterLeavesItAlone) {
+  constexpr int Dim = TypeParam::value;
+  const Vec<Dim> u = some_velocity<Dim>();
+  for (const WallTreatment treatment : {WallTreatment::dummies, WallTreatment::pressure_rows}) {
+    WettedWall<Dim> wall(flat<Dim>(), 1.0, treatment);
+    for (Vec<Dim>& V : wall.walls.velocity) V = u;
+    const auto velocity = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
+    std::vector<Vec<Dim>> acceleration(wall.set.size(), Vec<Dim>::Zero());
+    add_wall_friction<Dim>(wall.set.pairs(), wall.set.particles, wall.walls, ViscosityLaw{.molecular = 1.0}, dx,
+                           velocity, wall.mean, acceleration);
+    for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
+      EXPECT_LT((velocity[i] - u).norm(), 400.0 * eps);
+      EXPECT_LT(acceleration[i].norm(), 4000.0 * eps / (dx * dx));
+    }
+    // A piston faster than the water: the image is as much faster again.
+    for (Vec<Dim>& V : wall.walls.velocity) V = u + Vec<Dim>::UnitY();
+    const auto pushed = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
+    const double factor = treatment == WallTreatment::dummies ? 2.0 : 1.0;
+    for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
+      if (wall.set.particles.is_fluid(i)) continue;
+      EXPECT_LT((pushed[i] - u - factor * Vec<Dim>::UnitY()).norm(), 400.0 * eps);
+    }
+  }
+}
+
 TYPED_TEST(WallTest, MirrorsAUniformVelocity) {
   constexpr int Dim = TypeParam::value;
   // The Shepard mean of a uniform velocity is that velocity, so each slip has a closed answer.
@@ -279,6 +304,32 @@ TEST(WallContact, CushionsTheWayToTheWallAndNothingElse) {
   EXPECT_LT((x[4] - Vec<2>(0.2 * dx / 6.0, 0.5 * 0.3 * dx)).norm(), 4.0 * eps);
   EXPECT_LT((u[4] - Vec<2>(-1.0 / 6.0, -1.0)).norm(), 8.0 * eps);
   EXPECT_EQ(x[5], wall);
+}
+
+TEST(WallContact, IsRelativeToAWallThatMoves) {
+  // The wall x = 0 has come from x = -w, at w/dt; the same moves seen from it are those of a wall at rest.
+  const double way = 0.3 * dx;
+  const double dt = 0.01;
+  const std::vector<Vec<2>> start{{1.0, 3.0 * dx}, {0.1 * dx, 3.0 * dx}, {0.4 * dx, 2.0 * dx}, {-0.1 * dx, 2.0 * dx}};
+  const std::vector<Vec<2>> moves(start.size(), Vec<2>::Zero());
+  Corner moving(start);
+  WallWays<2> ways{.way = std::vector<AffineMap<2>>(1), .dt = dt};
+  ways.way[0].constant = Vec<2>(way, 0.0);
+  EXPECT_EQ(
+      keep_off_walls<2>(moving.pairs, moving.boundary, dx, ways, start, moving.particles, moving.particles.velocity),
+      1u);
+  Corner resting(start);
+  std::vector<Vec<2>> before = start;
+  for (Vec<2>& x : before) x[0] += way;
+  for (Vec<2>& velocity : resting.particles.velocity) velocity = Vec<2>(-way / dt, 0.0);
+  keep_off_walls<2>(resting.pairs, resting.boundary, dx, {}, before, resting.particles, resting.particles.velocity);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    EXPECT_LT((moving.particles.position[i] - resting.particles.position[i]).norm(), 4.0 * eps);
+    const Vec<2> relative = moving.particles.velocity[i] - Vec<2>(way / dt, 0.0);
+    EXPECT_LT((relative - resting.particles.velocity[i]).norm(), 1e-12);
+  }
+  EXPECT_GT(moving.particles.velocity[1][0], 0.0);  // pushed along
+  EXPECT_EQ(moving.particles.velocity[0], Vec<2>(Vec<2>::Zero()));
 }
 
 TEST(WallContact, NobodyCrossesHoweverFarAndNoVelocityIsTakenFromAMoveThatHadNone) {

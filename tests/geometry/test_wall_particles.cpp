@@ -261,5 +261,22 @@ TEST(SurfaceParticles, CoverTheClosedFacesOfABoxIn3D) {
   EXPECT_LT((nodes.blocked[corner] - Mat<3>::Identity()).norm(), round_off);
 }
 
+// A crest of 60 degrees, whose first mitre is a whole dx behind it: water that stands dx/2 before the tip finds a
+// particle dx/2 behind it. A right angle keeps its lattice.
+TEST(Dummies, FillTheTipOfASharpCrest) {
+  CaseSpec spec = empty_case(0.1);
+  const double half = 0.6 / std::numbers::sqrt3;
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0 + half, 0.6}, {1.0 + 2.0 * half, 0.0}, {3.0, 0.0}})};
+  const Boundary<2> sharp = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(sharp, 0.1, 3);
+  EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.55}), 0);
+  EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.50}), 0);
+  EXPECT_GE(least_distance(dummies), (0.5 - 1e-6) * 0.1);
+  for (const Vec<2>& x : dummies.position) EXPECT_LT(sharp.nearest(x, 1e9).signed_distance, 0.0) << x.transpose();
+
+  spec.walls = {box_wall({0.0, 0.0}, {1.0, 1.0}, {}, FluidSide::outside)};
+  EXPECT_EQ(make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3).size(), 100u - 16u);
+}
+
 }  // namespace
 }  // namespace tailwater

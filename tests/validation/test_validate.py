@@ -212,6 +212,10 @@ class BadInput(ValidateTest):
         self.assertEqual([line.split()[0] for line in out.splitlines()], list(studies(Plan())))
         self.assertFalse((self.folder / "out").exists())
 
+    def test_cases_may_stand_between_options(self):
+        code, out, _ = self.validate("drop", "--list", "tank")
+        self.assertEqual((code, [line.split()[0] for line in out.splitlines()]), (0, ["tank", "drop"]))
+
 
 class Studies(unittest.TestCase):
     def test_runs_of_one_name_are_one_run_and_their_cases_are_there(self):
@@ -280,6 +284,18 @@ class Checks(unittest.TestCase):
         self.assertAlmostEqual(operators.observed_order("grad", 2, numbers), 2.0, places=12)
         with self.assertRaisesRegex(DataError, "no grad in 1D"):
             operators.recorded("grad", 1, numbers)
+
+
+class Records(ValidateTest):
+    def test_a_flow_that_starts_without_energy(self):
+        path = synthetic_folder() / "summary.json"
+        told = path.read_text()
+        self.addCleanup(path.write_text, told)
+        path.write_text(json.dumps(json.loads(told) | {"energy": {"start_J": 0.0, "end_J": 5.0, "largest_rise_over_start": 0}}))
+        self.fake(FAKE_RUN=str(synthetic_folder()))
+        self.only_run("slip")
+        record = validate.run_record(studies(Plan())["slip"].runs[0], self.folder / "out")
+        self.assertEqual((record["energy_end_over_start"], record["energy_rise_over_start"]), (None, None))
 
 
 class Detached(unittest.TestCase):

@@ -23,11 +23,13 @@ MEASURED = {"color": BLACK, "marker": "o", "markersize": 3.2, "linestyle": "none
 EXACT = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1, 1.2)), "zorder": 4}
 STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
          "axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path", "axes.axisbelow": True}
+DARK = "#063a5b"
 WIDTH = 11.5
 MOST_STRETCHED = 2  # exaggeration of heights up to which particles are drawn as discs
 FLATTEST = 0.11  # height over width of a particle picture, below which its heights are exaggerated
 SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the rest is spray
 MOST_RUNS = 8  # in one plot
+ARROWS = 16  # across the start of a flow that moves
 
 
 def new_figure(width=WIDTH, height=3.0):
@@ -173,8 +175,9 @@ def draw_start(run):
         mark_probe(axes, probe, view)
     velocity = frame.fields.get("velocity")
     if velocity is not None and np.abs(velocity).max() > 0:
-        some = np.linspace(0, len(frame.position) - 1, 180).astype(int)
-        axes.quiver(*frame.position[some, :2].T, *velocity[some, :2].T, color=BLUE, width=0.002, zorder=4)
+        cells = np.floor(frame.position[:, :2] / (np.ptp(frame.position[:, 0]) / ARROWS)).astype(int)
+        _, some = np.unique(cells, axis=0, return_index=True)  # one particle of each cell
+        axes.quiver(*frame.position[some, :2].T, *velocity[some, :2].T, color=DARK, width=0.003, zorder=4)
     view.apply(axes)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("z (m)" if view.exaggeration == 1 else f"z (m), {view.exaggeration} times higher")

@@ -35,7 +35,10 @@ def zhou(name, run, field="value"):
 
 
 def summary(block, name, run):
-    return run.summary[block][name]
+    try:
+        return run.summary[block][name]
+    except KeyError as error:
+        raise DataError(f"{run.path.name}: its summary has no {block}.{name}") from error
 
 
 def interventions(run, *kinds):

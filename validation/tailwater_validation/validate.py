@@ -43,13 +43,14 @@ def run_record(run, out):
     if isinstance(run, TestRun):
         return {"name": run.name, "message": ""}
     told = left.summary
+    energy, has_energy = told["energy"], told["energy"]["start_J"] != 0
     return {"name": run.name, "message": "", "case": str(run.case.name), "settings": list(run.settings),
             "spacing_m": told["spacing_m"], "particles": told["particles"]["fluid"], "steps": told["steps"]["count"],
             "dt_mean_s": told["steps"]["dt_mean_s"],
             "iterations_per_solve": told["pressure_solver"]["iterations_per_solve"], "cpu_s": told["cost"]["cpu_s"],
             "cpu_s_per_simulated_s": told["cost"]["cpu_s_per_simulated_s"],
-            "energy_end_over_start": told["energy"]["end_J"] / told["energy"]["start_J"],
-            "energy_rise_over_start": told["energy"]["largest_rise_over_start"],
+            "energy_end_over_start": energy["end_J"] / energy["start_J"] if has_energy else None,
+            "energy_rise_over_start": energy["largest_rise_over_start"] if has_energy else None,
             "density_error_mean": told["volume"]["density_error_mean"],
             "density_error_rms": told["volume"]["density_error_rms"]}
 
@@ -163,7 +164,7 @@ def main(arguments=None):
                         help="quick: under ten minutes on two cores; paper: the papers' particle counts; fine: beyond")
     parser.add_argument("--scheme", default="", metavar="NAME", help="scheme.name of all runs but the comparisons'")
     parser.add_argument("-n", type=int, default=1, dest="ranks", metavar="RANKS", help="ranks of each run (1)")
-    options = parser.parse_args(arguments)
+    options = parser.parse_intermixed_args(arguments)
     plan = Plan(options.level, options.scheme)
     options.settings = plan.settings
     return command.execute(options, lambda: command.choose(studies(plan), options.cases, "case"), score)

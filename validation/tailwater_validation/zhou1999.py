@@ -7,7 +7,7 @@ their distance from each other is scored too: it is the least uncertainty that t
 from functools import partial
 from pathlib import Path
 
-from .curves import DataError, arrival_time, first_peak, noise, read_curve, rms_difference
+from .curves import DataError, arrival_time, first_peak, noise, read_curve
 from .metric import Metric, measure
 from .run_folder import RunFolder
 from .scoring import compare_curves, result

@@ -7,7 +7,7 @@ from .. import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce19
                 ozmen_cagatay2014_picture, plots, soares_frazao2002, soares_frazao2002_picture)
 from ..checks import Check
 from ..metric import Metric
-from ..reading import scored
+from ..reading import scored, summary
 from ..study import LABORATORY, ModuleChecks, Plot, Study
 
 ALWAYS = ("The gate's removal, friction of side walls and surface tension, which the laboratory had, are in no error bar.")
@@ -22,8 +22,8 @@ def case_run(plan, name, length, count, seconds, integrator=None, variant="", se
 
 def water_error(run):
     """Particles of the start that are neither inside nor have left."""
-    balance = run.summary["water_balance"]
-    return balance["start"]["particles"] - balance["inside"]["particles"] - balance["out"]["particles"]
+    start, inside, out = (summary("water_balance", where, run)["particles"] for where in ("start", "inside", "out"))
+    return start - inside - out
 
 
 def draw_convergence(module, names, ylabel, *runs):
@@ -62,7 +62,7 @@ def martin_moyce(plan):
 
 def janosi(plan):
     name = "janosi2004"
-    runs = tuple(case_run(plan, name, "h0", count, 0.7) for count in plan.at((12, 25), (25, 51), (51, 80)))
+    runs = tuple(case_run(plan, name, "d", count, 50) for count in plan.at((4, 7), (7, 13), (13, 21)))
     return laboratory_study(
         name, "Bore on a wet bed behind a rising gate: Janosi et al. (2004)", janosi2004, janosi2004_picture.draw,
         "A lock 0.38 m long and 0.15 m deep opens onto water 38 mm deep; the gate is a moving wall that rises at 1.5 m/s and does work "

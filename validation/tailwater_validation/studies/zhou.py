@@ -84,6 +84,8 @@ def soundness_checks(run):
               (run,), partial(detached_at, 5.0)),
         Check(Metric("zhou1999.energy_rise", "largest rise of the total energy", "of the start", "physics: none",
                      high=RISE_TARGET), (run,), partial(summary, "energy", "largest_rise_over_start")),
+        Check(Metric("zhou1999.energy_rise_unexplained", "the same without the work of the density source", "of the start",
+                     "physics: none"), (run,), partial(summary, "energy", "largest_rise_less_density_work_over_start")),
         Check(Metric("zhou1999.density", "density error, rms over the bulk and time", "", "incompressible: none",
                      high=0.01), (run,), partial(summary, "volume", "density_error_rms")),
     ]
