@@ -90,7 +90,8 @@ def draw_particles(axes, position, spacing, view, share=2**0.5, **style):
     exaggerated discs would be spikes: there each is a piece about dx high."""
     x, y = position[:, 0], position[:, 1]
     if view.exaggeration > MOST_STRETCHED:
-        half = 0.5 * spacing * np.array([[-share, -1.1], [share, -1.1], [share, 1.1], [-share, 1.1]])
+        wide, high = max(share, 1.1), 1.1  # without cracks
+        half = 0.5 * spacing * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
         dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
     else:
         size = np.full(len(position), share * spacing)
