@@ -19,8 +19,11 @@ namespace {
 /// (docs/theory/linear.md gives the measurement).
 constexpr std::size_t multigrid_pays_from = 40000;
 
-/// Norm of the right-hand side below which the answer is zero pressure: nothing drives it.
-constexpr double vanishing_rhs = 1e-300;
+/// Norm of the right-hand side below which the answer is zero pressure: nothing drives it, and squares underflow soon.
+constexpr double vanishing_rhs = 1e-100;
+
+/// PETSc's own absolute tolerance would call any residual below it converged, however large relative to the source.
+constexpr double no_absolute_tolerance = 0.0;
 
 constexpr int longest_history = 2000;
 
@@ -77,7 +80,8 @@ void configure(KSP solver, const PressureSolverTable& settings, std::size_t unkn
   check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
   check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
   check_petsc(KSPSetPCSide(solver, PC_RIGHT));
-  check_petsc(KSPSetTolerances(solver, settings.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, settings.max_iterations));
+  check_petsc(
+      KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
   check_petsc(KSPSetFromOptions(solver));
@@ -255,6 +259,10 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
 
   SolveReport report;
   report.residual = residual_norm(solution) / rhs_norm;
+  if (report.residual > 1.0) {  // no guess at all is nearer, and PETSc gives up on one that is very far
+    std::fill(solution.begin(), solution.end(), 0.0);
+    report.residual = 1.0;
+  }
   if (report.residual <= tolerance_wanted) return report;
 
   Petsc& petsc = *petsc_;
@@ -289,7 +297,7 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   for (double tolerance = tolerance_wanted; report.residual > tolerance_wanted;
        tolerance *= 0.5 * tolerance_wanted / report.residual) {
     const double residual_before = report.residual;
-    check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    check_petsc(KSPSetTolerances(solver, tolerance, no_absolute_tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
     check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
     PetscInt iterations = 0;
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -63,12 +63,12 @@ void Neighbourhood<Dim>::keep(Particles<Dim>& particles, std::span<const std::in
   pick(kept, particles.wall_row);
   pick(kept, particles.id);
   particles.owned = kept.size();
-  position_at_rebuild_.clear();
+  has_lists_ = false;
 }
 
 template <int Dim>
 bool Neighbourhood<Dim>::lists_are_valid(const Particles<Dim>& particles) const {
-  if (position_at_rebuild_.size() != particles.owned) return false;
+  if (!has_lists_ || position_at_rebuild_.size() != particles.owned) return false;
   const double limit = 0.25 * skin_ * skin_;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if ((particles.position[i] - position_at_rebuild_[i]).squaredNorm() > limit) return false;
@@ -79,6 +79,7 @@ bool Neighbourhood<Dim>::lists_are_valid(const Particles<Dim>& particles) const 
 template <int Dim>
 void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
   ++rebuilds_;
+  has_lists_ = true;
   const double reach = kernel_radius(kernel_) + skin_;
   particles.resize(particles.owned);
   halo_ = make_halo<Dim>(domain_, reach, particles);

@@ -59,6 +59,7 @@ class Neighbourhood {
   Halo<Dim> halo_;
   NeighbourList list_;
   Pairs<Dim> pairs_;
+  bool has_lists_ = false;
   std::vector<Vec<Dim>> position_at_rebuild_;
   std::size_t rebuilds_ = 0;
 };

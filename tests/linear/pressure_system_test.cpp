@@ -132,6 +132,46 @@ TEST(PressureSystem, TakesANewRightHandSideAlone) {
   }
 }
 
+TEST(PressureSystem, DividedDiagonalsAreThoseOfTheSystem) {
+  SmallSystem small = random_system(60, 7);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  system.solve(solution);  // the preconditioner is from before
+  for (const std::size_t i : {3, 8, 40}) {
+    system.divide_diagonal(i, 0.25);
+    small.diagonal[i] /= 0.25;
+  }
+  system.divide_diagonal(11, 0.0);
+  system.solve(solution);
+  for (std::size_t k = small.row_begin[11]; k < small.row_begin[12]; ++k) small.weights[k] = 0.0;
+  small.diagonal[11] = 1.0;
+  small.rhs[11] = 0.0;
+  expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, ATinySourceIsSolvedLikeAnyOther) {
+  SmallSystem small = random_system(60, 8);
+  for (double& value : small.rhs) value *= 1e-60;
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  EXPECT_LE(system.solve(solution).residual, 1e-10);
+  expect_near(solution, small.dense_solution(), 1e-60 * error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, AGuessWorseThanNoneDoesNoHarm) {
+  const SmallSystem small = random_system(60, 9);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 1e17);
+  system.solve(solution);
+  expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
 TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
   const double tolerance = 1e-10;
   PressureSystem system(solver_settings(tolerance));
