@@ -25,6 +25,10 @@ constexpr double vanishing_rhs = 1e-100;
 /// PETSc's own absolute tolerance would call any residual below it converged, however large relative to the source.
 constexpr double no_absolute_tolerance = 0.0;
 
+/// PETSc gives up on a guess whose residual is 1e5 of the source. Below that a guess helps even where its residual is
+/// larger than that of 0: what is left is rough, and smoothed away first.
+constexpr double hopeless_guess = 1e4;
+
 constexpr int longest_history = 2000;
 
 /// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
@@ -259,7 +263,7 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
 
   SolveReport report;
   report.residual = residual_norm(solution) / rhs_norm;
-  if (report.residual > 1.0) {  // no guess at all is nearer, and PETSc gives up on one that is very far
+  if (report.residual > hopeless_guess) {
     std::fill(solution.begin(), solution.end(), 0.0);
     report.residual = 1.0;
   }

@@ -61,8 +61,8 @@ class PressureSystem {
   /// and the solution gets mean 0.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
 
-  /// Solves; `solution` is the starting guess on entry, unless 0 is nearer. Throws SolverError with the residual
-  /// history when the tolerance is not reached. `tolerance` overrides the settings' own.
+  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Throws SolverError with the
+  /// residual history when the tolerance is not reached. `tolerance` overrides the settings' own.
   SolveReport solve(std::span<double> solution, std::optional<double> tolerance = {});
 
   /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back.
