@@ -23,6 +23,22 @@ double ViscosityLaw::side_wall_rate(double speed) const {
   return 2.0 / channel_width * std::max(6.0 * molecular / channel_width, turbulent);
 }
 
+namespace {
+
+/// Sum over fluid neighbours of c_ij (nu_i + nu_j)/2 (u_j - u_i), the weights c_ij [1/m^2] given by weight(i, j, k).
+template <int Dim, class Weight>
+void add_pair_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> viscosity,
+                        std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration, Weight&& weight) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      return weight(i, j, k) * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
+    });
+  });
+}
+
+}  // namespace
+
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {
   for_each(velocity.size(), [&](std::size_t i) { viscosity[i] = law.at_speed(velocity[i].norm()); });
@@ -32,27 +48,21 @@ template <int Dim>
 void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                           std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
                           std::span<Vec<Dim>> acceleration) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * 0.5 *
-             (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-    });
-  });
+  add_pair_viscosity(pairs, particles, viscosity, velocity, acceleration,
+                     [&](std::size_t, std::int32_t j, std::size_t k) {
+                       return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
+                     });
 }
 
 template <int Dim>
 void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
                            std::span<const double> density, std::span<const double> viscosity,
                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      return shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k], pairs.dW[k],
-                                      eta_squared) *
-             0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-    });
-  });
+  add_pair_viscosity(pairs, particles, viscosity, velocity, acceleration,
+                     [&](std::size_t i, std::int32_t j, std::size_t k) {
+                       return shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k],
+                                                       pairs.dW[k], eta_squared);
+                     });
 }
 
 template <int Dim>

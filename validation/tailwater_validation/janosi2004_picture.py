@@ -1,11 +1,9 @@
 """The picture of a run of cases/janosi2004: particles coloured by pressure at the eight instants, with the measured
 surfaces."""
 
-import matplotlib.pyplot as plt
-
 from . import janosi2004 as case
 from .particles import nearest_frames
-from .picture import BAR_GAP, LEFT, ORANGE, STYLE, Page, draw_particles
+from .picture import BAR_GAP, LEFT, ORANGE, Page, draw_particles, save_page
 from .run_folder import RunFolder
 
 VIEW = ((0.25, 1.1), (-0.006, 0.135))  # m
@@ -40,7 +38,4 @@ def draw(run_folder, image):
     """Draws the picture of a run into `image` (its suffix chooses the format). Throws DataError."""
     run = RunFolder(run_folder)
     frames = nearest_frames(run_folder, case.INSTANTS)
-    with plt.rc_context(STYLE):
-        figure = draw_page(run, frames)
-        figure.savefig(image, dpi=160)
-        plt.close(figure)
+    save_page(image, draw_page, run, frames)

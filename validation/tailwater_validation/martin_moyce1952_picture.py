@@ -1,11 +1,9 @@
 """The picture of a run of cases/martin_moyce1952: particles coloured by pressure at three times; front and height of the
 column over the laboratory's."""
 
-import matplotlib.pyplot as plt
-
 from . import martin_moyce1952 as case
 from .particles import nearest_frames
-from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, STYLE, Page, draw_particles, finish_axes
+from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, Page, draw_particles, finish_axes, save_page
 from .run_folder import RunFolder
 
 FRAME_TIMES = (0.8, 1.6, 2.8)  # T
@@ -85,7 +83,4 @@ def draw(run_folder, image):
     run = RunFolder(run_folder)
     scale = (case.width(run) / (case.n2_of(run) * case.GRAVITY)) ** 0.5
     frames = nearest_frames(run_folder, [T * scale for T in FRAME_TIMES])
-    with plt.rc_context(STYLE):
-        figure = draw_page(run, frames)
-        figure.savefig(image, dpi=160)
-        plt.close(figure)
+    save_page(image, draw_page, run, frames)

@@ -1,11 +1,9 @@
 """The picture of a run of cases/ozmen_cagatay2014: surfaces at the eight published instants and levels at the six gauges,
 with the published points."""
 
-import matplotlib.pyplot as plt
-
 from . import ozmen_cagatay2014 as case
 from .particles import nearest_frames
-from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, STYLE, Page, finish_axes
+from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, Page, finish_axes, save_page
 from .profiles import profile_at
 from .run_folder import RunFolder
 
@@ -63,7 +61,4 @@ def draw(run_folder, image):
     """Draws the picture of a run into `image` (its suffix chooses the format). Throws DataError."""
     run = RunFolder(run_folder)
     frame, = nearest_frames(run_folder, [0.0])
-    with plt.rc_context(STYLE):
-        figure = draw_page(run, frame)
-        figure.savefig(image, dpi=160)
-        plt.close(figure)
+    save_page(image, draw_page, run, frame)

@@ -186,11 +186,16 @@ def draw_page(run, frames):
     return page.figure
 
 
+def save_page(image, draw_page, *arguments):
+    """Draws a page in the style of all pictures into `image` (its suffix chooses the format)."""
+    with plt.rc_context(STYLE):
+        figure = draw_page(*arguments)
+        figure.savefig(image, dpi=160)
+        plt.close(figure)
+
+
 def draw_zhou1999(run_folder, image):
     """Draws the picture of a run into `image` (its suffix chooses the format). Throws DataError."""
     run = RunFolder(run_folder)
     frames = nearest_frames(run_folder, [T * zhou1999.TIME_SCALE for T in FRAME_TIMES])
-    with plt.rc_context(STYLE):
-        figure = draw_page(run, frames)
-        figure.savefig(image, dpi=160)
-        plt.close(figure)
+    save_page(image, draw_page, run, frames)

@@ -1,11 +1,9 @@
 """The picture of a run of cases/soares_frazao2002: particles coloured by pressure at the five published instants, and
 depths over time."""
 
-import matplotlib.pyplot as plt
-
 from . import soares_frazao2002 as case
 from .particles import nearest_frames
-from .picture import BAR_GAP, COMPUTED, LEFT, STYLE, Page, draw_particles, finish_axes
+from .picture import BAR_GAP, COMPUTED, LEFT, Page, draw_particles, finish_axes, save_page
 from .run_folder import RunFolder
 
 GRAVITY = 9.81
@@ -47,7 +45,4 @@ def draw(run_folder, image):
     """Draws the picture of a run into `image` (its suffix chooses the format). Throws DataError."""
     run = RunFolder(run_folder)
     frames = nearest_frames(run_folder, case.INSTANTS)
-    with plt.rc_context(STYLE):
-        figure = draw_page(run, frames)
-        figure.savefig(image, dpi=160)
-        plt.close(figure)
+    save_page(image, draw_page, run, frames)
