@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
 
 #include "base/error.h"
+#include "parallel/together.h"
 
 namespace tailwater {
 
@@ -31,13 +33,78 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
   return error_number;
 }
 
+/// As much as one call of MPI-IO gets: its counts are ints.
+constexpr std::size_t largest_write = std::size_t{1} << 30;
+
+void check_mpi_io(int code, const std::filesystem::path& path) {
+  if (code == MPI_SUCCESS) return;
+  char reason[MPI_MAX_ERROR_STRING] = {};
+  int length = 0;
+  MPI_Error_string(code, reason, &length);
+  throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+/// The first error of the collective calls, which all ranks make whatever happens to one.
+int write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts,
+                const Communicator& ranks) {
+  int code = MPI_SUCCESS;
+  const auto count = ranks.largest(static_cast<std::int64_t>(parts.size()));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    std::string_view rest = k < parts.size() ? parts[k] : std::string_view();
+    while (ranks.any(!rest.empty())) {
+      const std::string_view now = rest.substr(0, largest_write);
+      const int result =
+          MPI_File_write_at_all(file, offset, now.data(), static_cast<int>(now.size()), MPI_BYTE, MPI_STATUS_IGNORE);
+      if (code == MPI_SUCCESS) code = result;
+      offset += static_cast<std::int64_t>(now.size());
+      rest.remove_prefix(now.size());
+    }
+  }
+  return code;
+}
+
+void write_file_together(const std::filesystem::path& path, std::span<const std::string_view> parts,
+                         const Communicator& ranks) {
+  std::filesystem::path temporary = path;
+  temporary += temporary_ending;
+  std::int64_t size = 0;
+  for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
+  const std::int64_t total = ranks.sum(size);
+  const std::int64_t offset = ranks.sum_before(size);
+  // Makes the file, or empties what a killed run has left, with the system's own words if it cannot.
+  do_on_root(ranks, [&] {
+    if (const int error_number = write_parts(temporary, {}); error_number != 0)
+      throw_io_error("write", path, error_number);
+  });
+  try {
+    MPI_File file = MPI_FILE_NULL;
+    // Where only some ranks can open it the others keep it open: closing is collective.
+    do_together(ranks, [&] {
+      check_mpi_io(MPI_File_open(ranks.handle(), temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file), path);
+    });
+    const int code = write_parts(file, offset, parts, ranks);
+    const int closed = MPI_File_close(&file);
+    do_together(ranks, [&] { check_mpi_io(code != MPI_SUCCESS ? code : closed, path); });
+    do_on_root(ranks, [&] {
+      if (std::rename(temporary.c_str(), path.c_str()) != 0) throw_io_error("write", path, errno);
+    });
+  } catch (const IoError&) {
+    if (ranks.is_root()) std::remove(temporary.c_str());
+    throw;
+  }
+}
+
 }  // namespace
 
 void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number) {
   throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number)));
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts) {
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts, const Communicator& ranks) {
+  if (!ranks.is_alone()) {
+    write_file_together(path, parts, ranks);
+    return;
+  }
   std::filesystem::path temporary = path;
   temporary += temporary_ending;
   int error_number = write_parts(temporary, parts);

@@ -42,8 +42,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
   const std::filesystem::path failure = folder.make_failure();
   // Plain positions, velocities and pressures only: the work fields are those of the failed step.
   const FluidFields<Dim> fields(flow, last_good, {"pressure", "velocity", "id"});
-  const EncodedPiece piece = encode_piece(fields.view(), 1);
-  write_vtp(failure / "last_good.vtp", last_good_time, std::span(&piece, 1), 1);
+  write_vtp(failure / "last_good.vtp", last_good_time, encode_piece(fields.view(), 1), 1);
 
   std::string report = message + "\n";
   if (culprit) {
