@@ -34,7 +34,7 @@ ExitCode execute(const RunArguments& arguments) {
   }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   const LinearSession session;
-  const ExitCode code = run_case(spec, arguments.run);
+  const ExitCode code = run_case(spec, arguments.run, Communicator::world());
   if (!arguments.run.quiet) {
     fmt::print(stderr, "{}: results in {}\n", code == ExitCode::done ? "done" : "interrupted",
                arguments.run.out.string());
