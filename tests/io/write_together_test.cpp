@@ -1,37 +1,16 @@
 // Files that all ranks write together; read_back.py reads what they hold.
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "base/error.h"
 #include "io/file_size_limit.h"
 #include "io/run_folder.h"
-#include "io/temporary_folder.h"
+#include "io/shared_folder.h"
 #include "io/write_file.h"
-#include "parallel/communicator.h"
 
 namespace tailwater {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A temporary folder of the root that all ranks know.
-class SharedFolder {
- public:
-  SharedFolder() {
-    if (ranks_.is_root()) own_.emplace();
-    path_ = ranks_.broadcast(own_ ? own_->path().string() : "");
-  }
-  ~SharedFolder() { ranks_.meet(); }
-
-  const Communicator& ranks() const { return ranks_; }
-  const fs::path& path() const { return path_; }
-
- private:
-  Communicator ranks_ = Communicator::world();
-  std::optional<TemporaryFolder> own_;
-  fs::path path_;
-};
 
 /// 100 kB, different on each rank.
 std::string bytes_of(int rank) {
