@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <string>
 #include <system_error>
 
 #include "base/error.h"
@@ -36,31 +37,32 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
 /// As much as one call of MPI-IO gets: its counts are ints.
 constexpr std::size_t largest_write = std::size_t{1} << 30;
 
-void check_mpi_io(int code, const std::filesystem::path& path) {
-  if (code == MPI_SUCCESS) return;
+/// What MPI says about `code`; nothing for success.
+std::string reason_of(int code) {
+  if (code == MPI_SUCCESS) return "";
   char reason[MPI_MAX_ERROR_STRING] = {};
   int length = 0;
   MPI_Error_string(code, reason, &length);
-  throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
+  return reason;
 }
 
-/// The first error of the collective calls, which all ranks make whatever happens to one.
-int write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts,
-                const Communicator& ranks) {
-  int code = MPI_SUCCESS;
-  const auto count = ranks.largest(static_cast<std::int64_t>(parts.size()));
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-    std::string_view rest = k < parts.size() ? parts[k] : std::string_view();
-    while (ranks.any(!rest.empty())) {
-      const std::string_view now = rest.substr(0, largest_write);
-      const int result =
-          MPI_File_write_at_all(file, offset, now.data(), static_cast<int>(now.size()), MPI_BYTE, MPI_STATUS_IGNORE);
-      if (code == MPI_SUCCESS) code = result;
-      offset += static_cast<std::int64_t>(now.size());
-      rest.remove_prefix(now.size());
+/// Returns why it failed, or nothing. Every rank by itself: its bytes are one long stretch, and Open MPI's collective
+/// calls do not tell of a full disk.
+std::string write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts) {
+  for (std::string_view rest : parts) {
+    while (!rest.empty()) {
+      const int count = static_cast<int>(std::min(rest.size(), largest_write));
+      MPI_Status status;
+      const int code = MPI_File_write_at(file, offset, rest.data(), count, MPI_BYTE, &status);
+      if (code != MPI_SUCCESS) return reason_of(code);
+      int written = 0;
+      MPI_Get_count(&status, MPI_BYTE, &written);
+      if (written != count) return "the disk may be full";
+      offset += count;
+      rest.remove_prefix(static_cast<std::size_t>(count));
     }
   }
-  return code;
+  return "";
 }
 
 void write_file_together(const std::filesystem::path& path, std::span<const std::string_view> parts,
@@ -69,22 +71,24 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   temporary += temporary_ending;
   std::int64_t size = 0;
   for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
-  const std::int64_t total = ranks.sum(size);
   const std::int64_t offset = ranks.sum_before(size);
   // Makes the file, or empties what a killed run has left, with the system's own words if it cannot.
   do_on_root(ranks, [&] {
-    if (const int error_number = write_parts(temporary, {}); error_number != 0)
-      throw_io_error("write", path, error_number);
+    const int error_number = write_parts(temporary, {});
+    if (error_number != 0) throw_io_error("write", path, error_number);
   });
+  const auto require_none = [&](const std::string& reason) {
+    do_together(ranks, [&] {
+      if (!reason.empty()) throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
+    });
+  };
   try {
     MPI_File file = MPI_FILE_NULL;
     // Where only some ranks can open it the others keep it open: closing is collective.
-    do_together(ranks, [&] {
-      check_mpi_io(MPI_File_open(ranks.handle(), temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file), path);
-    });
-    const int code = write_parts(file, offset, parts, ranks);
-    const int closed = MPI_File_close(&file);
-    do_together(ranks, [&] { check_mpi_io(code != MPI_SUCCESS ? code : closed, path); });
+    require_none(reason_of(MPI_File_open(ranks.handle(), temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file)));
+    const std::string failure = write_parts(file, offset, parts);
+    const std::string close_failure = reason_of(MPI_File_close(&file));
+    require_none(failure.empty() ? close_failure : failure);
     do_on_root(ranks, [&] {
       if (std::rename(temporary.c_str(), path.c_str()) != 0) throw_io_error("write", path, errno);
     });
