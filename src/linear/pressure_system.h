@@ -74,6 +74,8 @@ class PressureSystem {
   void sweep(std::span<double> solution) const;
 
   std::size_t size() const { return rhs_.size(); }
+  /// Relative residual at which a solve ends.
+  double tolerance() const { return settings_.tolerance; }
 
  private:
   struct Petsc;

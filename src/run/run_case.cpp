@@ -128,12 +128,13 @@ class Run {
         series_(folder_.fields(), "fields", spec.output.compression),
         wall_series_(folder_.fields(), "walls", spec.output.compression),
         rank_log_(ranks, folder_.ranks()),
-        probes_(std::move(probe_list_), folder_),
+        probes_(std::move(probe_list_), folder_, ranks),
         progress_(spec.time.end, !tells_),
         statistics_(measure(flow_)) {
-    if (!ranks.is_root()) return;
-    step_log_.emplace(folder_.steps());
-    write_text_file(folder_.effective_case(), effective_case(spec));
+    do_on_root(ranks, [&] {
+      step_log_.emplace(folder_.steps());
+      write_text_file(folder_.effective_case(), effective_case(spec));
+    });
   }
 
   ExitCode execute() {
@@ -300,7 +301,8 @@ class Run {
                                .potential_energy = measures.potential_energy,
                                .density_error_mean = measures.density_error_mean,
                                .density_error_rms = measures.density_error_rms,
-                               .volume_out = measures.departed.volume}});
+                               .volume_out = measures.departed.volume},
+                    .ranks = ranks_});
   }
 
   Water water_out() const {

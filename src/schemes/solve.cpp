@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "schemes/verbs.h"
@@ -6,9 +7,6 @@
 
 namespace tailwater {
 namespace {
-
-/// The first solve only tells where water near the surface would pull.
-constexpr double rough_tolerance = 1e-2;
 
 template <int Dim>
 bool has_air(const Flow<Dim>& flow) {
@@ -78,6 +76,8 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   flow.is_held.assign(flow.particles.size(), 0);
   int rough_iterations = 0;
   if (has_air(flow)) {
+    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
+    const double rough_tolerance = std::sqrt(flow.pressure_system.tolerance());
     rough_iterations = flow.pressure_system.solve(pressure, rough_tolerance).iterations;
     hold_suction(flow);
   }
