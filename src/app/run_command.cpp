@@ -48,7 +48,7 @@ ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
-  const ExitCode code = run_case(spec, arguments.run);
+  const ExitCode code = run_case(spec, arguments.run, ranks);
   if (!arguments.run.quiet && ranks.is_root()) {
     fmt::print(stderr, "{}: results in {}\n", code == ExitCode::done ? "done" : "interrupted",
                arguments.run.out.string());

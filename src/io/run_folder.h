@@ -19,6 +19,7 @@ class RunFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path effective_case() const { return path_ / "case.effective.toml"; }
   std::filesystem::path steps() const { return path_ / "steps.csv"; }
+  std::filesystem::path ranks() const { return path_ / "ranks.csv"; }
   std::filesystem::path summary() const { return path_ / "summary.json"; }
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
   std::filesystem::path fields() const { return path_ / "fields"; }

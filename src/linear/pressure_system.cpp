@@ -123,6 +123,9 @@ void require_known_options(const PressureSolverTable& settings) {
       settings.petsc_options, fmt::join(unknown, ", ")));
 }
 
+/// y = D x, D the diagonal, which is 1.
+PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
+
 }  // namespace
 
 struct PressureSystem::Petsc {
@@ -147,6 +150,13 @@ struct PressureSystem::Petsc {
   void take_new_values() const {
     check_petsc(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     check_petsc(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+  }
+
+  /// SSOR of several ranks in Eisenstat's form asks for an operation that PETSc 3.18 lacks, and drops at each assembly.
+  void provide_diagonal() const {
+    Mat own = nullptr;
+    check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
+    check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
   }
 };
 
@@ -348,6 +358,7 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   } else {
     petsc.take_new_values();
   }
+  if (!ranks_.is_alone()) petsc.provide_diagonal();
   Petsc::wrap(ranks_, rhs_, petsc.rhs);
   Petsc::wrap(ranks_, solution, petsc.solution);
 

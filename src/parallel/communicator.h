@@ -42,8 +42,11 @@ class Communicator {
     reduce(&value, 1, mpi_type<Number>(), MPI_SUM);
     return value;
   }
-  /// Entry by entry, in place.
-  void sum(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_SUM); }
+  /// Each of the numbers in place, in one message; counts up to 2^53.
+  template <class... Number>
+  void sum_each(Number&... number) const {
+    reduce_each(MPI_SUM, number...);
+  }
 
   template <class Number>
   Number largest(Number value) const {
@@ -54,6 +57,10 @@ class Communicator {
   Number least(Number value) const {
     reduce(&value, 1, mpi_type<Number>(), MPI_MIN);
     return value;
+  }
+  template <class... Number>
+  void largest_each(Number&... number) const {
+    reduce_each(MPI_MAX, number...);
   }
   bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }
 
@@ -107,6 +114,13 @@ class Communicator {
       static_assert(std::is_integral_v<Number> && sizeof(Number) == 8);
       return std::is_signed_v<Number> ? MPI_INT64_T : MPI_UINT64_T;
     }
+  }
+  template <class... Number>
+  void reduce_each(MPI_Op operation, Number&... number) const {
+    std::array<double, sizeof...(Number)> values{static_cast<double>(number)...};
+    reduce(values.data(), values.size(), MPI_DOUBLE, operation);
+    const double* value = values.data();
+    ((number = static_cast<Number>(*value++)), ...);
   }
   void reduce(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation) const;
   void all_gather_bytes(const void* value, void* all, std::size_t bytes) const;

@@ -200,25 +200,11 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
   row.finish(sum, -flow.density * (flow.gravity - flow.wall_acceleration[wall_row]).dot(normal));  // (F39)
 }
 
-/// Each row couples its neighbours; a ghost's unknown is its owner's.
-template <int Dim>
-void set_pattern(Flow<Dim>& flow) {
-  const Pairs<Dim>& pairs = flow.pairs();
-  const Halo<Dim>& halo = flow.neighbourhood.halo();
-  if (halo.source.empty()) {
-    flow.pressure_system.set_pattern(pairs.row_begin, pairs.j);
-    return;
-  }
-  std::vector<std::int32_t> columns(pairs.j.size());
-  for_each(columns.size(), [&](std::size_t k) { columns[k] = halo.owner(pairs.j[k]); });
-  flow.pressure_system.set_pattern(pairs.row_begin, columns);
-}
-
 }  // namespace
 
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
-  set_pattern(flow);
+  flow.pressure_system.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.neighbourhood.halo().plan);
   interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
     if (flow.has_equation(i)) return assemble_equation(flow, i, dt);
     switch (flow.walls.treatment) {

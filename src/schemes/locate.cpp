@@ -45,9 +45,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
     flow.concentration_gradient[i] =
         is_fluid ? concentration_gradient<Dim>(pairs, i, particles.volume) : Vec<Dim>(Vec<Dim>::Zero());
   });
-  halo.exchange(flow.is_wet);
-  halo.exchange(flow.takes_part);
-  halo.exchange(flow.concentration);
+  halo.exchange(flow.is_wet, flow.takes_part, flow.concentration);
   if (flow.uses_tensors()) {
     compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
   }
