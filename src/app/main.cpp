@@ -43,17 +43,26 @@ class Ranks {
     if (count <= 1) return;
     session_.emplace();
     communicator_ = Communicator::world();
+    MPI_Comm_dup(communicator_.handle(), &meeting_);
     if (communicator_.size() == count) return;
     throw InputError(
         fmt::format("{} processes were started, but MPI knows {} of them as ranks of one program; remedy: "
                     "start them with the mpirun of the MPI of this program, or srun --mpi=pmix",
                     count, communicator_.size()));
   }
+  ~Ranks() {
+    if (meeting_ != MPI_COMM_SELF) MPI_Comm_free(&meeting_);
+  }
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
   const Communicator& communicator() const { return communicator_; }
+  MPI_Comm meeting() const { return meeting_; }
 
  private:
   std::optional<LinearSession> session_;
   Communicator communicator_;
+  MPI_Comm meeting_ = MPI_COMM_SELF;
 };
 
 /// Does what the command line asks for.
@@ -113,8 +122,10 @@ int main(int argc, char** argv) {
   if (traps != nullptr && std::string_view(traps) == "1") enable_fp_traps();
   try {
     const Ranks ranks;
-    return static_cast<int>(end_together(ranks.communicator(), execute(argc, argv, ranks.communicator())));
+    return static_cast<int>(
+        end_together(ranks.communicator(), ranks.meeting(), execute(argc, argv, ranks.communicator())));
   } catch (const UserError& error) {  // MPI does not start
-    return static_cast<int>(end_together({}, {error.code(), is_root_in_environment() ? error.what() : ""}));
+    return static_cast<int>(
+        end_together({}, MPI_COMM_SELF, {error.code(), is_root_in_environment() ? error.what() : ""}));
   }
 }

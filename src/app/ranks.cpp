@@ -144,7 +144,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments) {
   return signals_passed_on > 0 && !is_ours ? ExitCode::interrupted : static_cast<ExitCode>(code);
 }
 
-ExitCode end_together(const Communicator& ranks, const Outcome& outcome) {
+ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {
   const bool has_failed = !outcome.message.empty();
   if (ranks.is_alone()) {
     show_error(outcome.message);
@@ -153,7 +153,7 @@ ExitCode end_together(const Communicator& ranks, const Outcome& outcome) {
   const int own = has_failed ? static_cast<int>(outcome.code) : 0;
   std::vector<int> codes(static_cast<std::size_t>(ranks.size()));
   MPI_Request all_are_here = MPI_REQUEST_NULL;
-  MPI_Iallgather(&own, 1, MPI_INT, codes.data(), 1, MPI_INT, ranks.handle(), &all_are_here);
+  MPI_Iallgather(&own, 1, MPI_INT, codes.data(), 1, MPI_INT, meeting, &all_are_here);
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::seconds(2);
   const std::string name = fmt::format("rank {}: ", ranks.rank());

@@ -27,9 +27,10 @@ struct Outcome {
   std::string message;
 };
 
-/// Shows the error if there is one, and returns the exit code. With several ranks all come here, or all are ended: when
-/// every rank has come, one message is shown and all have the same code; a failed rank that has waited two seconds for
-/// others, which wait for it elsewhere, shows its message and aborts them.
-ExitCode end_together(const Communicator& ranks, const Outcome& outcome);
+/// `meeting` has the ranks of `ranks` and is used for nothing else: a rank that waits elsewhere must not be mistaken
+/// for one that has come. Shows the error if there is one, and returns the exit code. With several ranks all come here,
+/// or all are ended: when every rank has come, one message is shown and all have the same code; a failed rank that has
+/// waited two seconds for others, which wait for it elsewhere, shows its message and aborts them.
+ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome);
 
 }  // namespace tailwater
