@@ -50,7 +50,8 @@ class RanksTest(ProgramTest):
 
     def test_refuses_wrong_counts_before_anything(self):
         for count in ("0", "-1"):
-            self.assertIn("at least one rank", self.call("run", "small.toml", "--out", "out", f"-n{count}", expect=2).stderr)
+            error = self.call("run", "small.toml", "--out", "out", f"-n{count}", expect=2).stderr
+            self.assertIn("at least one rank", error)
         error = self.mpirun("-n", "2", PROGRAM, "run", "small.toml", "--out", "out", "-n", "3", expect=2).stderr
         self.assertEqual(len(error.splitlines()), 1, error)
         self.assertIn("leave -n out", error)
@@ -64,7 +65,8 @@ class RanksTest(ProgramTest):
     def test_an_error_of_all_is_told_once(self):
         error = self.call("run", "missing.toml", "--out", "out", "-n", "2", expect=4).stderr
         self.assertEqual(len(error.splitlines()), 1, error)
-        error = self.call("run", "small.toml", "--out", "out", "-n", "2", "--set", "particles.spcing=1", expect=2).stderr
+        error = self.call("run", "small.toml", "--out", "out", "-n", "2", "--set", "particles.spcing=1",
+                          expect=2).stderr
         self.assertEqual(len(error.splitlines()), 1, error)
         self.assertIn('did you mean "spacing"?', error)
 
