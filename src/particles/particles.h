@@ -1,4 +1,5 @@
-// The particles of one rank: what it owns, then ghosts (copies of particles of other ranks, and periodic images). Structure of arrays; every array has size() entries.
+// The particles of one rank: what it owns, then ghosts (copies of particles of other ranks, and periodic images).
+// Structure of arrays; every array has size() entries.
 #pragma once
 
 #include <cstdint>

@@ -67,7 +67,6 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   run(alone, steps);
   run(shared, steps);
 
-  EXPECT_NEAR(shared.time, alone.time, 1e-12 * alone.time);
   ASSERT_EQ(world.sum(shared.particles.owned), alone.particles.owned);
   const double unknowns = static_cast<double>(alone.particles.owned);
   const double dt = alone.time / steps;
@@ -75,6 +74,7 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   const double P = 1000.0 * (g * depth + speed_scale * speed_scale);
   const double dp = (granted * tau * std::sqrt(unknowns) + std::sqrt(tau)) * P;
   const double du = steps * 4.0 * dt / (1000.0 * spec.particles.spacing) * dp;
+  EXPECT_NEAR(shared.time, alone.time, alone.time * du);  // steps go with the largest speed, 1 m/s or more
   const std::vector<Particle<Dim>> expected = fluid_of(alone);
   const std::vector<Particle<Dim>> found = fluid_of(shared);
   if (!world.is_root()) return;
