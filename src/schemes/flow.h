@@ -89,7 +89,6 @@ struct Flow {
   std::vector<double> concentration;  ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies
   std::vector<Vec<Dim>> concentration_gradient;
   std::vector<double> wall_fluid_weight;
-  std::vector<double> wall_overlap;  ///< share of the particle behind a wall
   std::vector<std::uint8_t> is_wet;
   std::vector<std::uint8_t> takes_part;       ///< fluid, and wet walls
   std::vector<Renormalisation<Dim>> tensors;  ///< only where a consistent operator is chosen
@@ -107,7 +106,8 @@ struct Flow {
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
-  std::vector<std::uint8_t> is_held;        ///< suction limited by the pressure equation (`solve`)
+  std::vector<std::uint8_t> is_held;        ///< owned; suction limited by the pressure equation (`solve`)
+  std::vector<double> wall_overlap;         ///< share of the particle behind a wall, owned; for the density source
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> divergence;           ///< 1/s; as last measured, owned
   std::vector<double> viscosity;

@@ -69,7 +69,7 @@ void add(double factor, const Correction<Dim>& x, Correction<Dim>& y) {
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
-  assemble(flow, dt, interventions);
+  assemble_weights(flow, interventions);
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.is_held[i]) flow.pressure_system.divide_diagonal(i, flow.interior[i]);
   });
@@ -109,7 +109,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     });
     std::swap(next, last);
   }
-  finish_pressure(flow, interventions);
+  finish_pressure(flow);
   return report;
 }
 
