@@ -94,6 +94,7 @@ class MotionCheck {
     }
     if (is_sound_.empty()) return std::move(findings_);
     if constexpr (Dim == 2) warn_of_free_ends();
+    if (spec_.scheme.walls != WallTreatment::dummies) look_for_common_rows();
     places_ = places_of_room_ = places_at(0.0);
     before_ = now_.faces;
     // Water leaves through an outlet.
@@ -208,6 +209,29 @@ class MotionCheck {
           "that cannot get out; end its path before, or leave the water a way out",
           label(wall), time, place(middle), enclosed->volume, Dim, room_->water(), Dim);
       return;
+    }
+  }
+
+  /// Where rows of particles stand on the walls, and not only behind them, those of bodies that touch lie in each
+  /// other.
+  void look_for_common_rows() {
+    for (const WallFace<Dim>& face : drawn_.faces) {
+      for (const WallFace<Dim>& other : drawn_.faces) {
+        if (are_one_body(face, other)) continue;
+        for (const Vec<Dim>& corner : face.corners) {
+          const double distance = (closest_point(other, corner) - corner).norm();
+          if (distance > (1.0 - corner_tolerance) * dx_) continue;
+          const auto [moving, near] = std::minmax(
+              face.wall, other.wall, [&](int a, int b) { return drawn_.walls[a].moves() && !drawn_.walls[b].moves(); });
+          error(
+              "{} is {:.3g} m from {} at {}, and scheme.walls = \"{}\" puts particles on both: draw it at a distance "
+              "of "
+              "{:.6g} m, or choose scheme.walls = \"{}\"",
+              label(moving), distance, label(near), place(corner), name_of(spec_.scheme.walls), dx_,
+              name_of(WallTreatment::dummies));
+          return;
+        }
+      }
     }
   }
 

@@ -329,6 +329,15 @@ TEST(CheckMotion, ClosingCrushesTheWater) {
   EXPECT_TRUE(check(gate_case({0.0, "0.6*min(t, max(1 - t, 0.1))"})).empty());
 }
 
+TEST(CheckMotion, RowsOnTheWallsMustNotLieInEachOther) {
+  CaseSpec spec = gate_case({0.0, "1.5*t"});
+  spec.scheme.walls = WallTreatment::row_and_dummies;
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.5})};
+  expect_only(check(spec), Severity::error, {"wall 'gate' is 0 m from wall 'wall1' at (1, 0)", "0.05 m", "dummies"});
+  spec.walls[1].min[1] = 0.05;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 /// A lid 1 m wide with its lower side at 0.8 m over 0.5 m of water, on its path for 1 s.
 CaseSpec lid_case(VectorField displacement) {
   CaseSpec spec = empty_case(0.05);
