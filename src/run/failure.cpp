@@ -55,11 +55,15 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
       fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.particles, i));
     }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
-    fmt::format_to(out, "its neighbours before the step (ghosts: after it):\n");
+    fmt::format_to(out, "its neighbours before the step:\n");
     const Pairs<Dim>& pairs = flow.pairs();
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = static_cast<std::size_t>(pairs.j[k]);
-      fmt::format_to(out, "  {}\n", describe_particle(j < last_good.owned ? last_good : flow.particles, j));
+      if (j < last_good.owned) {
+        fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
+      } else {
+        fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.particles, j));
+      }
     }
   }
   const std::vector<std::string> reports = flow.ranks.gather(report);
