@@ -69,6 +69,15 @@ PCType preconditioner_type(PreconditionerName name, std::int64_t unknowns, bool 
   return unknowns < multigrid_pays_from ? PCEISENSTAT : PCHYPRE;
 }
 
+/// BoomerAMG eliminates on its coarsest level, which with a free constant is singular: noise of any size comes back.
+/// Only the options' database can tell it otherwise; the user's own word stands.
+void relax_coarsest_level() {
+  constexpr const char* option = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  PetscBool is_set = PETSC_FALSE;
+  check_petsc(PetscOptionsHasName(nullptr, nullptr, option, &is_set));
+  if (!is_set) check_petsc(PetscOptionsSetValue(nullptr, option, "symmetric-SOR/Jacobi"));
+}
+
 /// Type, preconditioner and the user's own options; what a solver of `unknowns` rows gets.
 void configure(KSP solver, const PressureSolverTable& settings, std::int64_t unknowns, bool is_alone,
                bool constant_is_free) {
@@ -89,6 +98,7 @@ void configure(KSP solver, const PressureSolverTable& settings, std::int64_t unk
       KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
+  if (constant_is_free && type == std::string_view(PCHYPRE)) relax_coarsest_level();
   check_petsc(KSPSetFromOptions(solver));
 }
 
