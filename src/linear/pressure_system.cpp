@@ -93,12 +93,15 @@ void configure(KSP solver, const PressureSolverTable& settings, std::int64_t unk
   check_petsc(PCEisenstatSetNoDiagonalScaling(preconditioner, PETSC_TRUE));  // it is 1 already
   check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
   check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
-  check_petsc(KSPSetPCSide(solver, PC_RIGHT));
+  // From the right PETSc does not take the free constant out of what multigrid returns, and it grows without bound.
+  const bool is_singular_multigrid = constant_is_free && type == std::string_view(PCHYPRE);
+  const bool can_be_left = krylov_type(settings.method, unknowns) != std::string_view(KSPFGMRES);
+  check_petsc(KSPSetPCSide(solver, is_singular_multigrid && can_be_left ? PC_LEFT : PC_RIGHT));
   check_petsc(
       KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
-  if (constant_is_free && type == std::string_view(PCHYPRE)) relax_coarsest_level();
+  if (is_singular_multigrid) relax_coarsest_level();
   check_petsc(KSPSetFromOptions(solver));
 }
 
