@@ -20,6 +20,20 @@ double concentration(const Pairs<Dim>& pairs, std::size_t i, std::span<const dou
   return sum;
 }
 
+/// Both sums in one pass over the row.
+template <int Dim>
+std::pair<double, Vec<Dim>> concentration_with_gradient(const Pairs<Dim>& pairs, std::size_t i,
+                                                        std::span<const double> volume, double W_0) {
+  double sum = volume[i] * W_0;
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const double volume_j = volume[pairs.j[k]];
+    sum += volume_j * pairs.W[k];
+    gradient += (volume_j * pairs.dW[k]) * pairs.e[k];
+  }
+  return {sum, gradient};
+}
+
 template <int Dim>
 Vec<Dim> concentration_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume) {
   Vec<Dim> sum = Vec<Dim>::Zero();

@@ -19,6 +19,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "closures/wall_contact.h"
 #include "operators/gradient_consistent.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
@@ -116,9 +117,9 @@ double full_sum(const Flow<Dim>& flow) {
   return flow.lattice.morris;
 }
 
-/// The pressure equation. Returns whether the row had to fall back to two-point weights.
+/// The pressure equation without its source. Returns whether the row had to fall back to two-point weights.
 template <int Dim>
-bool assemble_equation(Flow<Dim>& flow, std::size_t i, double dt) {
+bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   PressureSystem::Row row = flow.pressure_system.row(i);
   if (flow.is_leaving(i)) {
     set_weights(flow.pairs(), i, row, [](std::size_t) { return 0.0; });
@@ -138,7 +139,7 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i, double dt) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
   }
-  row.finish(sum + air, source_at(flow, i, dt));
+  row.finish(sum + air, 0.0);
   return fell_back;
 }
 
@@ -200,27 +201,13 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
   row.finish(sum, -flow.density * (flow.gravity - flow.wall_acceleration[wall_row]).dot(normal));  // (F39)
 }
 
-/// Each row couples its neighbours; a ghost's unknown is its owner's.
-template <int Dim>
-void set_pattern(Flow<Dim>& flow) {
-  const Pairs<Dim>& pairs = flow.pairs();
-  const Halo<Dim>& halo = flow.neighbourhood.halo();
-  if (halo.source.empty()) {
-    flow.pressure_system.set_pattern(pairs.row_begin, pairs.j);
-    return;
-  }
-  std::vector<std::int32_t> columns(pairs.j.size());
-  for_each(columns.size(), [&](std::size_t k) { columns[k] = halo.owner(pairs.j[k]); });
-  flow.pressure_system.set_pattern(pairs.row_begin, columns);
-}
-
 }  // namespace
 
 template <int Dim>
-void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
-  set_pattern(flow);
+void assemble_weights(Flow<Dim>& flow, Interventions& interventions) {
+  flow.pressure_system.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.neighbourhood.halo().plan);
   interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
-    if (flow.has_equation(i)) return assemble_equation(flow, i, dt);
+    if (flow.has_equation(i)) return assemble_equation(flow, i);
     switch (flow.walls.treatment) {
       case WallTreatment::dummies:
         assemble_dummy_row(flow, i);
@@ -237,6 +224,18 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
 }
 
 template <int Dim>
+void assemble(Flow<Dim>& flow, double dt, Interventions& interventions) {
+  assemble_weights(flow, interventions);
+  if (flow.scheme.source == SourceKind::mixed) {
+    flow.wall_overlap.resize(flow.particles.owned);
+    find_wall_overlap<Dim>(flow.pairs(), flow.boundary, flow.spacing, flow.particles, flow.wall_overlap);
+  }
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    if (flow.has_equation(i) && !flow.is_leaving(i)) flow.pressure_system.set_rhs(i, source_at(flow, i, dt));
+  });
+}
+
+template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt) {
   if (flow.scheme.source != SourceKind::mixed) return 0.0;
   double work = 0.0;
@@ -248,6 +247,8 @@ double density_source_work(const Flow<Dim>& flow, double dt) {
   return work;
 }
 
+template void assemble_weights<2>(Flow<2>&, Interventions&);
+template void assemble_weights<3>(Flow<3>&, Interventions&);
 template void assemble<2>(Flow<2>&, double, Interventions&);
 template void assemble<3>(Flow<3>&, double, Interventions&);
 template double density_source_work<2>(const Flow<2>&, double);

@@ -15,6 +15,7 @@
 #include "geometry/boundary.h"
 #include "geometry/wall_motion.h"
 #include "linear/pressure_system.h"
+#include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/lattice.h"
 #include "operators/renormalisation.h"
@@ -49,10 +50,12 @@ struct StepReport {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles of a case, its walls and the empty work fields. Throws InputError for an impossible geometry.
-  explicit Flow(const CaseSpec& spec);
+  /// Builds the particles of a case, its walls and the empty work fields; of several ranks each keeps its share of the
+  /// particles, and all have all walls' faces. Collective. Throws InputError for an impossible geometry.
+  explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
 
   // What does not change.
+  Communicator ranks;
   SchemeTable scheme;
   double density;          ///< kg/m^3
   double spacing;          ///< m
@@ -78,6 +81,7 @@ struct Flow {
   std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
   // Tools that keep memory between steps.
+  Decomposition<Dim> decomposition;
   Neighbourhood<Dim> neighbourhood;
   PressureSystem pressure_system;
 
@@ -85,7 +89,6 @@ struct Flow {
   std::vector<double> concentration;  ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies
   std::vector<Vec<Dim>> concentration_gradient;
   std::vector<double> wall_fluid_weight;
-  std::vector<double> wall_overlap;  ///< share of the particle behind a wall
   std::vector<std::uint8_t> is_wet;
   std::vector<std::uint8_t> takes_part;       ///< fluid, and wet walls
   std::vector<Renormalisation<Dim>> tensors;  ///< only where a consistent operator is chosen
@@ -103,7 +106,8 @@ struct Flow {
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
-  std::vector<std::uint8_t> is_held;        ///< suction limited by the pressure equation (`solve`)
+  std::vector<std::uint8_t> is_held;        ///< owned; suction limited by the pressure equation (`solve`)
+  std::vector<double> wall_overlap;         ///< share of the particle behind a wall, owned; for the density source
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> divergence;           ///< 1/s; as last measured, owned
   std::vector<double> viscosity;
@@ -153,10 +157,10 @@ struct FlowMeasures {
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
-  std::size_t bulk_particles = 0;
   Departed departed;  ///< through all outlets since the start
 };
 
+/// Collective.
 template <int Dim>
 FlowMeasures measure(const Flow<Dim>& flow);
 

@@ -1,6 +1,5 @@
 #include "base/for_each.h"
 #include "closures/free_surface.h"
-#include "closures/wall_contact.h"
 #include "operators/concentration.h"
 #include "schemes/verbs.h"
 
@@ -13,10 +12,8 @@ void resize_geometry(Flow<Dim>& flow) {
   flow.concentration.resize(count);
   flow.concentration_gradient.resize(count);
   flow.wall_fluid_weight.resize(count);
-  flow.wall_overlap.resize(count);
   flow.is_wet.resize(count);
   flow.takes_part.resize(count);
-  flow.is_held.resize(count);
   if (flow.uses_tensors()) flow.tensors.resize(count);
   flow.is_surface.resize(count);
   flow.interior.resize(count);
@@ -35,19 +32,17 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   const Halo<Dim>& halo = flow.neighbourhood.halo();
 
   find_wet_walls<Dim>(pairs, particles, flow.W_0, flow.wall_fluid_weight, flow.is_wet);
-  find_wall_overlap<Dim>(pairs, flow.boundary, flow.spacing, particles, flow.wall_overlap);
   for_each(particles.owned, [&](std::size_t i) {
     const bool is_fluid = particles.is_fluid(i);
     flow.takes_part[i] = is_fluid || flow.is_wet[i];
-    flow.concentration[i] = flow.has_equation(i)
-                                ? concentration<Dim>(pairs, i, particles.volume, flow.W_0) / flow.lattice.concentration
-                                : 1.0;
-    flow.concentration_gradient[i] =
-        is_fluid ? concentration_gradient<Dim>(pairs, i, particles.volume) : Vec<Dim>(Vec<Dim>::Zero());
+    flow.concentration[i] = 1.0;
+    flow.concentration_gradient[i].setZero();
+    if (!flow.has_equation(i)) return;
+    const auto [sum, gradient] = concentration_with_gradient<Dim>(pairs, i, particles.volume, flow.W_0);
+    flow.concentration[i] = sum / flow.lattice.concentration;
+    if (is_fluid) flow.concentration_gradient[i] = gradient;
   });
-  halo.exchange(flow.is_wet);
-  halo.exchange(flow.takes_part);
-  halo.exchange(flow.concentration);
+  halo.exchange(flow.is_wet, flow.takes_part, flow.concentration);
   if (flow.uses_tensors()) {
     compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
   }

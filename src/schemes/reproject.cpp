@@ -29,10 +29,11 @@ struct Correction {
   }
 };
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+/// Over owned entries, of which alone sources have any but 0.
+double dot(const Communicator& ranks, const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return ranks.sum(sum);
 }
 
 /// Velocity and source of `correction` from its pressure.
@@ -68,7 +69,7 @@ void add(double factor, const Correction<Dim>& x, Correction<Dim>& y) {
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
-  assemble(flow, dt, interventions);
+  assemble_weights(flow, interventions);
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.is_held[i]) flow.pressure_system.divide_diagonal(i, flow.interior[i]);
   });
@@ -95,11 +96,11 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
       flow.pressure_system.sweep(guess);
     }
     follow(flow, dt, walls_at_rest, next);
-    const double last_square = dot(last.source, last.source);
-    if (last_square > 0.0) add(-dot(next.source, last.source) / last_square, last, next);
-    const double square = dot(next.source, next.source);
+    const double last_square = dot(flow.ranks, last.source, last.source);
+    if (last_square > 0.0) add(-dot(flow.ranks, next.source, last.source) / last_square, last, next);
+    const double square = dot(flow.ranks, next.source, next.source);
     if (square == 0.0) break;  // nothing is left
-    const double length = dot(source, next.source) / square;
+    const double length = dot(flow.ranks, source, next.source) / square;
     for_each(particles.owned, [&](std::size_t i) {
       source[i] -= length * next.source[i];
       if (!particles.is_fluid(i)) return;
@@ -108,7 +109,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     });
     std::swap(next, last);
   }
-  finish_pressure(flow, interventions);
+  finish_pressure(flow);
   return report;
 }
 

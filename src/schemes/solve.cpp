@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "schemes/verbs.h"
@@ -6,9 +7,6 @@
 
 namespace tailwater {
 namespace {
-
-/// The first solve only tells where water near the surface would pull.
-constexpr double rough_tolerance = 1e-2;
 
 template <int Dim>
 bool has_air(const Flow<Dim>& flow) {
@@ -61,34 +59,36 @@ void refresh_dummies(Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-void finish_pressure(Flow<Dim>& flow, Interventions& interventions) {
+void finish_pressure(Flow<Dim>& flow) {
   std::vector<double>& pressure = flow.particles.pressure;
   const Halo<Dim>& halo = flow.neighbourhood.halo();
-  if (has_air(flow)) {
-    interventions.clamped_pressures += cut_suction(flow);
-    halo.exchange(pressure);
-    if (flow.walls.treatment == WallTreatment::dummies) refresh_dummies(flow);
-  }
+  halo.exchange(pressure);
+  if (!has_air(flow) || flow.walls.treatment != WallTreatment::dummies) return;
+  refresh_dummies(flow);
   halo.exchange(pressure);
 }
 
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
+  PressureSystem& system = flow.pressure_system;
   const std::span<double> pressure = std::span(flow.particles.pressure).first(flow.particles.owned);
-  flow.is_held.assign(flow.particles.size(), 0);
+  flow.is_held.assign(flow.particles.owned, 0);
   int rough_iterations = 0;
   if (has_air(flow)) {
-    rough_iterations = flow.pressure_system.solve(pressure, rough_tolerance).iterations;
+    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
+    const double rough_tolerance = std::sqrt(system.tolerance());
+    rough_iterations = system.solve(pressure, rough_tolerance).iterations;
     hold_suction(flow);
   }
-  SolveReport report = flow.pressure_system.solve(pressure);
+  SolveReport report = system.solve(pressure);
   report.iterations += rough_iterations;
-  finish_pressure(flow, interventions);
+  if (has_air(flow)) interventions.clamped_pressures += cut_suction(flow);
+  finish_pressure(flow);
   return report;
 }
 
-template void finish_pressure<2>(Flow<2>&, Interventions&);
-template void finish_pressure<3>(Flow<3>&, Interventions&);
+template void finish_pressure<2>(Flow<2>&);
+template void finish_pressure<3>(Flow<3>&);
 template SolveReport solve<2>(Flow<2>&, Interventions&);
 template SolveReport solve<3>(Flow<3>&, Interventions&);
 

@@ -1,5 +1,6 @@
 // The verbs of a step, shared by the schemes: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). Each does one
-// thing to the flow; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp say in which order.
+// thing to the flow; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp say in which order. On several
+// ranks all call them together; what they return is the same on all.
 //
 // Gravity: the papers' predictors hold dt g, here u_star does not unless the walls are a row with dummies. A uniform
 // vector has no divergence and the other wall rows ask for grad p . n = rho g . n, so the pressure is the same; the
@@ -45,10 +46,15 @@ WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);
 
-/// Takes out and books the particles that have passed an outlet. Returns whether there were any; then indices have
-/// changed and lists are gone. Call between steps only.
+/// Takes out and books the particles that have passed an outlet. Returns whether this rank had any; then its indices
+/// have changed and its lists are gone. Call between steps only.
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
+
+/// Hands particles to the ranks that own their places, which are chosen anew when work is shared too unevenly, and
+/// sorts those of each rank for the cache: indices change. Call between steps only.
+template <int Dim>
+Sharing share_out(Flow<Dim>& flow);
 
 /// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the
 /// present positions.
@@ -67,8 +73,12 @@ void drift(Flow<Dim>& flow, double dt);
 template <int Dim>
 void aim(Flow<Dim>& flow, double dt);
 
-/// (F15), (F22): lap p = rho/dt div u_star, or (B17): lap p = (rho_0 - rho)/dt^2; one row per particle: fluid, surface,
-/// wall.
+/// The matrix of the pressure equation, one row per particle: fluid, surface, wall; of the right-hand sides only those
+/// that no source decides.
+template <int Dim>
+void assemble_weights(Flow<Dim>& flow, Interventions& interventions);
+
+/// (F15), (F22): lap p = rho/dt div u_star, or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources. Needs `aim`.
 template <int Dim>
 void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
 
@@ -81,14 +91,13 @@ double density_source_work(const Flow<Dim>& flow, double dt);
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
 /// (0 in the outermost rows, 1 inside), and the system is solved again. With an M-matrix this can only raise pressures,
-/// so no new row begins to pull (docs/theory/robustness.md).
+/// so no new row begins to pull (docs/theory/robustness.md); what does all the same is cut and counted.
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 
-/// What follows a change of the fluid's pressure: suction that the equation did not limit is cut and counted, dummies
-/// and ghosts are brought up to date.
+/// What follows a change of the fluid's pressure: dummies and ghosts are brought up to date.
 template <int Dim>
-void finish_pressure(Flow<Dim>& flow, Interventions& interventions);
+void finish_pressure(Flow<Dim>& flow);
 
 /// (F16), (F24), (B16), (B18): u = u_star + dt (g - grad p/rho).
 template <int Dim>
@@ -99,7 +108,8 @@ template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
 
 /// A second projection, at the present positions: takes div u out of the velocity as far as `corrections` reach, and
-/// adds what does it to the pressure. The particles stay. Needs `locate`. Reports its one solve.
+/// adds what does it to the pressure. That is the pressure that acted, and near the surface it may pull a little. The
+/// particles stay. Needs `locate`, and `solve` for the rows that are held. Reports its one solve.
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions);
 

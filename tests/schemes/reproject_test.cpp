@@ -34,6 +34,8 @@ void reproject_here(Flow<2>& flow) {
   predict(flow, dt);
   aim(flow, dt);
   Interventions interventions;
+  assemble(flow, dt, interventions);
+  solve(flow, interventions);
   reproject(flow, dt, interventions);
 }
 
