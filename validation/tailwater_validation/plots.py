@@ -131,8 +131,8 @@ def draw_moments(run, times, time_scale=None):
     for axes in every.flat[len(frames):]:
         axes.set_visible(False)
     for axes, frame in zip(every.flat, frames):
-        dots = draw_particles(axes, frame.position, run.spacing, view.exaggeration, array=frame.fields["pressure"] / 1000, cmap="viridis",
-                              clim=(low, high))
+        dots = draw_particles(axes, frame.position, run.spacing, view.exaggeration, cmap="viridis", clim=(low, high),
+                              array=frame.fields["pressure"] / 1000)
         draw_walls(axes, run)
         view.apply(axes)
         axes.set_title(moment(frame.time, time_scale), fontsize=9)
@@ -195,9 +195,13 @@ def draw_curves(axes, curves, first_style=0):
     grid(axes)
 
 
+def of_the_start(run, energy):
+    return energy / run.summary["energy"]["start_J"]
+
+
 HISTORIES = {
-    "total energy, of the start": lambda run, steps: (steps["kinetic_J"] + steps["potential_J"]) / run.summary["energy"]["start_J"],
-    "kinetic energy, of the start": lambda run, steps: steps["kinetic_J"] / run.summary["energy"]["start_J"],
+    "total energy, of the start": lambda run, steps: of_the_start(run, steps["kinetic_J"] + steps["potential_J"]),
+    "kinetic energy, of the start": lambda run, steps: of_the_start(run, steps["kinetic_J"]),
     "density error, mean (%)": lambda run, steps: 100 * steps["density_error_mean"],
     "density error, rms (%)": lambda run, steps: 100 * steps["density_error_rms"],
 }
