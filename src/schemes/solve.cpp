@@ -10,11 +10,6 @@ namespace {
 /// The first solve only tells where water near the surface would pull.
 constexpr double rough_tolerance = 1e-2;
 
-template <int Dim>
-bool has_air(const Flow<Dim>& flow) {
-  return flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
-}
-
 /// Whether particle i, near the surface, pulls although the equation does not limit it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
