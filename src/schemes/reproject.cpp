@@ -54,6 +54,19 @@ void follow(Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_re
   });
 }
 
+/// Near the surface nothing holds the particles together: `correction`, added to the pressure, leaves of suction there
+/// the share `interior`. Suction would do work (docs/theory/robustness.md).
+template <int Dim>
+void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
+  if (!has_air(flow)) return;
+  const std::vector<double>& pressure = flow.particles.pressure;
+  for_each(flow.particles.owned, [&](std::size_t i) {
+    const double sum = pressure[i] + correction[i];
+    if (!flow.is_solved_for(i) || flow.interior[i] >= 1.0 || sum >= 0.0) return;
+    correction[i] = flow.interior[i] * sum - pressure[i];
+  });
+}
+
 /// y <- y + factor x
 template <int Dim>
 void add(double factor, const Correction<Dim>& x, Correction<Dim>& y) {
@@ -95,6 +108,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     } else {
       flow.pressure_system.sweep(guess);
     }
+    admit(flow, next.pressure);
     follow(flow, dt, walls_at_rest, next);
     const double last_square = dot(flow.ranks, last.source, last.source);
     if (last_square > 0.0) add(-dot(flow.ranks, next.source, last.source) / last_square, last, next);

@@ -8,11 +8,6 @@
 namespace tailwater {
 namespace {
 
-template <int Dim>
-bool has_air(const Flow<Dim>& flow) {
-  return flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
-}
-
 /// Whether particle i, near the surface, pulls although the equation does not limit it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {

@@ -5,6 +5,12 @@
 
 namespace tailwater {
 
+/// Whether there is a surface, and missing neighbours are air: then p >= 0 near it.
+template <int Dim>
+bool has_air(const Flow<Dim>& flow) {
+  return flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
+}
+
 /// Sets the wall entries of `velocity` from its fluid entries and the walls' own velocity `V`, one entry per row of
 /// their table, and brings ghosts up to date.
 template <int Dim>
