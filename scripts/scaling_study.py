@@ -22,6 +22,7 @@ COLUMNS = {  # of the file, with what the table shows of them
     "fluid": "{:.0f}", "particles": "{:.0f}", "ranks": "{:.0f}", "seconds_per_step": "{:.3f}",
     "microseconds_per_particle": "{:.2f}", "speed_up": "{:.2f}", "exchange_share": "{:.1%}", "reduction_share": "{:.1%}",
     "iterations_per_step": "{:.1f}", "bytes_per_step": "{:.3g}", "messages_per_step": "{:.0f}",
+    "ghosts": "{:.0f}", "imbalance": "{:.1%}",
     "memory_bytes_per_particle": "{:.0f}"}
 
 
@@ -55,6 +56,7 @@ def measure(particles, ranks, options, folder):
             "iterations_per_step": per_step(lambda run: run["pressure_solver"]["iterations"]),
             "bytes_per_step": per_step(lambda run: run["ranks"].get("bytes", 0)),
             "messages_per_step": per_step(lambda run: run["ranks"].get("messages", 0)),
+            "ghosts": long["ranks"].get("ghosts", 0.0), "imbalance": long["ranks"].get("imbalance_largest", 0.0),
             "memory_bytes_per_particle": long["cost"]["peak_memory_bytes"] / count}
 
 
