@@ -4,11 +4,11 @@ set -euo pipefail
 
 build_packages=(
   g++ cmake ninja-build pkg-config git ca-certificates
-  libpetsc-real-dev libopenmpi-dev openmpi-bin
+  libpetsc-real-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
 )
 test_packages=(libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9)
-picture_packages=(python3 python3-numpy python3-matplotlib python3-vtk9)
+picture_packages=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
 
 wanted=("${build_packages[@]}" "${test_packages[@]}" "${picture_packages[@]}")
 missing=()

@@ -2,30 +2,23 @@
 // those of ExitCode.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/ranks.h"
 #include "base/fp_traps.h"
 #include "case/nearest_name.h"
+#include "linear/session.h"
 #include "run/provenance.h"
 
 namespace tailwater {
 namespace {
-
-/// "error: " before every line: a case may have several problems, one line each.
-void show_error(std::string_view message) {
-  for (std::size_t start = 0; start < message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    fmt::print(stderr, "error: {}\n", message.substr(start, end - start));
-    start = end + 1;
-  }
-}
 
 /// What is wrong with the command line, in the words of this program.
 std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
@@ -42,14 +35,38 @@ std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("unknown command \"{}\"; {}", rest.front(), unknown_name_hint(rest.front(), names));
 }
 
-}  // namespace
-}  // namespace tailwater
+/// MPI for the whole program where several ranks were started, so that they can end together.
+class Ranks {
+ public:
+  Ranks() {
+    const int count = ranks_in_environment();
+    if (count <= 1) return;
+    session_.emplace();
+    communicator_ = Communicator::world();
+    MPI_Comm_dup(communicator_.handle(), &meeting_);
+    if (communicator_.size() == count) return;
+    throw InputError(
+        fmt::format("{} processes were started, but MPI knows {} of them as ranks of one program; remedy: "
+                    "start them with the mpirun of the MPI of this program, or srun --mpi=pmix",
+                    count, communicator_.size()));
+  }
+  ~Ranks() {
+    if (meeting_ != MPI_COMM_SELF) MPI_Comm_free(&meeting_);
+  }
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
 
-int main(int argc, char** argv) {
-  using namespace tailwater;
-  const char* traps = std::getenv("TAILWATER_FP_TRAPS");
-  if (traps != nullptr && std::string_view(traps) == "1") enable_fp_traps();
+  const Communicator& communicator() const { return communicator_; }
+  MPI_Comm meeting() const { return meeting_; }
 
+ private:
+  std::optional<LinearSession> session_;
+  Communicator communicator_;
+  MPI_Comm meeting_ = MPI_COMM_SELF;
+};
+
+/// Does what the command line asks for.
+Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
       "Tailwater: free-surface water flow by incompressible smoothed particle hydrodynamics.\n\n"
       "Start with:\n"
@@ -65,31 +82,50 @@ int main(int argc, char** argv) {
   ExitCode code = ExitCode::done;
   add_new_command(app, code);
   add_check_command(app, code);
-  add_run_command(app, code);
+  add_run_command(app, code, ranks, {argv + 1, argv + argc});
   add_info_command(app, code);
   add_bench_command(app, code);
   add_validate_command(app, code);
 
-  if (argc == 1) {
-    fmt::print(stderr, "{}", app.help());
-    return static_cast<int>(ExitCode::bad_input);
-  }
   try {
+    if (argc == 1) {
+      if (ranks.is_root()) fmt::print(stderr, "{}", app.help());
+      return {ExitCode::bad_input, ""};
+    }
+    if (!ranks.is_alone() && std::string_view(argv[1]) != "run") {
+      throw InputError(
+          fmt::format("{} ranks were started, but only `tailwater run` uses more than one; remedy: "
+                      "tailwater {} without mpirun",
+                      ranks.size(), argv[1]));
+    }
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help and --version
-    return app.exit(request);
+    if (ranks.is_root()) app.exit(request);
   } catch (const CLI::ParseError& error) {
-    show_error(command_line_problem(app, error));
-    return static_cast<int>(ExitCode::bad_input);
+    return {ExitCode::bad_input, command_line_problem(app, error)};
   } catch (const UserError& error) {
-    show_error(error.what());
-    return static_cast<int>(error.code());
+    return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
-    show_error("out of memory; remedy: a larger particles.spacing (see: tailwater check)");
-    return static_cast<int>(ExitCode::solver_failed);
+    return {ExitCode::solver_failed, "out of memory; remedy: a larger particles.spacing (see: tailwater check)"};
   } catch (const std::exception& error) {
-    show_error(error.what());
-    return static_cast<int>(ExitCode::solver_failed);
+    return {ExitCode::solver_failed, error.what()};
   }
-  return static_cast<int>(code);
+  return {code, ""};
+}
+
+}  // namespace
+}  // namespace tailwater
+
+int main(int argc, char** argv) {
+  using namespace tailwater;
+  const char* traps = std::getenv("TAILWATER_FP_TRAPS");
+  if (traps != nullptr && std::string_view(traps) == "1") enable_fp_traps();
+  try {
+    const Ranks ranks;
+    return static_cast<int>(
+        end_together(ranks.communicator(), ranks.meeting(), execute(argc, argv, ranks.communicator())));
+  } catch (const UserError& error) {  // MPI does not start
+    return static_cast<int>(
+        end_together({}, MPI_COMM_SELF, {error.code(), is_root_in_environment() ? error.what() : ""}));
+  }
 }

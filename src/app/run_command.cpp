@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/ranks.h"
 #include "case/help.h"
 #include "case/reader.h"
 #include "linear/session.h"
@@ -17,25 +19,37 @@ namespace {
 struct RunArguments {
   RunOptions run;
   std::vector<std::string> overrides;
-  int ranks = 1;
+  std::optional<int> ranks;
   std::string help_case;
 };
 
-ExitCode execute(const RunArguments& arguments) {
+void require_possible(int wanted) {
+  if (wanted < 1)
+    throw InputError(fmt::format("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", wanted));
+  const int started = ranks_in_environment();
+  if (started > 0 && wanted != started) {
+    throw InputError(
+        fmt::format("-n {}: mpirun (or srun) has started {} rank(s) already; remedy: leave -n out", wanted, started));
+  }
+}
+
+ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
-    fmt::print("{}", arguments.help_case == "markdown" ? case_reference_markdown() : case_help());
+    if (ranks.is_root()) fmt::print("{}", arguments.help_case == "markdown" ? case_reference_markdown() : case_help());
     return ExitCode::done;
   }
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
     throw InputError("tailwater run needs a case file and --out DIR, as in: tailwater run my.toml --out my_run");
   }
-  if (arguments.ranks != 1) {
-    throw InputError(fmt::format("-n {}: this version runs on one rank; remedy: leave -n out", arguments.ranks));
+  if (arguments.ranks) {
+    require_possible(*arguments.ranks);
+    if (*arguments.ranks > 1 && ranks.is_alone()) return launch_ranks(*arguments.ranks, words);
   }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
-  const LinearSession session;
-  const ExitCode code = run_case(spec, arguments.run);
-  if (!arguments.run.quiet) {
+  std::optional<LinearSession> session;  // several ranks have one already
+  if (ranks.is_alone()) session.emplace();
+  const ExitCode code = run_case(spec, arguments.run, ranks);
+  if (!arguments.run.quiet && ranks.is_root()) {
     fmt::print(stderr, "{}: results in {}\n", code == ExitCode::done ? "done" : "interrupted",
                arguments.run.out.string());
   }
@@ -44,7 +58,7 @@ ExitCode execute(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, ExitCode& code) {
+void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Run a case");
   command->add_option("case", arguments->run.case_file, "The case file")->type_name("");
@@ -52,7 +66,8 @@ void add_run_command(CLI::App& app, ExitCode& code) {
   command->add_option("--set", arguments->overrides, "Override a key, as in --set scheme.integrator=implicit")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("-n", arguments->ranks, "Number of ranks; this version runs on one")->type_name("COUNT");
+  command->add_option("-n", arguments->ranks, "Number of ranks, which this program starts by mpirun; default 1")
+      ->type_name("COUNT");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
   command->add_flag("--quiet", arguments->run.quiet, "No progress and no warnings");
   command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
@@ -62,11 +77,12 @@ void add_run_command(CLI::App& app, ExitCode& code) {
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"
+      "          tailwater run my.toml --out my_run -n 8\n"
       "          tailwater run my.toml --out fine --set particles.spacing=0.01 --set scheme.integrator=implicit\n"
       "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"
       "DIR/fields/fields.pvd (open it in ParaView) and DIR/summary.json; if the run fails, also DIR/failure/.\n"
       "Ctrl-C ends a run in order: what it has written can be used.");
-  command->callback([arguments, &code] { code = execute(*arguments); });
+  command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
 }
 
 }  // namespace tailwater

@@ -32,6 +32,8 @@ enum class Displacement { new_velocity, mean_velocity };
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
 enum class PreconditionerName { automatic, ssor, ilu, boomeramg, gamg, jacobi };
 
+enum class DecompositionMethod { rcb, hsfc };
+
 enum class ProbeType {
   depth,
   wall_pressure,
@@ -126,6 +128,10 @@ struct Choices<KrylovMethod> {
 template <>
 struct Choices<PreconditionerName> {
   static constexpr std::array<std::string_view, 6> names{"auto", "ssor", "ilu", "boomeramg", "gamg", "jacobi"};
+};
+template <>
+struct Choices<DecompositionMethod> {
+  static constexpr std::array<std::string_view, 2> names{"rcb", "hsfc"};
 };
 template <>
 struct Choices<ProbeType> {

@@ -365,6 +365,22 @@ struct PressureSolverTable {
   }
 };
 
+struct ParallelTable {
+  DecompositionMethod decomposition = DecompositionMethod::rcb;
+  double imbalance = 0.03;
+
+  bool operator==(const ParallelTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.choice("decomposition", self.decomposition,
+             "How particles are shared out among ranks: recursive coordinate bisection or Hilbert space-filling curve "
+             "(docs/scaling.md)");
+    v.number("imbalance", self.imbalance, "", Range::between(0.0, 10.0),
+             "Work of the busiest rank over the mean, less 1, beyond which particles are shared out anew");
+  }
+};
+
 struct OutputTable {
   double fields_interval = 0.0;
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
@@ -428,6 +444,7 @@ struct CaseSpec {
   TimeTable time;
   SchemeTable scheme;
   PressureSolverTable pressure_solver;
+  ParallelTable parallel;
   OutputTable output;
   std::vector<ProbeTable> probes;
 
@@ -445,6 +462,7 @@ struct CaseSpec {
     v.table("time", self.time, "Duration");
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
+    v.table("parallel", self.parallel, "Runs on several ranks (-n)");
     v.table("output", self.output, "Field files for ParaView");
     v.tables("probe", self.probes, "A measurement written while the run goes; one table each");
   }

@@ -7,7 +7,8 @@
 //   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
 //           (printed 0.25, but a flat regular surface reads 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
 //           singular (printed det B1 = 0)
-//   density (B21): C/C_0 < beta, C/C_0 being rho/rho_0
+//   density (B21): C/C_0 < beta, C/C_0 being rho/rho_0; or fewer neighbours than half of a full lattice's: a clump in
+//           the air that is as dense as water would else have no p = 0 anywhere, and its equation no solution
 #pragma once
 
 #include <cstdint>

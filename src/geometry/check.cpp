@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/cell_space.h"
 #include "geometry/check_motion.h"
 #include "geometry/from_spec.h"
 #include "geometry/outlet.h"
@@ -474,147 +475,6 @@ void check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fl
   }
 }
 
-/// Lets water run sideways and down, never up, over the cells of a grid until it is at rest or leaves the case.
-template <int Dim>
-class Flood {
- public:
-  Flood(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid)
-      : boundary_(boundary),
-        gravity_(to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity").normalized()),
-        tolerance_(corner_tolerance * spec.particles.spacing) {
-    low_ = high_ = boundary.faces[0].corners[0];
-    const auto enclose = [&](const Vec<Dim>& x) {
-      low_ = low_.cwiseMin(x);
-      high_ = high_.cwiseMax(x);
-    };
-    for (const WallFace<Dim>& face : boundary.faces) {
-      for (const Vec<Dim>& corner : face.corners) enclose(corner);
-    }
-    for (const Vec<Dim>& x : fluid.position) enclose(x);
-    // A huge empty case gets larger cells: whether a path meets a wall does not depend on their size.
-    const Vec<Dim> extent = (high_ - low_).cwiseMax(spec.particles.spacing);
-    const double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most_cells, 1.0 / Dim));
-    std::size_t cells = 1;
-    for (int axis = 0; axis < Dim; ++axis) {
-      const std::vector<double>& range = periodic_range(spec.domain, axis);
-      is_periodic_[axis] = range.size() == 2;
-      if (is_periodic_[axis]) {
-        low_[axis] = range[0];
-        high_[axis] = range[1];
-        count_[axis] = std::max(1, static_cast<int>(std::round((high_[axis] - low_[axis]) / cell)));
-        size_[axis] = (high_[axis] - low_[axis]) / count_[axis];
-      } else {
-        count_[axis] = std::max(1, static_cast<int>(std::ceil((high_[axis] - low_[axis]) / cell - corner_tolerance)));
-        size_[axis] = cell;
-      }
-      cells *= count_[axis];
-    }
-    flags_.assign(cells, 0);
-    for (const WallFace<Dim>& face : boundary.faces) {
-      mark(face);
-    }
-    for (const Vec<Dim>& x : fluid.position) {
-      const Cell c = cell_of(x);
-      if (!meets_wall(x, centre(c))) {
-        visit(c);
-      }
-    }
-  }
-
-  /// The last place inside the case of water that leaves it; empty when none does.
-  std::optional<Vec<Dim>> leak() {
-    for (std::size_t next = 0; next < front_.size(); ++next) {
-      const Cell c = front_[next];
-      for (int move = 0; move < 2 * Dim; ++move) {
-        const int axis = move / 2;
-        const int step = move % 2 == 0 ? -1 : 1;
-        if (step * gravity_[axis] < -0.5) {
-          continue;
-        }
-        Cell target = c;
-        target[axis] += step;
-        const Vec<Dim> from = centre(c);
-        if ((flags_[index(c)] & near_wall) && meets_wall(from, centre(target))) {
-          continue;
-        }
-        if (is_periodic_[axis]) {
-          target[axis] = (target[axis] + count_[axis]) % count_[axis];
-        }
-        if (target[axis] < 0 || target[axis] >= count_[axis]) {
-          return from;
-        }
-        visit(target);
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  using Cell = std::array<int, Dim>;
-  static constexpr double most_cells = 4e6;
-  static constexpr std::uint8_t near_wall = 1, visited = 2;
-
-  std::size_t index(const Cell& c) const {
-    std::size_t i = 0;
-    for (int axis = Dim - 1; axis >= 0; --axis) i = i * count_[axis] + c[axis];
-    return i;
-  }
-  Vec<Dim> centre(const Cell& c) const {
-    Vec<Dim> x;
-    for (int axis = 0; axis < Dim; ++axis) x[axis] = low_[axis] + (c[axis] + 0.5) * size_[axis];
-    return x;
-  }
-  Cell cell_of(const Vec<Dim>& x) const {
-    Cell c;
-    for (int axis = 0; axis < Dim; ++axis) {
-      c[axis] = std::clamp(static_cast<int>(std::floor((x[axis] - low_[axis]) / size_[axis])), 0, count_[axis] - 1);
-    }
-    return c;
-  }
-  void visit(const Cell& c) {
-    std::uint8_t& flags = flags_[index(c)];
-    if (!(flags & visited)) {
-      flags |= visited;
-      front_.push_back(c);
-    }
-  }
-  /// Marks the cells from which one step may meet the face.
-  void mark(const WallFace<Dim>& face) {
-    Vec<Dim> low = face.corners[0];
-    Vec<Dim> high = low;
-    for (const Vec<Dim>& corner : face.corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-    const Cell first = cell_of(low - size_);
-    const Cell last = cell_of(high + size_);
-    Cell c = first;
-    for (int axis = 0; axis < Dim;) {
-      flags_[index(c)] |= near_wall;
-      for (axis = 0; axis < Dim && ++c[axis] > last[axis]; ++axis) c[axis] = first[axis];
-    }
-  }
-  /// A place exactly on a face is before it, so that no path can pass a wall by resting on it.
-  bool meets_wall(const Vec<Dim>& from, const Vec<Dim>& to) const {
-    return std::any_of(boundary_.faces.begin(), boundary_.faces.end(), [&](const WallFace<Dim>& face) {
-      if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) {
-        return false;
-      }
-      const Vec<Dim> hit = meet(face, from, to);
-      return (closest_point(face, hit) - hit).norm() <= tolerance_;
-    });
-  }
-
-  const Boundary<Dim>& boundary_;
-  Vec<Dim> gravity_;
-  double tolerance_;
-  Vec<Dim> low_, high_, size_;
-  Cell count_;
-  std::array<bool, Dim> is_periodic_;
-  std::vector<std::uint8_t> flags_;
-  std::vector<Cell> front_;
-};
-
 template <int Dim>
 void check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
                  std::vector<Finding>& findings) {
@@ -623,12 +483,16 @@ void check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const Flui
   if (!has_gravity || boundary.faces.empty() || fluid.position.empty()) {
     return;
   }
-  Boundary<Dim> closed = boundary;
+  // Outlets count as closed.
+  std::vector<WallFace<Dim>> faces = boundary.faces;
   for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
-    const std::vector<WallFace<Dim>> faces = outlet.as_faces();
-    closed.faces.insert(closed.faces.end(), faces.begin(), faces.end());
+    const std::vector<WallFace<Dim>> closing = outlet.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
   }
-  if (const std::optional<Vec<Dim>> leak = Flood<Dim>(spec, closed, fluid).leak()) {
+  constexpr double most_cells = 4e6;
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells);
+  const Vec<Dim> down = to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity").normalized();
+  if (const auto leak = spread(space, cells_of<Dim>(space, fluid.position), down).way_out) {
     const NearestWall<Dim> wall = boundary.nearest(*leak, infinite);
     error(findings, "the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
           place(*leak), wall_label(boundary, boundary.faces[wall.face].wall));
@@ -652,7 +516,7 @@ std::vector<Finding> check_geometry(const CaseSpec& spec, const Boundary<Dim>& b
   check_contact(spec, boundary, fluid, findings);
   check_outlets(spec, boundary, fluid, findings);
   check_leaks(spec, boundary, fluid, findings);
-  const std::vector<Finding> of_motion = check_motion(spec, boundary);
+  const std::vector<Finding> of_motion = check_motion(spec, boundary, fluid);
   findings.insert(findings.end(), of_motion.begin(), of_motion.end());
   return findings;
 }

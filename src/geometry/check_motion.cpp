@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/fp_traps.h"
+#include "geometry/cell_space.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_motion.h"
 
@@ -22,11 +23,64 @@ constexpr int least_samples = 2000;
 /// Walls that close at less than 45 degrees crush; others push the water out of the wedge.
 constexpr double least_facing = 0.7;
 
+/// The room that the walls leave to the water, where it cannot get out.
+template <int Dim>
+class Room {
+ public:
+  Room(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
+      : space_(spec, drawn.faces, fluid.position, most_cells),
+        water_(static_cast<double>(fluid.position.size()) * std::pow(spec.particles.spacing, Dim)) {
+    Vec<Dim> down = to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity");
+    if (down.norm() > 0.0) down.normalize();
+    Spread<Dim> rest = spread(space_, cells_of<Dim>(space_, fluid.position), down);
+    if (!rest.way_out) wet_ = std::move(rest.cells);
+  }
+
+  double water() const { return water_; }  ///< m^Dim
+
+  /// Walls have moved, each face by its `way`: cells that one has passed over hold no water any more.
+  void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& way) {
+    std::vector<bool> is_passed(space_.count(), false);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (way[f].linear == Mat<Dim>::Identity() && way[f].constant == Vec<Dim>::Zero()) continue;
+      const WallFace<Dim>& before = space_.faces()[f];
+      const AffineMap<Dim> back = way_between(way[f], {});
+      space_.visit_around(before, faces[f], [&](const auto& cell) {
+        // As seen from the wall, it is the cell that moves.
+        const Vec<Dim> x = space_.centre(cell);
+        if (space_.passes(before, x, back(x))) is_passed[space_.index(cell)] = true;
+      });
+    }
+    std::erase_if(wet_, [&](const auto& cell) { return is_passed[space_.index(cell)]; });
+    space_.set_faces(std::move(faces));
+  }
+
+  struct Enclosed {
+    double volume;            ///< m^Dim, at most
+    std::vector<bool> walls;  ///< by face
+  };
+  /// Empty where the water can get out.
+  std::optional<Enclosed> enclosed() const {
+    Spread<Dim> room = spread(space_, wet_, Vec<Dim>(Vec<Dim>::Zero()));
+    if (room.way_out) return std::nullopt;
+    // A cell at a wall counts whole or not at all: half of it may be missing.
+    const double cells = static_cast<double>(room.cells.size()) + 0.5 * static_cast<double>(room.sides);
+    return Enclosed{cells * space_.volume(), std::move(room.met)};
+  }
+
+ private:
+  static constexpr double most_cells = 2e4;
+
+  CellSpace<Dim> space_;
+  double water_;
+  std::vector<typename CellSpace<Dim>::Cell> wet_;
+};
+
 template <int Dim>
 class MotionCheck {
  public:
-  MotionCheck(const CaseSpec& spec, const Boundary<Dim>& drawn)
-      : spec_(spec), drawn_(drawn), now_(drawn), dx_(spec.particles.spacing) {
+  MotionCheck(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
+      : spec_(spec), drawn_(drawn), now_(drawn), fluid_(fluid), dx_(spec.particles.spacing) {
     for (std::size_t w = 0; w < spec.walls.size(); ++w) {
       paths_.emplace_back(spec, spec.walls[w], wall_label(drawn, static_cast<int>(w)));
     }
@@ -40,12 +94,18 @@ class MotionCheck {
     }
     if (is_sound_.empty()) return std::move(findings_);
     if constexpr (Dim == 2) warn_of_free_ends();
-    std::vector<AffineMap<Dim>> places = places_at(0.0);
+    if (spec_.scheme.walls != WallTreatment::dummies) look_for_common_rows();
+    places_ = places_of_room_ = places_at(0.0);
     before_ = now_.faces;
+    // Water leaves through an outlet.
+    if (spec_.outlets.empty() && !fluid_.position.empty()) room_.emplace(spec_, drawn_, fluid_);
     look_for_contact(0.0);
     // The last step may pass the end.
     const double end = spec_.time.end * (1.0 + 1.0 / least_samples);
-    for (int k = 0; k < least_samples; ++k) follow(end * k / least_samples, end * (k + 1) / least_samples, places);
+    for (int k = 0; k < least_samples; ++k) {
+      follow(end * k / least_samples, end * (k + 1) / least_samples);
+      if (room_) look_for_room(end * (k + 1) / least_samples);
+    }
     return std::move(findings_);
   }
 
@@ -91,8 +151,8 @@ class MotionCheck {
     return result;
   }
 
-  /// Looks at the walls on their way between two times, every dx/4. `places`: those of the last look.
-  void follow(double from, double to, std::vector<AffineMap<Dim>>& places) {
+  /// Looks at the walls on their way between two times, every dx/4.
+  void follow(double from, double to) {
     const std::vector<AffineMap<Dim>> start = places_at(from);
     const std::vector<AffineMap<Dim>> end = places_at(to);
     double longest = 0.0;
@@ -110,19 +170,68 @@ class MotionCheck {
         is_sound_.erase(wall);
       } else {
         longest = std::max(longest, way);
-        is_far = is_far || farthest(wall, places[wall], end[wall]).second > 0.25 * dx_;
+        is_far = is_far || farthest(wall, places_[wall], end[wall]).second > 0.25 * dx_;
       }
     }
     if (longest > 0.25 * dx_) {
-      follow(from, 0.5 * (from + to), places);
-      follow(0.5 * (from + to), to, places);
+      follow(from, 0.5 * (from + to));
+      follow(0.5 * (from + to), to);
     } else if (is_far) {
-      places = end;
+      places_ = end;
       before_ = now_.faces;
       for (std::size_t f = 0; f < drawn_.faces.size(); ++f) {
-        now_.faces[f] = moved(places[drawn_.faces[f].wall], drawn_.faces[f]);
+        now_.faces[f] = moved(places_[drawn_.faces[f].wall], drawn_.faces[f]);
       }
       look_for_contact(to);
+    }
+  }
+
+  /// Looks whether the water has room, when a wall has moved by dx since the last time.
+  void look_for_room(double time) {
+    const auto is_sound = [](const Finding& finding) { return finding.severity != Severity::error; };
+    const auto has_moved = [&](int wall) { return farthest(wall, places_of_room_[wall], places_[wall]).second > dx_; };
+    if (!std::ranges::all_of(findings_, is_sound) || !std::ranges::any_of(is_sound_, has_moved)) return;
+    std::vector<AffineMap<Dim>> way;
+    for (const WallFace<Dim>& face : now_.faces) {
+      way.push_back(way_between(places_of_room_[face.wall], places_[face.wall]));
+    }
+    room_->move(now_.faces, way);
+    places_of_room_ = places_;
+    const auto enclosed = room_->enclosed();
+    if (!enclosed || enclosed->volume >= room_->water()) return;
+    for (std::size_t f = 0; f < now_.faces.size(); ++f) {
+      const int wall = now_.faces[f].wall;
+      if (!enclosed->walls[f] || !drawn_.walls[wall].moves()) continue;
+      Vec<Dim> middle = Vec<Dim>::Zero();
+      for (const Vec<Dim>& corner : now_.faces[f].corners) middle += corner / Dim;
+      error(
+          "{} crushes the water at t = {:.6g} s, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} m^{} of water "
+          "that cannot get out; end its path before, or leave the water a way out",
+          label(wall), time, place(middle), enclosed->volume, Dim, room_->water(), Dim);
+      return;
+    }
+  }
+
+  /// Where rows of particles stand on the walls, and not only behind them, those of bodies that touch lie in each
+  /// other.
+  void look_for_common_rows() {
+    for (const WallFace<Dim>& face : drawn_.faces) {
+      for (const WallFace<Dim>& other : drawn_.faces) {
+        if (are_one_body(face, other)) continue;
+        for (const Vec<Dim>& corner : face.corners) {
+          const double distance = (closest_point(other, corner) - corner).norm();
+          if (distance > (1.0 - corner_tolerance) * dx_) continue;
+          const auto [moving, near] = std::minmax(
+              face.wall, other.wall, [&](int a, int b) { return drawn_.walls[a].moves() && !drawn_.walls[b].moves(); });
+          error(
+              "{} is {:.3g} m from {} at {}, and scheme.walls = \"{}\" puts particles on both: draw it at a distance "
+              "of "
+              "{:.6g} m, or choose scheme.walls = \"{}\"",
+              label(moving), distance, label(near), place(corner), name_of(spec_.scheme.walls), dx_,
+              name_of(WallTreatment::dummies));
+          return;
+        }
+      }
     }
   }
 
@@ -143,13 +252,13 @@ class MotionCheck {
           reported_.insert(pair);
           error("{} crosses {} at t = {:.6g} s at {}: change its path, or draw it shorter", label(a.wall),
                 label(b.wall), time, place(*where));
-        } else if (const std::optional<Vec<Dim>> where = narrowing(f, other)) {
+        } else if (const std::optional<Vec<Dim>> foot = narrowing(f, other)) {
           reported_.insert(pair);
           error(
               "{} comes nearer than a spacing to {} at t = {:.6g} s at {}: the water between them would be crushed; "
               "end "
               "its path at least {:.6g} m before",
-              label(a.wall), label(b.wall), time, place(*where), dx_);
+              label(a.wall), label(b.wall), time, place(*foot), dx_);
         }
       }
     }
@@ -251,7 +360,11 @@ class MotionCheck {
   const CaseSpec& spec_;
   const Boundary<Dim>& drawn_;
   Boundary<Dim> now_;
-  std::vector<WallFace<Dim>> before_;  ///< at the last look
+  const FluidParticles<Dim>& fluid_;
+  std::vector<AffineMap<Dim>> places_;  ///< of the walls, at the last look
+  std::vector<WallFace<Dim>> before_;   ///< at the look before
+  std::optional<Room<Dim>> room_;
+  std::vector<AffineMap<Dim>> places_of_room_;  ///< when it was looked at
   double dx_;
   std::vector<WallPath<Dim>> paths_;
   std::set<int> is_sound_;  ///< moving walls without an error of their own so far
@@ -262,11 +375,11 @@ class MotionCheck {
 }  // namespace
 
 template <int Dim>
-std::vector<Finding> check_motion(const CaseSpec& spec, const Boundary<Dim>& drawn) {
-  return MotionCheck<Dim>(spec, drawn).findings();
+std::vector<Finding> check_motion(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  return MotionCheck<Dim>(spec, drawn, fluid).findings();
 }
 
-template std::vector<Finding> check_motion(const CaseSpec&, const Boundary<2>&);
-template std::vector<Finding> check_motion(const CaseSpec&, const Boundary<3>&);
+template std::vector<Finding> check_motion(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template std::vector<Finding> check_motion(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
 
 }  // namespace tailwater

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -28,9 +29,10 @@ Vec<Dim> to_vec(const Coordinates& point, std::string_view owner, std::string_vi
   return Eigen::Map<const Vec<Dim>>(point.data());
 }
 
-/// "(0.5, 1.25)": how messages show a place.
+/// "(0.5, 1.25)": how messages show a place, to the picometre, so that round-off is not shown.
 template <int Dim>
-std::string place(const Vec<Dim>& x) {
+std::string place(Vec<Dim> x) {
+  for (double& coordinate : x) coordinate = std::abs(coordinate) < 1e-12 ? 0.0 : coordinate;
   return Dim == 2 ? fmt::format("({:.6g}, {:.6g})", x[0], x[1])
                   : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[Dim - 1]);
 }

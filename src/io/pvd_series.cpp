@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "io/write_file.h"
+#include "parallel/together.h"
 
 namespace tailwater {
 
@@ -12,11 +13,10 @@ PvdSeries::PvdSeries(std::filesystem::path folder, std::string name, int compres
     : folder_(std::move(folder)), name_(std::move(name)), compression_(compression) {}
 
 template <int Dim>
-void PvdSeries::write(double time, const ParticleFields<Dim>& particles) {
-  const EncodedPiece piece = encode_piece(particles, compression_);
-  write_vtp(folder_ / file_name(times_.size()), time, {&piece, 1}, compression_);
+void PvdSeries::write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks) {
+  write_vtp(folder_ / file_name(times_.size()), time, encode_piece(particles, compression_), compression_, ranks);
   times_.push_back(time);
-  write_list();
+  do_on_root(ranks, [this] { write_list(); });
 }
 
 std::string PvdSeries::file_name(std::size_t index) const { return fmt::format("{}_{:05}.vtp", name_, index); }
@@ -33,7 +33,7 @@ void PvdSeries::write_list() const {
   write_text_file(folder_ / (name_ + ".pvd"), xml);
 }
 
-template void PvdSeries::write<2>(double, const ParticleFields<2>&);
-template void PvdSeries::write<3>(double, const ParticleFields<3>&);
+template void PvdSeries::write<2>(double, const ParticleFields<2>&, const Communicator&);
+template void PvdSeries::write<3>(double, const ParticleFields<3>&, const Communicator&);
 
 }  // namespace tailwater

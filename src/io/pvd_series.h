@@ -15,9 +15,9 @@ class PvdSeries {
   /// Files FOLDER/NAME_00000.vtp, ... listed in FOLDER/NAME.pvd; zlib level `compression`, 0 to 9.
   PvdSeries(std::filesystem::path folder, std::string name, int compression);
 
-  /// Adds the fields at `time` [s]. Throws IoError.
+  /// Adds the fields at `time` [s], each rank its own particles; collective. Throws IoError, on all ranks.
   template <int Dim>
-  void write(double time, const ParticleFields<Dim>& particles);
+  void write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks = {});
 
   /// Number of files written.
   std::size_t size() const { return times_.size(); }

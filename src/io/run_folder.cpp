@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/write_file.h"
+#include "parallel/together.h"
 
 namespace tailwater {
 
@@ -98,9 +99,7 @@ void require_writable(const fs::path& folder) {
   require(error, "remove", trial);
 }
 
-}  // namespace
-
-RunFolder RunFolder::create(const fs::path& path, bool force) {
+void make_run_folder(const fs::path& path, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() != fs::file_type::not_found) {
@@ -120,6 +119,12 @@ RunFolder RunFolder::create(const fs::path& path, bool force) {
   make_folder(path / "probes");
   make_folder(path / "fields");
   remove_earlier_results(path);
+}
+
+}  // namespace
+
+RunFolder RunFolder::create(const fs::path& path, bool force, const Communicator& ranks) {
+  do_on_root(ranks, [&] { make_run_folder(path, force); });
   return RunFolder(path);
 }
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "parallel/communicator.h"
+
 namespace tailwater {
 
 class RunFolder {
@@ -11,11 +13,13 @@ class RunFolder {
   /// Makes the folder with its empty probes/ and fields/. Nothing is changed unless all of it can be.
   /// InputError: `path` is a file, or a folder that is not empty and `force` is not given. IoError: it cannot be made,
   /// read or written. With `force` the results of an earlier run go; what no run writes stays, wherever it lies.
-  static RunFolder create(const std::filesystem::path& path, bool force);
+  /// Collective: the root makes it, its error is thrown on all ranks.
+  static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path effective_case() const { return path_ / "case.effective.toml"; }
   std::filesystem::path steps() const { return path_ / "steps.csv"; }
+  std::filesystem::path ranks() const { return path_ / "ranks.csv"; }
   std::filesystem::path summary() const { return path_ / "summary.json"; }
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
   std::filesystem::path fields() const { return path_ / "fields"; }

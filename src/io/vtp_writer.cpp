@@ -118,6 +118,18 @@ void append_array_xml(std::string& xml, const EncodedPiece::Array& array, std::s
       array.type, array.name, array.components, piece_offset + array.offset);
 }
 
+void append_head_xml(std::string& xml, double time, int compression) {
+  fmt::format_to(
+      std::back_inserter(xml),
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
+      "  <PolyData>\n"
+      "    <FieldData>\n"
+      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n"
+      "    </FieldData>\n",
+      compression == 0 ? "" : " compressor=\"vtkZLibDataCompressor\"", time);
+}
+
 void append_piece_xml(std::string& xml, const EncodedPiece& piece, std::size_t piece_offset) {
   constexpr std::array<std::string_view, 3> cells{"Verts", "Lines", "Polys"};
   const std::string_view kind = cells[piece.corners - 1];
@@ -160,29 +172,22 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
   return piece;
 }
 
-void write_vtp(const std::filesystem::path& path, double time, std::span<const EncodedPiece> pieces, int compression) {
-  TAILWATER_ASSERT(!pieces.empty(), "VTK reads no file without a piece");
-  std::string xml = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
-      "  <PolyData>\n"
-      "    <FieldData>\n"
-      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n"
-      "    </FieldData>\n",
-      compression == 0 ? "" : " compressor=\"vtkZLibDataCompressor\"", time);
-  std::size_t piece_offset = 0;
-  for (const EncodedPiece& piece : pieces) {
-    append_piece_xml(xml, piece, piece_offset);
-    piece_offset += piece.bytes.size();
-  }
-  xml += "  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
-
-  std::vector<std::string_view> parts{xml};
-  for (const EncodedPiece& piece : pieces) {
-    parts.emplace_back(piece.bytes);
-  }
-  parts.emplace_back("\n  </AppendedData>\n</VTKFile>\n");
-  write_file(path, parts);
+void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece, int compression,
+               const Communicator& ranks) {
+  // VTK reads no file without a piece.
+  const bool all_are_empty = !ranks.any(piece.count > 0);
+  const bool is_shown = piece.count > 0 || (all_are_empty && ranks.is_root());
+  const std::string_view bytes = is_shown ? std::string_view(piece.bytes) : std::string_view();
+  std::string xml;
+  if (ranks.is_root()) append_head_xml(xml, time, compression);
+  std::string piece_xml;
+  const auto offset = static_cast<std::size_t>(ranks.sum_before(static_cast<std::int64_t>(bytes.size())));
+  if (is_shown) append_piece_xml(piece_xml, piece, offset);
+  for (const std::string& part : ranks.gather(piece_xml)) xml += part;
+  if (ranks.is_root()) xml += "  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+  const bool is_last = ranks.rank() == ranks.size() - 1;
+  const std::array<std::string_view, 3> parts{xml, bytes, is_last ? "\n  </AppendedData>\n</VTKFile>\n" : ""};
+  write_file(path, parts, ranks);
 }
 
 template EncodedPiece encode_piece<2>(const ParticleFields<2>&, int);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 
@@ -34,7 +35,7 @@ struct ParticleFields {
 };
 
 /// A <Piece> ready to be written: its arrays' descriptions and their encoded bytes. Offsets count from the first byte
-/// of this piece, so that pieces made on different ranks only need shifting.
+/// of this piece: where a rank's piece lies in the file is known when all are made.
 struct EncodedPiece {
   struct Array {
     std::string name;
@@ -55,8 +56,10 @@ struct EncodedPiece {
 template <int Dim>
 EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression);
 
-/// Writes one file at time `time` [s] from one or more pieces that have the same fields and were all encoded with the
-/// same `compression`. Throws IoError; never leaves half a file.
-void write_vtp(const std::filesystem::path& path, double time, std::span<const EncodedPiece> pieces, int compression);
+/// Writes one file at time `time` [s]. Collective: a piece per rank, all with the same fields and encoded with the same
+/// `compression`; every rank writes its own into the file. Empty ones are left out, unless all are. Throws IoError, on
+/// all ranks; never leaves half a file.
+void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece, int compression,
+               const Communicator& ranks = {});
 
 }  // namespace tailwater

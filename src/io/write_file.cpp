@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <string>
 #include <system_error>
 
 #include "base/error.h"
+#include "parallel/together.h"
 
 namespace tailwater {
 
@@ -31,13 +34,81 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
   return error_number;
 }
 
+/// As much as one call of MPI-IO gets: its counts are ints.
+constexpr std::size_t largest_write = std::size_t{1} << 30;
+
+/// What MPI says about `code`; nothing for success.
+std::string reason_of(int code) {
+  if (code == MPI_SUCCESS) return "";
+  char reason[MPI_MAX_ERROR_STRING] = {};
+  int length = 0;
+  MPI_Error_string(code, reason, &length);
+  return reason;
+}
+
+/// Returns why it failed, or nothing. Every rank by itself: its bytes are one long stretch, and Open MPI's collective
+/// calls do not tell of a full disk.
+std::string write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts) {
+  for (std::string_view rest : parts) {
+    while (!rest.empty()) {
+      const int count = static_cast<int>(std::min(rest.size(), largest_write));
+      MPI_Status status;
+      const int code = MPI_File_write_at(file, offset, rest.data(), count, MPI_BYTE, &status);
+      if (code != MPI_SUCCESS) return reason_of(code);
+      int written = 0;
+      MPI_Get_count(&status, MPI_BYTE, &written);
+      if (written != count) return "the disk may be full";
+      offset += count;
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+  return "";
+}
+
+void write_file_together(const std::filesystem::path& path, std::span<const std::string_view> parts,
+                         const Communicator& ranks) {
+  std::filesystem::path temporary = path;
+  temporary += temporary_ending;
+  std::int64_t size = 0;
+  for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
+  const std::int64_t offset = ranks.sum_before(size);
+  // Makes the file, or empties what a killed run has left, with the system's own words if it cannot.
+  do_on_root(ranks, [&] {
+    const int error_number = write_parts(temporary, {});
+    if (error_number != 0) throw_io_error("write", path, error_number);
+  });
+  const auto require_none = [&](const std::string& reason) {
+    do_together(ranks, [&] {
+      if (!reason.empty()) throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
+    });
+  };
+  try {
+    MPI_File file = MPI_FILE_NULL;
+    // Where only some ranks can open it the others keep it open: closing is collective.
+    require_none(reason_of(MPI_File_open(ranks.handle(), temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file)));
+    const std::string failure = write_parts(file, offset, parts);
+    const std::string close_failure = reason_of(MPI_File_close(&file));
+    require_none(failure.empty() ? close_failure : failure);
+    do_on_root(ranks, [&] {
+      if (std::rename(temporary.c_str(), path.c_str()) != 0) throw_io_error("write", path, errno);
+    });
+  } catch (const IoError&) {
+    if (ranks.is_root()) std::remove(temporary.c_str());
+    throw;
+  }
+}
+
 }  // namespace
 
 void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number) {
   throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number)));
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts) {
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts, const Communicator& ranks) {
+  if (!ranks.is_alone()) {
+    write_file_together(path, parts, ranks);
+    return;
+  }
   std::filesystem::path temporary = path;
   temporary += temporary_ending;
   int error_number = write_parts(temporary, parts);

@@ -6,14 +6,18 @@
 #include <span>
 #include <string_view>
 
+#include "parallel/communicator.h"
+
 namespace tailwater {
 
 /// Ending of the temporary name; a killed run may leave one such file.
 inline constexpr std::string_view temporary_ending = ".part";
 
-/// Writes `parts` one after the other as the file `path`. Throws IoError with the path and the system's reason; the
+/// Writes `parts` one after the other as the file `path`. Collective: those of all ranks, by rank, make one file, into
+/// which every rank writes its own (MPI-IO). Throws IoError with the path and the system's reason, on all ranks; the
 /// file that stood there before is then untouched.
-void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts);
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts,
+                const Communicator& ranks = {});
 
 /// The same for one text.
 void write_text_file(const std::filesystem::path& path, std::string_view text);

@@ -1,5 +1,6 @@
 // The sparse linear system of the pressure: one row per owned particle, assembled once per pattern, values refreshed,
-// solved by PETSc. Rows are scaled to unit diagonal, so that wall rows and fluid rows weigh alike.
+// solved by PETSc. Rows are scaled to unit diagonal, so that wall rows and fluid rows weigh alike. On several ranks the
+// rows are numbered rank after rank; each rank writes its own rows in place, and no entry is sent.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "case/spec.h"
+#include "parallel/exchange_plan.h"
 
 namespace tailwater {
 
@@ -21,13 +23,16 @@ struct SolveReport {
 class PressureSystem {
  public:
   /// Throws InputError for petsc_options that PETSc does not know.
-  explicit PressureSystem(const PressureSolverTable& settings);
+  explicit PressureSystem(const PressureSolverTable& settings, Communicator ranks = {});
   ~PressureSystem();
   PressureSystem(const PressureSystem&) = delete;
   PressureSystem& operator=(const PressureSystem&) = delete;
 
   /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], in any order, without
-  /// the diagonal.
+  /// the diagonal. Columns are owned entries and ghosts of `halo`; a ghost's unknown is its owner's. Collective.
+  void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
+                   const ExchangePlan& halo);
+  /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
   /// Writes one row in place. Touches nothing but that row.
@@ -62,30 +67,43 @@ class PressureSystem {
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
 
   /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Throws SolverError with the
-  /// residual history when the tolerance is not reached. `tolerance` overrides the settings' own.
+  /// residual history when the tolerance is not reached. `tolerance` overrides the settings' own. Collective.
   SolveReport solve(std::span<double> solution, std::optional<double> tolerance = {});
 
-  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back.
+  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, of each rank's rows alone.
   void sweep(std::span<double> solution) const;
 
   std::size_t size() const { return rhs_.size(); }
+  /// Relative residual at which a solve ends.
+  double tolerance() const { return settings_.tolerance; }
 
  private:
   struct Petsc;
+
+  /// The entries of all rows whose columns are of one kind.
+  struct Block {
+    std::vector<int> begin;   ///< rows + 1
+    std::vector<int> column;  ///< ascending in each row
+  };
+
+  template <class Body>
+  void for_each_slot(std::size_t i, Body&& body) const;
   void make_rhs_consistent();
-  /// `value` less row i of A times `solution`.
-  double less_row(double value, std::size_t i, std::span<const double> solution) const;
-  double residual_norm(std::span<const double> solution) const;
+  void make_matrix();
+  void set_up_solver();
+  double residual_norm();
 
   PressureSolverTable settings_;
+  Communicator ranks_;
   std::unique_ptr<Petsc> petsc_;
   bool pattern_is_new_ = true;
   bool constant_is_free_ = false;
-  std::vector<int> csr_begin_;
-  std::vector<int> csr_column_;
-  std::vector<double> csr_value_;
+  std::int64_t size_of_all_ = 0;  ///< rows of all ranks
+  Block own_;                     ///< unknowns of this rank, columns counted from its first
+  Block others_;                  ///< unknowns of other ranks, columns counted over all ranks
+  std::vector<double> value_;     ///< of own_, then of others_
   std::vector<std::size_t> pattern_begin_;
-  std::vector<int> slot_;           ///< where the k-th entry of the pattern stands in csr_value_
+  std::vector<int> slot_;           ///< where the k-th entry of the pattern stands in value_
   std::vector<int> diagonal_slot_;  ///< and the diagonal of row i
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0

@@ -2,15 +2,65 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tailwater {
 
+namespace {
+
+template <int Dim>
+struct Box {
+  Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
+  Vec<Dim> high = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());
+
+  bool holds(const Vec<Dim>& place) const {
+    return (place.array() >= low.array()).all() && (place.array() <= high.array()).all();
+  }
+};
+
+/// Around the owned particles and `margin` [m] beyond.
+template <int Dim>
+Box<Dim> box_around(const Particles<Dim>& particles, double margin) {
+  Box<Dim> box;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    box.low = box.low.cwiseMin(particles.position[i]);
+    box.high = box.high.cwiseMax(particles.position[i]);
+  }
+  box.low.array() -= margin;
+  box.high.array() += margin;
+  return box;
+}
+
+/// 0, and every way by one period in one or more directions.
+template <int Dim>
+std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain) {
+  std::vector<Vec<Dim>> shifts{Vec<Dim>::Zero()};
+  for (int d = 0; d < Dim; ++d) {
+    if (!domain[d]) continue;
+    const double length = domain[d]->second - domain[d]->first;
+    const std::size_t count = shifts.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      for (const double way : {length, -length}) {
+        shifts.push_back(shifts[k]);
+        shifts.back()[d] += way;
+      }
+    }
+  }
+  return shifts;
+}
+
+}  // namespace
+
 template <int Dim>
 void Halo<Dim>::exchange_positions(std::vector<Vec<Dim>>& position) const {
-  exchange(position);
-  for (std::size_t k = 0; k < source.size(); ++k) {
-    position[owned + k] += shift[k];
+  if (shift.empty()) {
+    exchange(position);
+    return;
   }
+  const std::span<const std::int32_t> sent = plan.sent();
+  std::vector<Vec<Dim>> image(sent.size());
+  for (std::size_t k = 0; k < sent.size(); ++k) image[k] = position[sent[k]] + shift[k];
+  plan.deliver(std::span<const Vec<Dim>>(image), position);
 }
 
 template <int Dim>
@@ -31,38 +81,25 @@ void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles
 }
 
 template <int Dim>
-Halo<Dim> make_halo(const PeriodicDomain<Dim>& domain, double margin, Particles<Dim>& particles) {
+Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain, double margin,
+                    Particles<Dim>& particles) {
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(domain);
   Halo<Dim> halo;
-  halo.owned = particles.owned;
-  const auto position_of = [&](std::size_t i) -> Vec<Dim> {
-    if (i < halo.owned) return particles.position[i];
-    const std::size_t k = i - halo.owned;
-    return particles.position[halo.source[k]] + halo.shift[k];
-  };
-  // Direction by direction, images of images included: that makes the corners.
-  for (int d = 0; d < Dim; ++d) {
-    if (!domain[d]) continue;
-    const auto [low, high] = *domain[d];
-    const std::size_t count = halo.owned + halo.source.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec<Dim> position = position_of(i);
-      const auto add_image = [&](double offset) {
-        Vec<Dim> shift = i < halo.owned ? Vec<Dim>(Vec<Dim>::Zero()) : halo.shift[i - halo.owned];
-        shift[d] += offset;
-        halo.source.push_back(halo.owner(static_cast<std::int32_t>(i)));
-        halo.shift.push_back(shift);
-      };
-      if (position[d] < low + margin) add_image(high - low);
-      if (position[d] > high - margin) add_image(low - high);
+  std::vector<std::vector<std::int32_t>> sent(static_cast<std::size_t>(ranks.size()));
+  const std::vector<Box<Dim>> boxes = ranks.all_gather(box_around(particles, margin));
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    for (const Vec<Dim>& shift : shifts) {
+      if (rank == ranks.rank() && shift.isZero(0.0)) continue;  // the particles themselves
+      for (std::size_t i = 0; i < particles.owned; ++i) {
+        if (!boxes[rank].holds(particles.position[i] + shift)) continue;
+        sent[rank].push_back(static_cast<std::int32_t>(i));
+        if (shifts.size() > 1) halo.shift.push_back(shift);
+      }
     }
   }
+  halo.plan = ExchangePlan(ranks, particles.owned, sent);
+  particles.apply_to_fields([&](auto&... field) { halo.exchange(field...); });
   halo.exchange_positions(particles.position);
-  halo.exchange(particles.velocity);
-  halo.exchange(particles.pressure);
-  halo.exchange(particles.volume);
-  halo.exchange(particles.kind);
-  halo.exchange(particles.wall_row);
-  halo.exchange(particles.id);
   return halo;
 }
 
@@ -72,7 +109,7 @@ template Vec<2> wrapped<2>(const PeriodicDomain<2>&, Vec<2>);
 template Vec<3> wrapped<3>(const PeriodicDomain<3>&, Vec<3>);
 template void wrap_positions<2>(const PeriodicDomain<2>&, Particles<2>&);
 template void wrap_positions<3>(const PeriodicDomain<3>&, Particles<3>&);
-template Halo<2> make_halo<2>(const PeriodicDomain<2>&, double, Particles<2>&);
-template Halo<3> make_halo<3>(const PeriodicDomain<3>&, double, Particles<3>&);
+template Halo<2> make_halo<2>(const Communicator&, const PeriodicDomain<2>&, double, Particles<2>&);
+template Halo<3> make_halo<3>(const Communicator&, const PeriodicDomain<3>&, double, Particles<3>&);
 
 }  // namespace tailwater

@@ -1,5 +1,5 @@
-// Which ghosts copy which owned particles, and how a field gets to them. Ghosts are periodic images here; with several
-// ranks the same plan will also hold particles of other ranks.
+// Which ghosts copy which owned particles, and how a field gets to them. Ghosts are particles of other ranks and
+// periodic images.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "parallel/exchange_plan.h"
 #include "particles/particles.h"
 
 namespace tailwater {
@@ -19,22 +20,13 @@ using PeriodicDomain = std::array<std::optional<std::pair<double, double>>, Dim>
 
 template <int Dim>
 struct Halo {
-  std::vector<std::int32_t> source;  ///< ghost k copies the owned particle source[k]
-  std::vector<Vec<Dim>> shift;       ///< m; added to its position
-  std::size_t owned = 0;
+  ExchangePlan plan;
+  std::vector<Vec<Dim>> shift;  ///< m; added to the position of each particle sent; empty when nothing is shifted
 
-  /// The owned particle that particle `j` is or copies.
-  std::int32_t owner(std::int32_t j) const {
-    return static_cast<std::size_t>(j) < owned ? j : source[static_cast<std::size_t>(j) - owned];
-  }
-
-  /// Brings the ghosts' entries of a field up to date; the field gets owned + ghosts entries.
-  template <class Value>
-  void exchange(std::vector<Value>& field) const {
-    field.resize(owned + source.size());
-    for (std::size_t k = 0; k < source.size(); ++k) {
-      field[owned + k] = field[source[k]];
-    }
+  /// Brings the ghosts' entries of fields up to date, in one message per rank; each field gets owned + ghosts entries.
+  template <class... Value>
+  void exchange(std::vector<Value>&... fields) const {
+    plan.exchange(fields...);
   }
 
   void exchange_positions(std::vector<Vec<Dim>>& position) const;
@@ -48,8 +40,10 @@ Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position);
 template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles);
 
-/// Gives `particles` the ghosts that lie within `margin` [m] of the domain and copies every field to them.
+/// Gives `particles` the ghosts that lie within `margin` [m] of the box around the owned ones, and copies every field
+/// to them. Collective.
 template <int Dim>
-Halo<Dim> make_halo(const PeriodicDomain<Dim>& domain, double margin, Particles<Dim>& particles);
+Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain, double margin,
+                    Particles<Dim>& particles);
 
 }  // namespace tailwater

@@ -8,6 +8,10 @@ namespace {
 /// Two particles nearer than this share of dx count as this far apart: directions stay defined, weights finite.
 constexpr double least_distance_over_spacing = 1e-6;
 
+/// Cost of a row and of a wall's pair, in pairs of the fluid (docs/scaling.md).
+constexpr double row_cost = 10.0;
+constexpr double wall_pair_cost = 0.3;
+
 template <class Value>
 void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
   std::vector<Value> picked(kept.size());
@@ -31,18 +35,23 @@ void sort_row(std::int32_t* row, std::size_t count) {
 
 template <int Dim>
 Neighbourhood<Dim>::Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows,
-                                  PeriodicDomain<Dim> domain)
-    : kernel_(std::move(kernel)), spacing_(spacing), skin_(skin), wall_rows_(wall_rows), domain_(std::move(domain)) {}
+                                  PeriodicDomain<Dim> domain, Communicator ranks)
+    : kernel_(std::move(kernel)),
+      spacing_(spacing),
+      skin_(skin),
+      wall_rows_(wall_rows),
+      domain_(std::move(domain)),
+      ranks_(std::move(ranks)) {}
 
 template <int Dim>
 bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
-  const bool renew = !lists_are_valid(particles);
+  const bool renew = ranks_.any(!lists_are_valid(particles));
   if (renew) {
     rebuild(particles);
   } else {
     halo_.exchange_positions(particles.position);
   }
-  evaluate_pairs<Dim>(kernel_, particles.position, least_distance_over_spacing * spacing_, list_, pairs_);
+  evaluate_pairs<Dim>(kernel_, particles.position, particles.id, least_distance_over_spacing * spacing_, list_, pairs_);
   return renew;
 }
 
@@ -55,15 +64,20 @@ void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
 
 template <int Dim>
 void Neighbourhood<Dim>::keep(Particles<Dim>& particles, std::span<const std::int32_t> kept) {
-  pick(kept, particles.position);
-  pick(kept, particles.velocity);
-  pick(kept, particles.pressure);
-  pick(kept, particles.volume);
-  pick(kept, particles.kind);
-  pick(kept, particles.wall_row);
-  pick(kept, particles.id);
+  particles.apply_to_fields([&](auto&... field) { (pick(kept, field), ...); });
   particles.owned = kept.size();
   has_lists_ = false;
+}
+
+template <int Dim>
+std::vector<double> Neighbourhood<Dim>::work(const Particles<Dim>& particles) const {
+  std::vector<double> work(particles.owned, 1.0);
+  if (!has_lists_ || list_.row_begin.size() != particles.owned + 1) return work;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const auto neighbours = static_cast<double>(list_.row_begin[i + 1] - list_.row_begin[i]);
+    work[i] = row_cost + (particles.is_fluid(i) ? 1.0 : wall_pair_cost) * neighbours;
+  }
+  return work;
 }
 
 template <int Dim>
@@ -82,7 +96,7 @@ void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
   has_lists_ = true;
   const double reach = kernel_radius(kernel_) + skin_;
   particles.resize(particles.owned);
-  halo_ = make_halo<Dim>(domain_, reach, particles);
+  halo_ = make_halo<Dim>(ranks_, domain_, reach, particles);
   grid_ = CellGrid<Dim>(particles.position, reach);
   position_at_rebuild_.assign(particles.position.begin(),
                               particles.position.begin() + static_cast<std::ptrdiff_t>(particles.owned));

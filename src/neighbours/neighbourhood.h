@@ -18,10 +18,11 @@ template <int Dim>
 class Neighbourhood {
  public:
   /// `radius` [m] is the kernel's support, `skin` [m] what lists reach beyond it.
-  Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain);
+  Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain,
+                Communicator ranks = {});
 
-  /// Brings everything up to date with particles.position. Returns true when the lists (and so the number of ghosts)
-  /// are new; pairs() and their order may change at every call.
+  /// Brings everything up to date with particles.position. Collective. Returns true when the lists (and so the number
+  /// of ghosts) are new; pairs() and their order may change at every call.
   bool update(Particles<Dim>& particles);
 
   /// Moves particles that left a periodic domain back in at its other end. Call between steps only.
@@ -39,6 +40,10 @@ class Neighbourhood {
   /// change.
   void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);
 
+  /// What a step costs for each owned particle, in pairs, while indices are those of the present lists; else 1 for
+  /// each.
+  std::vector<double> work(const Particles<Dim>& particles) const;
+
   const Pairs<Dim>& pairs() const { return pairs_; }
   const Halo<Dim>& halo() const { return halo_; }
   /// All particles, ghosts included, as they were when the lists were made: search up to half a skin farther.
@@ -55,6 +60,7 @@ class Neighbourhood {
   double skin_;
   WallRows wall_rows_;
   PeriodicDomain<Dim> domain_;
+  Communicator ranks_;
   CellGrid<Dim> grid_;
   Halo<Dim> halo_;
   NeighbourList list_;

@@ -7,8 +7,8 @@
 namespace tailwater {
 
 template <int Dim>
-void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, double least_distance,
-                    const NeighbourList& list, Pairs<Dim>& pairs) {
+void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, std::span<const std::int64_t> id,
+                    double least_distance, const NeighbourList& list, Pairs<Dim>& pairs) {
   const std::size_t rows = list.row_begin.size() - 1;
   pairs.row_begin.resize(rows + 1);
   pairs.j.resize(list.j.size());
@@ -34,7 +34,7 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
       double squared = r_ij.squaredNorm();
       if (squared <= least_squared) [[unlikely]] {
         squared = least_squared;
-        r_ij = (static_cast<std::size_t>(j) > i ? least_distance : -least_distance) * Vec<Dim>::UnitX();
+        r_ij = (id[j] > id[i] ? least_distance : -least_distance) * Vec<Dim>::UnitX();
       }
       pair_j[n] = j;
       e[n] = r_ij;
@@ -64,7 +64,9 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
   });
 }
 
-template void evaluate_pairs<2>(const Kernel<2>&, std::span<const Vec<2>>, double, const NeighbourList&, Pairs<2>&);
-template void evaluate_pairs<3>(const Kernel<3>&, std::span<const Vec<3>>, double, const NeighbourList&, Pairs<3>&);
+template void evaluate_pairs<2>(const Kernel<2>&, std::span<const Vec<2>>, std::span<const std::int64_t>, double,
+                                const NeighbourList&, Pairs<2>&);
+template void evaluate_pairs<3>(const Kernel<3>&, std::span<const Vec<3>>, std::span<const std::int64_t>, double,
+                                const NeighbourList&, Pairs<3>&);
 
 }  // namespace tailwater

@@ -34,9 +34,10 @@ struct NeighbourList {
 };
 
 /// Makes the pairs of those in the list that are within the support at the positions given, in the list's order. Two
-/// particles at one place get r = `least_distance` and an arbitrary but fixed direction, so that they can part again.
+/// particles at one place get r = `least_distance` and an arbitrary direction, opposite for the two (their `id`s say),
+/// so that they can part again.
 template <int Dim>
-void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, double least_distance,
-                    const NeighbourList& list, Pairs<Dim>& pairs);
+void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, std::span<const std::int64_t> id,
+                    double least_distance, const NeighbourList& list, Pairs<Dim>& pairs);
 
 }  // namespace tailwater

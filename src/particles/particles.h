@@ -1,5 +1,5 @@
-// The particles of one rank: what it owns, then ghosts (copies of particles owned elsewhere: by a periodic image here,
-// by another rank later). Structure of arrays; every array has size() entries.
+// The particles of one rank: what it owns, then ghosts (copies of particles of other ranks, and periodic images).
+// Structure of arrays; every array has size() entries.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ struct Particles {
   std::size_t size() const { return position.size(); }
   bool is_fluid(std::size_t i) const { return kind[i] == ParticleKind::fluid; }
 
+  /// Calls body with references to all fields.
+  template <class Body>
+  void apply_to_fields(Body&& body) {
+    body(position, velocity, pressure, volume, kind, wall_row, id);
+  }
+
   void resize(std::size_t count) {
-    position.resize(count);
-    velocity.resize(count);
-    pressure.resize(count);
-    volume.resize(count);
-    kind.resize(count);
-    wall_row.resize(count);
-    id.resize(count);
+    apply_to_fields([count](auto&... field) { (field.resize(count), ...); });
   }
 };
 

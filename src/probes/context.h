@@ -1,6 +1,7 @@
 // What a probe sees of a flow at one moment, and what it hands back.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -10,11 +11,12 @@
 #include "geometry/boundary.h"
 #include "kernel/kernel.h"
 #include "neighbours/cell_grid.h"
+#include "parallel/communicator.h"
 #include "particles/particles.h"
 
 namespace tailwater {
 
-/// Sums over the whole flow, which the scheme keeps anyway. In 2D per metre of width.
+/// Sums over the whole flow, all ranks, which the scheme keeps anyway. In 2D per metre of width.
 struct FlowTotals {
   double kinetic_energy = 0.0;      ///< J
   double potential_energy = 0.0;    ///< J; relative to the origin
@@ -37,6 +39,7 @@ struct ProbeContext {
   double spacing;    ///< m; dx
   double time;       ///< s
   FlowTotals totals;
+  Communicator ranks = {};
 };
 
 /// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x`.
@@ -56,11 +59,38 @@ void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&&
 
 using Row = std::vector<double>;
 
+/// What a probe looks at: the places within `margin` of a segment, and all places in the direction `along` from these.
+template <int Dim>
+struct Region {
+  Vec<Dim> from;
+  Vec<Dim> to;
+  Vec<Dim> along = Vec<Dim>::Zero();  ///< of length 1, or zero
+  double margin = 0.0;                ///< m
+
+  /// The distance of `x` from the segment, across `along` [m].
+  double distance(const Vec<Dim>& x) const {
+    const Vec<Dim> stretch = across(to - from);
+    const Vec<Dim> offset = across(x - from);
+    const double squared = stretch.squaredNorm();
+    const double share = squared > 0.0 ? std::clamp(offset.dot(stretch) / squared, 0.0, 1.0) : 0.0;
+    return (offset - share * stretch).norm();
+  }
+
+  /// Is `x` in it, or at most `reach` [m] away?
+  bool contains(const Vec<Dim>& x, double reach) const { return distance(x) <= margin + reach; }
+
+ private:
+  Vec<Dim> across(const Vec<Dim>& v) const { return v - v.dot(along) * along; }
+};
+
 /// A kind of measurement, set up for one place: its columns after "time_s" and how to take it, as one or more rows.
 template <int Dim>
 struct Reading {
   std::vector<std::string> columns;
   std::function<std::vector<Row>(const ProbeContext<Dim>&)> take;
+  /// On several ranks the root takes it, from the particles of all ranks that lie within the kernel's support of this
+  /// region at `time` [s]. Empty: every rank takes it, from its own particles; the root's rows count.
+  std::function<Region<Dim>(double time)> region = {};
 };
 
 }  // namespace tailwater

@@ -1,6 +1,7 @@
 #include "probes/front.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "probes/places.h"
@@ -17,8 +18,16 @@ bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
   return neighbours >= Dim + 3;
 }
 
+constexpr double nowhere = -std::numeric_limits<double>::max();
+
+/// The edge of the foremost particle and of the foremost connected one, among those of this rank.
+struct Front {
+  double all = nowhere;
+  double connected = nowhere;
+};
+
 template <int Dim>
-Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
+Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   const Particles<Dim>& particles = context.particles;
   std::vector<std::pair<double, std::int32_t>> heap;
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -26,7 +35,7 @@ Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
       heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
     }
   }
-  if (heap.empty()) return {0.0, 0.0};
+  if (heap.empty()) return {};
   std::make_heap(heap.begin(), heap.end());
   const double half = 0.5 * context.spacing;
   const double front = heap.front().first + half;
@@ -36,7 +45,19 @@ Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
   }
-  return {front, 0.0};
+  return {.all = front};
+}
+
+/// Collective.
+template <int Dim>
+Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
+  const Front own = find_front(context, direction);
+  Row row;
+  for (const double coordinate : {own.all, own.connected}) {
+    const double foremost = context.ranks.largest(coordinate);
+    row.push_back(foremost == nowhere ? 0.0 : foremost);
+  }
+  return row;
 }
 
 }  // namespace

@@ -54,9 +54,13 @@ Value interpolate(const ProbeContext<Dim>& context, const Vec<Dim>& x, const std
 template <int Dim>
 Reading<Dim> pressure_reading(const ProbeTable& probe) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  return {{"pressure_Pa", "wet"}, [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {{"pressure_Pa", "wet"},
+          [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
             if (water_share(context, at) <= surface_share) return {{0.0, 0.0}};
             return {{interpolate(context, at, context.particles.pressure, 0.0), 1.0}};
+          },
+          [at](double) {
+            return Region<Dim>{at, at};
           }};
 }
 
@@ -66,7 +70,8 @@ Reading<Dim> velocity_reading(const ProbeTable& probe) {
   std::vector<std::string> columns{"u_m_s", "v_m_s", "w_m_s"};
   columns.resize(Dim);
   columns.push_back("wet");
-  return {columns, [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {columns,
+          [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
             Row row(Dim + 1, 0.0);
             if (water_share(context, at) > surface_share) {
               const Vec<Dim> zero = Vec<Dim>::Zero();
@@ -75,6 +80,9 @@ Reading<Dim> velocity_reading(const ProbeTable& probe) {
               row.back() = 1.0;
             }
             return {row};
+          },
+          [at](double) {
+            return Region<Dim>{at, at};
           }};
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "parallel/together.h"
 #include "probes/front.h"
+#include "probes/gather.h"
 #include "probes/point.h"
 #include "probes/wall_pressure.h"
 #include "probes/water_column.h"
@@ -27,8 +29,8 @@ Reading<Dim> volume_reading() {
             const auto count =
                 std::count(particles.kind.begin(),
                            particles.kind.begin() + static_cast<std::ptrdiff_t>(particles.owned), ParticleKind::fluid);
-            return {{static_cast<double>(count), context.totals.density_error_mean, context.totals.density_error_rms,
-                     context.totals.volume_out}};
+            return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
+                     context.totals.density_error_rms, context.totals.volume_out}};
           }};
 }
 
@@ -71,13 +73,16 @@ std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& b
 }
 
 template <int Dim>
-ProbeSet<Dim>::ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder) {
-  for (Probe<Dim>& probe : probes) {
-    std::vector<std::string> columns{"time_s"};
-    columns.insert(columns.end(), probe.reading.columns.begin(), probe.reading.columns.end());
-    CsvWriter csv(folder.probe(probe.name), columns);
-    instruments_.push_back({std::move(probe), std::move(csv)});
-  }
+ProbeSet<Dim>::ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks) {
+  for (Probe<Dim>& probe : probes) instruments_.push_back({std::move(probe), std::nullopt});
+  do_on_root(ranks, [&] {
+    for (Instrument& instrument : instruments_) {
+      const Probe<Dim>& probe = instrument.probe;
+      std::vector<std::string> columns{"time_s"};
+      columns.insert(columns.end(), probe.reading.columns.begin(), probe.reading.columns.end());
+      instrument.csv.emplace(folder.probe(probe.name), columns);
+    }
+  });
 }
 
 template <int Dim>
@@ -93,17 +98,48 @@ bool ProbeSet<Dim>::is_due(double time) const {
 }
 
 template <int Dim>
+void ProbeSet<Dim>::Instrument::write(double time, const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    Row line{time};
+    line.insert(line.end(), row.begin(), row.end());
+    csv->write(line);
+  }
+}
+
+template <int Dim>
+void ProbeSet<Dim>::Instrument::count_as_taken(double time) {
+  if (probe.times.empty() && probe.interval == 0.0) return;  // due at every step
+  // A long step may pass more than one.
+  while (is_due(time)) ++taken;
+}
+
+template <int Dim>
 void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
+  const Communicator& ranks = context.ranks;
+  std::vector<Instrument*> due;
+  std::vector<Region<Dim>> regions;
   for (Instrument& instrument : instruments_) {
     if (!instrument.is_due(context.time)) continue;
-    for (Row& row : instrument.probe.reading.take(context)) {
-      row.insert(row.begin(), context.time);
-      instrument.csv.write(row);
-    }
-    if (instrument.probe.times.empty() && instrument.probe.interval == 0.0) continue;  // due at every step
-    // A long step may pass more than one.
-    while (instrument.is_due(context.time)) ++instrument.taken;
+    due.push_back(&instrument);
+    if (instrument.probe.reading.region) regions.push_back(instrument.probe.reading.region(context.time));
   }
+  Particles<Dim> gathered;
+  if (!ranks.is_alone() && !regions.empty()) gathered = gather_near(context, regions);
+  const CellGrid<Dim> grid(gathered.position, kernel_radius(context.kernel));
+  const ProbeContext<Dim> near{
+      gathered,        grid,         context.kernel, context.boundary, context.density, context.gravity,
+      context.spacing, context.time, context.totals};
+
+  std::vector<std::vector<Row>> rows;
+  for (const Instrument* instrument : due) {
+    const Reading<Dim>& reading = instrument->probe.reading;
+    const bool is_local = ranks.is_alone() || !reading.region;
+    rows.push_back(is_local || ranks.is_root() ? reading.take(is_local ? context : near) : std::vector<Row>());
+  }
+  do_on_root(ranks, [&] {
+    for (std::size_t k = 0; k < due.size(); ++k) due[k]->write(context.time, rows[k]);
+  });
+  for (Instrument* instrument : due) instrument->count_as_taken(context.time);
 }
 
 template std::vector<Probe<2>> make_probes<2>(const CaseSpec&, const Boundary<2>&);

@@ -1,6 +1,7 @@
 // The probes of a case, and the files they write while the run goes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,22 +29,24 @@ std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& b
 template <int Dim>
 class ProbeSet {
  public:
-  /// Starts one file per probe, probes/NAME.csv. Throws IoError.
-  ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder);
+  /// Starts one file per probe, probes/NAME.csv, on the root. Throws IoError, on all ranks.
+  ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks = {});
 
   /// Does any probe want to look at the flow at `time` [s]?
   bool is_due(double time) const;
 
-  /// Appends to the files of all probes that are due. Throws IoError.
+  /// Appends to the files of all probes that are due. Collective; throws IoError, on all ranks.
   void record(const ProbeContext<Dim>& context);
 
  private:
   struct Instrument {
     Probe<Dim> probe;
-    CsvWriter csv;
-    std::size_t taken = 0;  ///< intervals or times that have passed
+    std::optional<CsvWriter> csv;  ///< on the root
+    std::size_t taken = 0;         ///< intervals or times that have passed
 
     bool is_due(double time) const;
+    void write(double time, const std::vector<Row>& rows);
+    void count_as_taken(double time);
   };
 
   std::vector<Instrument> instruments_;

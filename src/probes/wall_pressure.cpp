@@ -32,6 +32,16 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   return {nearest.point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 
+/// Around the points, which need not lie on one line.
+template <int Dim>
+Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) {
+  Region<Dim> region{points.front().at(time), points.back().at(time)};
+  for (const PointOnWall<Dim>& point : points) {
+    region.margin = std::max(region.margin, region.distance(point.at(time)));
+  }
+  return region;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,9 +63,11 @@ std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const PointOnWall<Dim> point = point_on_wall(probe, to_vec<Dim>(probe.at, label(probe), "at"), spec, boundary);
-  return {{"pressure_Pa"}, [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {{"pressure_Pa"},
+          [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
             return {{wall_pressure(context, point.at(context.time)).value_or(0.0)}};
-          }};
+          },
+          [point](double time) { return region_of<Dim>({point}, time); }};
 }
 
 template <int Dim>
@@ -64,7 +76,8 @@ Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec&
   for (const Vec<Dim>& x : places_between<Dim>(probe, 0.5 * spec.particles.spacing)) {
     points.push_back(point_on_wall(probe, x, spec, boundary));
   }
-  return {{"pressure_Pa", "wet_share"}, [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {{"pressure_Pa", "wet_share"},
+          [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
             double sum = 0.0;
             double wet = 0.0;
             for (const PointOnWall<Dim>& point : points) {
@@ -75,7 +88,8 @@ Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec&
             }
             const double count = static_cast<double>(points.size());
             return {{sum / count, wet / count}};
-          }};
+          },
+          [points](double time) { return region_of(points, time); }};
 }
 
 template std::optional<double> wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);

@@ -98,7 +98,7 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line,
   return column;
 }
 
-/// A height [m] that all water lies below.
+/// A height [m] that all water the context knows lies below.
 template <int Dim>
 double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
   double highest = -std::numeric_limits<double>::max();
@@ -139,9 +139,13 @@ template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
   const Line<Dim> line = make_line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
-  return {{"connected_m", "highest_m"}, [line](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {{"connected_m", "highest_m"},
+          [line](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
             return {{column.connected, column.highest}};
+          },
+          [line](double) {
+            return Region<Dim>{line.foot, line.foot, line.up};
           }};
 }
 
@@ -156,7 +160,8 @@ Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, cons
   }
   std::vector<std::string> columns{"x_m", "bed_m", "connected_m", "highest_m"};
   if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
-  return {columns, [up, places, lines](const ProbeContext<Dim>& context) {
+  return {columns,
+          [up, places, lines](const ProbeContext<Dim>& context) {
             const double top = top_of_water(context, up);
             std::vector<Row> rows;
             for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -166,7 +171,8 @@ Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, cons
               rows.push_back(std::move(row));
             }
             return rows;
-          }};
+          },
+          [region = Region<Dim>{places.front(), places.back(), up}](double) { return region; }};
 }
 
 template Reading<2> depth_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);

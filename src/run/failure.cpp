@@ -1,6 +1,7 @@
 #include "run/failure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include "geometry/from_spec.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"
+#include "parallel/together.h"
 #include "run/field_output.h"
 
 namespace tailwater {
@@ -39,13 +41,13 @@ std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
 template <int Dim>
 void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
                    double last_good_time, std::optional<std::size_t> culprit, const std::string& message) {
-  const std::filesystem::path failure = folder.make_failure();
+  std::filesystem::path failure;
+  do_together(flow.ranks, [&] { failure = folder.make_failure(); });
   // Plain positions, velocities and pressures only: the work fields are those of the failed step.
   const FluidFields<Dim> fields(flow, last_good, {"pressure", "velocity", "id"});
-  const EncodedPiece piece = encode_piece(fields.view(), 1);
-  write_vtp(failure / "last_good.vtp", last_good_time, std::span(&piece, 1), 1);
+  write_vtp(failure / "last_good.vtp", last_good_time, encode_piece(fields.view(), 1), 1, flow.ranks);
 
-  std::string report = message + "\n";
+  std::string report;
   if (culprit) {
     const std::size_t i = *culprit;
     auto out = std::back_inserter(report);
@@ -56,11 +58,17 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
     fmt::format_to(out, "its neighbours before the step:\n");
     const Pairs<Dim>& pairs = flow.pairs();
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = static_cast<std::size_t>(flow.neighbourhood.halo().owner(pairs.j[k]));
-      fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      if (j < last_good.owned) {
+        fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
+      } else {
+        fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.particles, j));
+      }
     }
   }
-  write_text_file(failure / "report.txt", report);
+  const std::vector<std::string> reports = flow.ranks.gather(report);
+  do_on_root(flow.ranks,
+             [&] { write_text_file(failure / "report.txt", fmt::format("{}\n{}", message, fmt::join(reports, ""))); });
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                    \

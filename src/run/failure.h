@@ -13,9 +13,10 @@ namespace tailwater {
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow);
 
-/// Writes failure/last_good.vtp (the state before the failed step) and failure/report.txt: `message`, and if it is
-/// known the `culprit` with its neighbours. `flow` is the state after the step, or, if the step was not taken, before
-/// it; its particles are in the order of those in `last_good`. Throws IoError.
+/// Collective; `culprit` on the rank that has it. Writes failure/last_good.vtp (the state before the failed step) and
+/// failure/report.txt: `message`, and if it is known the `culprit` with its neighbours. `flow` is the state after the
+/// step, or, if the step was not taken, before it; its particles are in the order of those in `last_good`. Throws
+/// IoError.
 template <int Dim>
 void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
                    double last_good_time, std::optional<std::size_t> culprit, const std::string& message);

@@ -6,12 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "case/writer.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
 #include "io/pvd_series.h"
 #include "io/write_file.h"
+#include "parallel/together.h"
 #include "probes/probe_set.h"
 #include "run/estimate.h"
 #include "run/failure.h"
@@ -19,6 +21,7 @@
 #include "run/interrupt.h"
 #include "run/progress.h"
 #include "run/provenance.h"
+#include "run/rank_log.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
 #include "schemes/advance.h"
@@ -27,7 +30,8 @@
 namespace tailwater {
 namespace {
 
-/// Particles drift away from cache order slowly: sorting this seldom keeps its cost below notice.
+/// Particles drift away from cache order, and out of their rank's part of space, slowly: sorting and sharing them out
+/// this seldom keeps its cost below notice.
 constexpr std::int64_t steps_between_sorts = 5;
 
 /// A step below this share of the rule's own reference means some particle has run away: better an error now than a run
@@ -60,14 +64,17 @@ struct Water {
   std::string text() const { return fmt::format("{} particles ({:.6g} m^3)", particles, volume); }
 };
 
+/// Inside, on all ranks.
 template <int Dim>
-Water water_in(const Particles<Dim>& particles) {
+Water water_in(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.particles;
   Water water;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     ++water.particles;
     water.volume += particles.volume[i];
   }
+  flow.ranks.sum_each(water.particles, water.volume);
   return water;
 }
 
@@ -93,9 +100,10 @@ std::size_t count_outside(const Eigen::AlignedBox<double, Dim>& box, const Flow<
              std::none_of(flow.open_ends.begin(), flow.open_ends.end(),
                           [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
   }
-  return count;
+  return flow.ranks.sum(count);
 }
 
+/// Of this rank.
 template <int Dim>
 std::size_t fastest_particle(const Particles<Dim>& particles) {
   std::size_t fastest = 0;
@@ -108,20 +116,25 @@ std::size_t fastest_particle(const Particles<Dim>& particles) {
 template <int Dim>
 class Run {
  public:
-  Run(const CaseSpec& spec, const RunOptions& options)
+  Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks)
       : spec_(spec),
         options_(options),
-        flow_(spec),
-        water_at_start_(water_in(flow_.particles)),
+        ranks_(ranks),
+        tells_(ranks.is_root() && !options.quiet),
+        flow_(spec, ranks),
+        water_at_start_(water_in(flow_)),
         probe_list_(make_probes<Dim>(spec, flow_.boundary)),
         folder_(make_folder(flow_, spec, options)),
         series_(folder_.fields(), "fields", spec.output.compression),
         wall_series_(folder_.fields(), "walls", spec.output.compression),
-        step_log_(folder_.steps()),
-        probes_(std::move(probe_list_), folder_),
-        progress_(spec.time.end, options.quiet),
+        rank_log_(ranks, folder_.ranks()),
+        probes_(std::move(probe_list_), folder_, ranks),
+        progress_(spec.time.end, !tells_),
         statistics_(measure(flow_)) {
-    write_text_file(folder_.effective_case(), effective_case(spec));
+    do_on_root(ranks, [&] {
+      step_log_.emplace(folder_.steps());
+      write_text_file(folder_.effective_case(), effective_case(spec));
+    });
   }
 
   ExitCode execute() {
@@ -144,7 +157,7 @@ class Run {
   /// Last in the row of checks: from here on there are traces.
   static RunFolder make_folder(const Flow<Dim>& flow, const CaseSpec& spec, const RunOptions& options) {
     require_reachable_end(spec, flow.time_step_rule);
-    return RunFolder::create(options.out, options.force);
+    return RunFolder::create(options.out, options.force, flow.ranks);
   }
 
   ExitCode loop() {
@@ -159,7 +172,7 @@ class Run {
     attempt([&] { start(flow_); });
     record_probes(measure(flow_));
     while (flow_.time < spec_.time.end) {
-      if (interrupt.requested()) return ExitCode::interrupted;
+      if (ranks_.any(interrupt.requested())) return ExitCode::interrupted;
       if (flow_.time >= next_fields) {
         write_fields();
         next_fields = (std::floor(flow_.time / field_interval) + 1.0) * field_interval;
@@ -173,11 +186,11 @@ class Run {
     remember_good();
     const double dt = next_time_step(flow_);
     require_sound_step(dt);
+    const bool is_shared_out = flow_.step % steps_between_sorts == 0;
+    if (is_shared_out) rank_log_.write(flow_, share_out(flow_));
     const bool some_left = let_go(flow_);
-    const bool is_sorted_anew = flow_.step % steps_between_sorts == 0;
-    if (is_sorted_anew) flow_.neighbourhood.reorder(flow_.particles);
     // An index must mean the same particle before and after the step.
-    if (some_left || is_sorted_anew) remember_good();
+    if (some_left || is_shared_out) remember_good();
     StepReport report;
     // The last step is not cut to the end time: the density source goes with 1/dt^2, and a tiny step would kick the
     // water.
@@ -186,7 +199,7 @@ class Run {
     const std::size_t outside = count_outside<Dim>(box_around(flow_.boundary), flow_);
     warn_if_outside(outside);
     statistics_.add(report, measures, outside);
-    step_log_.write(flow_.time, flow_.step, report, measures);
+    if (step_log_) step_log_->write(flow_.time, flow_.step, report, measures);
     record_probes(measures);
     progress_.show(flow_.time, flow_.step, report, measures);
   }
@@ -199,10 +212,15 @@ class Run {
   void require_sound_step(double dt) {
     const double reference_step = flow_.time_step_rule.largest(0.0, 0.0);
     if (!std::isfinite(reference_step) || dt >= collapsed_step * reference_step) return;
-    const std::size_t i = fastest_particle(flow_.particles);
-    fail(i, fmt::format("the time step collapsed to {:.3g} s: particle {} at {} moves at {:.4g} m/s", dt,
-                        flow_.particles.id[i], place<Dim>(flow_.particles.position[i]),
-                        flow_.particles.velocity[i].norm()));
+    const double speed = largest_speed(flow_);
+    std::optional<std::size_t> culprit;
+    if (flow_.particles.owned > 0) culprit = fastest_particle(flow_.particles);
+    if (culprit && flow_.particles.velocity[*culprit].norm() < speed) culprit.reset();
+    blame(culprit, [&](std::size_t i) {
+      return fmt::format("the time step collapsed to {:.3g} s: particle {} at {} moves at {:.4g} m/s", dt,
+                         flow_.particles.id[i], place<Dim>(flow_.particles.position[i]),
+                         flow_.particles.velocity[i].norm());
+    });
   }
 
   /// Does a part of the solution. A particle that is not finite is told before what followed from it.
@@ -212,23 +230,36 @@ class Run {
     try {
       work();
     } catch (const SolverError& error) {
-      failure = error.what();
+      failure = error.what();  // on all ranks: what throws is collective
     }
-    if (const auto i = find_non_finite(flow_)) {
-      fail(i, fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.particles.id[*i],
-                          place<Dim>(last_good_.position[*i])));
+    const std::optional<std::size_t> culprit = find_non_finite(flow_);
+    if (ranks_.any(culprit.has_value())) {
+      blame(culprit, [&](std::size_t i) {
+        return fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.particles.id[i],
+                           place<Dim>(last_good_.position[i]));
+      });
     }
-    if (!failure.empty()) fail(std::nullopt, failure);
+    if (!failure.empty()) fail(failure, std::nullopt);
   }
 
-  /// `culprit`: the particle that went wrong, if one is known; the run's instability is then named as the cause.
-  [[noreturn]] void fail(std::optional<std::size_t> culprit, const std::string& reason) {
-    std::string message = fmt::format("step {} from t = {:.6g} s failed: {}", flow_.step, last_good_time_, reason);
-    if (culprit) {
-      message +=
-          ". The run has become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or "
-          "scheme.formulation = \"robust\"";
-    }
+  /// Ends the run for the particle that went wrong, on the first rank that has one: `describe` says what did. The run's
+  /// instability is named as the cause.
+  template <class Describe>
+  [[noreturn]] void blame(std::optional<std::size_t> culprit, const Describe& describe) {
+    const int rank = ranks_.least(culprit ? ranks_.rank() : ranks_.size());
+    const bool is_here = rank == ranks_.rank();
+    if (!is_here) culprit.reset();
+    const std::string reason = ranks_.broadcast(is_here ? describe(*culprit) : std::string(), rank);
+    fail(reason +
+             ". The run has become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or "
+             "scheme.formulation = \"robust\"",
+         culprit);
+  }
+
+  /// `culprit`: on the rank that has it.
+  [[noreturn]] void fail(const std::string& reason, std::optional<std::size_t> culprit) {
+    const std::string message =
+        fmt::format("step {} from t = {:.6g} s failed: {}", flow_.step, last_good_time_, reason);
     write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
     flow_.particles = last_good_;
     flow_.time = last_good_time_;
@@ -237,7 +268,7 @@ class Run {
   }
 
   void warn_if_outside(std::size_t outside) {
-    if (outside == 0 || warned_outside_ || options_.quiet) return;
+    if (outside == 0 || warned_outside_ || !tells_) return;
     warned_outside_ = true;
     progress_.finish();
     fmt::print(stderr,
@@ -250,10 +281,9 @@ class Run {
     if (last_fields_time_ == flow_.time && series_.size() > 0) return;
     last_fields_time_ = flow_.time;
     const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
-    series_.write(flow_.time, fields.view());
+    series_.write(flow_.time, fields.view(), ranks_);
     if (!flow_.wall_motion.moving().empty()) {
-      const WallFields<Dim> walls(flow_.boundary);
-      wall_series_.write(flow_.time, walls.view());
+      do_on_root(ranks_, [&] { wall_series_.write(flow_.time, WallFields<Dim>(flow_.boundary).view()); });
     }
   }
 
@@ -271,7 +301,8 @@ class Run {
                                .potential_energy = measures.potential_energy,
                                .density_error_mean = measures.density_error_mean,
                                .density_error_rms = measures.density_error_rms,
-                               .volume_out = measures.departed.volume}});
+                               .volume_out = measures.departed.volume},
+                    .ranks = ranks_});
   }
 
   Water water_out() const {
@@ -289,49 +320,57 @@ class Run {
                          {"energy_J", end.departed.energy}});
     }
     return {{"start", water_at_start_.json()},
-            {"inside", water_in(flow_.particles).json()},
+            {"inside", water_in(flow_).json()},
             {"out", water_out().json()},
             {"outlets", outlets}};
   }
 
   void print_water_balance() const {
-    if (flow_.open_ends.empty() || options_.quiet) return;
-    fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(),
-               water_in(flow_.particles).text(), water_out().text());
+    if (flow_.open_ends.empty()) return;
+    const Water inside = water_in(flow_);
+    if (!tells_) return;
+    fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(), inside.text(),
+               water_out().text());
   }
 
   void write_summary(const std::string& status, ExitCode code, const std::string& message) {
     const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double cpu = cpu_seconds() - cpu_start_;
-    const auto fluid = static_cast<std::size_t>(water_in(flow_.particles).particles);
+    const double cpu = ranks_.sum(cpu_seconds() - cpu_start_);
+    const double memory = ranks_.sum(peak_memory_bytes());
+    const auto fluid = static_cast<std::size_t>(water_in(flow_).particles);
+    const std::size_t all = ranks_.sum(flow_.particles.owned);
     nlohmann::ordered_json summary = {{"title", spec_.general.title},
                                       {"case", options_.case_file.string()},
                                       {"status", status},
                                       {"exit_code", static_cast<int>(code)},
                                       {"message", message},
                                       {"spacing_m", spec_.particles.spacing},
-                                      {"particles", {{"fluid", fluid}, {"wall", flow_.particles.owned - fluid}}},
+                                      {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
                                       {"time_s", {{"end", spec_.time.end}, {"reached", flow_.time}}},
                                       {"cost",
                                        {{"wall_clock_s", wall_seconds},
                                         {"cpu_s", cpu},
                                         {"cpu_s_per_simulated_s", flow_.time > 0.0 ? cpu / flow_.time : 0.0},
-                                        {"peak_memory_bytes", peak_memory_bytes()}}}};
+                                        {"peak_memory_bytes", memory}}},
+                                      {"ranks", rank_log_.json()}};
     summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
     summary["water_balance"] = water_balance();
     summary.update(provenance());
-    write_text_file(folder_.summary(), summary.dump(2) + "\n");
+    if (ranks_.is_root()) write_text_file(folder_.summary(), summary.dump(2) + "\n");
   }
 
   const CaseSpec& spec_;
   const RunOptions& options_;
+  Communicator ranks_;
+  bool tells_;  ///< speaks to the user: the root, unless it shall be quiet
   Flow<Dim> flow_;
   Water water_at_start_;
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
-  PvdSeries wall_series_;  ///< only when a wall moves
-  StepLog step_log_;
+  PvdSeries wall_series_;            ///< only when a wall moves
+  std::optional<StepLog> step_log_;  ///< on the root
+  RankLog rank_log_;
   ProbeSet<Dim> probes_;
   Progress progress_;
   RunStatistics statistics_;
@@ -371,9 +410,9 @@ void require_sound_geometry(const CaseSpec& spec, bool quiet) {
   }
 }
 
-ExitCode run_case(const CaseSpec& spec, const RunOptions& options) {
-  require_sound_geometry(spec, options.quiet);
-  return spec.general.dimension == 2 ? Run<2>(spec, options).execute() : Run<3>(spec, options).execute();
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks) {
+  require_sound_geometry(spec, options.quiet || !ranks.is_root());
+  return spec.general.dimension == 2 ? Run<2>(spec, options, ranks).execute() : Run<3>(spec, options, ranks).execute();
 }
 
 }  // namespace tailwater

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "case/spec.h"
 #include "io/run_folder.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 
@@ -21,9 +22,9 @@ struct RunOptions {
 /// Throws InputError with all errors found.
 void require_sound_geometry(const CaseSpec& spec, bool quiet);
 
-/// Runs the case to its end, or until it is interrupted. Returns done or interrupted. Throws InputError and IoError
-/// before anything is written, SolverError when a step fails; summary.json then says so, and failure/ holds the last
-/// good fields.
-ExitCode run_case(const CaseSpec& spec, const RunOptions& options);
+/// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
+/// InputError and IoError before anything is written, SolverError when a step fails; summary.json then says so, and
+/// failure/ holds the last good fields. An IoError of later is thrown only on the rank that met it.
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {});
 
 }  // namespace tailwater

@@ -19,7 +19,10 @@ StepReport take_step(Flow<Dim>& flow, double dt) {
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   hold_open_ends(flow, dt);
-  const StepReport report = take_step(flow, dt);
+  StepReport report = take_step(flow, dt);
+  Interventions& counts = report.interventions;
+  flow.ranks.sum_each(report.density_work, counts.put_back, counts.capped_shifts, counts.clamped_pressures,
+                      counts.fallback_rows);
   flow.time += dt;
   ++flow.step;
   return report;

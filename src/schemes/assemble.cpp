@@ -126,15 +126,14 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
     row.finish(1.0, flow.open_ends[flow.end_of[i]].pressure_at(flow.particles.position[i], flow.density));
     return false;
   }
-  const bool has_air = flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
   const bool is_dry = !flow.takes_part[i];  // a wall
-  if (is_dry || (!has_air && flow.is_surface[i] && !flow.is_closed)) {
+  if (is_dry || (!has_air(flow) && flow.is_surface[i] && !flow.is_closed)) {
     row.finish_as_zero();
     return false;
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const double air = has_air ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
+  const double air = has_air(flow) ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
@@ -201,25 +200,11 @@ void assemble_pressure_row(Flow<Dim>& flow, std::size_t i) {
   row.finish(sum, -flow.density * (flow.gravity - flow.wall_acceleration[wall_row]).dot(normal));  // (F39)
 }
 
-/// Each row couples its neighbours; a ghost's unknown is its owner's.
-template <int Dim>
-void set_pattern(Flow<Dim>& flow) {
-  const Pairs<Dim>& pairs = flow.pairs();
-  const Halo<Dim>& halo = flow.neighbourhood.halo();
-  if (halo.source.empty()) {
-    flow.pressure_system.set_pattern(pairs.row_begin, pairs.j);
-    return;
-  }
-  std::vector<std::int32_t> columns(pairs.j.size());
-  for_each(columns.size(), [&](std::size_t k) { columns[k] = halo.owner(pairs.j[k]); });
-  flow.pressure_system.set_pattern(pairs.row_begin, columns);
-}
-
 }  // namespace
 
 template <int Dim>
 void assemble_weights(Flow<Dim>& flow, Interventions& interventions) {
-  set_pattern(flow);
+  flow.pressure_system.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.neighbourhood.halo().plan);
   interventions.fallback_rows += count_each(flow.particles.owned, [&](std::size_t i) {
     if (flow.has_equation(i)) return assemble_equation(flow, i);
     switch (flow.walls.treatment) {

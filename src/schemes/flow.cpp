@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/from_spec.h"
 #include "operators/laplacian_shao_lo.h"
@@ -80,6 +81,16 @@ Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallPartic
   return particles;
 }
 
+/// Leaves each rank an equal number of the particles that all have made.
+template <int Dim>
+void keep_any_share(const Communicator& ranks, Neighbourhood<Dim>& neighbourhood, Particles<Dim>& particles) {
+  if (ranks.is_alone()) return;
+  const auto begin_of = [&](int rank) { return static_cast<std::int32_t>(particles.owned * rank / ranks.size()); };
+  std::vector<std::int32_t> kept(begin_of(ranks.rank() + 1) - begin_of(ranks.rank()));
+  std::iota(kept.begin(), kept.end(), begin_of(ranks.rank()));
+  neighbourhood.keep(particles, kept);
+}
+
 /// Height of the fluid along gravity [m]; its largest extent where there is no gravity.
 template <int Dim>
 double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
@@ -112,21 +123,26 @@ Interventions& Interventions::operator+=(const Interventions& other) {
 }
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec)
-    : scheme(spec.scheme),
+Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& all_ranks)
+    : ranks(all_ranks),
+      scheme(spec.scheme),
       density(spec.physics.density),
       spacing(spec.particles.spacing),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
       boundary(make_filed_boundary<Dim>(spec)),
       walls(make_wall_model(spec, boundary)),
       wall_motion(spec, boundary, walls.particles),
+      decomposition(ranks, spec.parallel),
       neighbourhood(make_kernel<Dim>(spec.scheme.kernel, spec.scheme.support * spacing), spacing,
                     skin_over_spacing * spacing,
                     walls.treatment == WallTreatment::dummies ? WallRows::fluid_only : WallRows::all,
-                    periodic_domain<Dim>(spec.domain)),
-      pressure_system(spec.pressure_solver) {
+                    periodic_domain<Dim>(spec.domain), ranks),
+      pressure_system(spec.pressure_solver, ranks) {
   const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
   particles = make_particles(fluid, walls.particles, power<Dim>(spacing));
+  keep_any_share(ranks, neighbourhood, particles);
+  decomposition.share_out(particles, neighbourhood.work(particles));
+  end_of.assign(particles.owned, -1);
   wall_acceleration.assign(walls.particles.size(), Vec<Dim>::Zero());
   wall_motion.get_velocity(0.0, walls.velocity);
   length = scheme.length > 0.0 ? scheme.length : fluid_height(fluid, gravity, spacing);
@@ -134,8 +150,6 @@ Flow<Dim>::Flow(const CaseSpec& spec)
   for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
     open_ends.emplace_back(outlet, gravity, spacing, scheme.support * spacing);
   }
-  end_of.assign(particles.owned, -1);
-
   const Kernel<Dim>& kernel = neighbourhood.kernel();
   lattice = lattice_sums(kernel, spacing);
   air_law = AirLaw(kernel, spacing);
@@ -185,6 +199,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.particles;
   double error_sum = 0.0;
   double error_squares = 0.0;
+  std::int64_t bulk_particles = 0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     measures.largest_speed = std::max(measures.largest_speed, particles.velocity[i].squaredNorm());
@@ -195,12 +210,14 @@ FlowMeasures measure(const Flow<Dim>& flow) {
       error_sum += error;
       error_squares += error * error;
       measures.density_error_largest = std::max(measures.density_error_largest, std::abs(error));
-      ++measures.bulk_particles;
+      ++bulk_particles;
     }
   }
+  flow.ranks.sum_each(measures.kinetic_energy, measures.potential_energy, error_sum, error_squares, bulk_particles);
+  flow.ranks.largest_each(measures.largest_speed, measures.density_error_largest);
   measures.largest_speed = std::sqrt(measures.largest_speed);
-  if (measures.bulk_particles > 0) {
-    const auto count = static_cast<double>(measures.bulk_particles);
+  if (bulk_particles > 0) {
+    const auto count = static_cast<double>(bulk_particles);
     measures.density_error_mean = error_sum / count;
     measures.density_error_rms = std::sqrt(error_squares / count);
   }

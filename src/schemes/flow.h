@@ -15,6 +15,7 @@
 #include "geometry/boundary.h"
 #include "geometry/wall_motion.h"
 #include "linear/pressure_system.h"
+#include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/lattice.h"
 #include "operators/renormalisation.h"
@@ -49,10 +50,12 @@ struct StepReport {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles of a case, its walls and the empty work fields. Throws InputError for an impossible geometry.
-  explicit Flow(const CaseSpec& spec);
+  /// Builds the particles of a case, its walls and the empty work fields; of several ranks each keeps its share of the
+  /// particles, and all have all walls' faces. Collective. Throws InputError for an impossible geometry.
+  explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
 
   // What does not change.
+  Communicator ranks;
   SchemeTable scheme;
   double density;          ///< kg/m^3
   double spacing;          ///< m
@@ -78,6 +81,7 @@ struct Flow {
   std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
   // Tools that keep memory between steps.
+  Decomposition<Dim> decomposition;
   Neighbourhood<Dim> neighbourhood;
   PressureSystem pressure_system;
 
@@ -153,10 +157,10 @@ struct FlowMeasures {
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
-  std::size_t bulk_particles = 0;
   Departed departed;  ///< through all outlets since the start
 };
 
+/// Collective.
 template <int Dim>
 FlowMeasures measure(const Flow<Dim>& flow);
 

@@ -18,14 +18,15 @@ void relax(double factor, const std::vector<Value>& before, std::vector<Value>& 
   for_each(before.size(), [&](std::size_t i) { field[i] = before[i] + factor * (field[i] - before[i]); });
 }
 
-/// rms of the difference over the rms of `field`, owned entries.
-double relative_change(const std::vector<double>& before, const std::vector<double>& field) {
+/// rms of the difference over the rms of `field`, owned entries of all ranks.
+double relative_change(const Communicator& ranks, const std::vector<double>& before, const std::vector<double>& field) {
   double difference = 0.0;
   double size = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     difference += (field[i] - before[i]) * (field[i] - before[i]);
     size += field[i] * field[i];
   }
+  ranks.sum_each(difference, size);
   return size > 0.0 ? std::sqrt(difference / size) : 0.0;
 }
 
@@ -69,7 +70,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
     report.density_work = density_source_work(flow, dt);
     report.divergence_old = bulk_divergence(flow);
 
-    report.pressure_change = relative_change(pressure_before, particles.pressure);
+    report.pressure_change = relative_change(flow.ranks, pressure_before, particles.pressure);
     relax(flow.scheme.relax_pressure, pressure_before, particles.pressure);
     relax(flow.scheme.relax_velocity, velocity_before, particles.velocity);
     move(flow, dt, report.interventions);  // (F25)

@@ -42,9 +42,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
     flow.concentration[i] = sum / flow.lattice.concentration;
     if (is_fluid) flow.concentration_gradient[i] = gradient;
   });
-  halo.exchange(flow.is_wet);
-  halo.exchange(flow.takes_part);
-  halo.exchange(flow.concentration);
+  halo.exchange(flow.is_wet, flow.takes_part, flow.concentration);
   if (flow.uses_tensors()) {
     compute_renormalisation<Dim>(pairs, particles.volume, flow.takes_part, flow.tensors);
   }

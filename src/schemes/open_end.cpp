@@ -46,7 +46,8 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Particles<Dim>& particles) {
 /// Brings the flow before the end stretch up to date and returns by how much its speed changed, m/s.
 template <int Dim>
 double read_flow(OpenEnd<Dim>& end, const Flow<Dim>& flow, double dt) {
-  const Reading reading = read_gauge(end, flow.particles);
+  Reading reading = read_gauge(end, flow.particles);
+  flow.ranks.sum_each(reading.volume, reading.flux, reading.push);
   const double depth = reading.volume / (end.gauge * end.width);
   const bool was_wet = end.is_wet;
   end.is_wet = depth > least_depth_over_spacing * flow.spacing;
@@ -133,6 +134,7 @@ bool let_go(Flow<Dim>& flow) {
   if (flow.open_ends.empty()) return false;
   const Particles<Dim>& particles = flow.particles;
   std::vector<std::int32_t> kept;
+  std::vector<Departed> departed(flow.open_ends.size());
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const auto end = std::find_if(flow.open_ends.begin(), flow.open_ends.end(), [&](const OpenEnd<Dim>& e) {
       return particles.is_fluid(i) && e.outlet.is_passed_by(particles.position[i]);
@@ -141,9 +143,12 @@ bool let_go(Flow<Dim>& flow) {
       kept.push_back(static_cast<std::int32_t>(i));
       continue;
     }
-    ++end->departed.particles;
-    end->departed.volume += particles.volume[i];
-    end->departed.energy += flow.kinetic_energy_of(i) + flow.potential_energy_of(i);
+    departed[end - flow.open_ends.begin()] +=
+        {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+  }
+  for (std::size_t e = 0; e < departed.size(); ++e) {
+    flow.ranks.sum_each(departed[e].particles, departed[e].volume, departed[e].energy);
+    flow.open_ends[e].departed += departed[e];
   }
   if (kept.size() == particles.owned) return false;
   flow.neighbourhood.keep(flow.particles, kept);

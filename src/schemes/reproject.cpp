@@ -29,10 +29,11 @@ struct Correction {
   }
 };
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+/// Over owned entries, of which alone sources have any but 0.
+double dot(const Communicator& ranks, const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return ranks.sum(sum);
 }
 
 /// Velocity and source of `correction` from its pressure.
@@ -109,11 +110,11 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     }
     admit(flow, next.pressure);
     follow(flow, dt, walls_at_rest, next);
-    const double last_square = dot(last.source, last.source);
-    if (last_square > 0.0) add(-dot(next.source, last.source) / last_square, last, next);
-    const double square = dot(next.source, next.source);
+    const double last_square = dot(flow.ranks, last.source, last.source);
+    if (last_square > 0.0) add(-dot(flow.ranks, next.source, last.source) / last_square, last, next);
+    const double square = dot(flow.ranks, next.source, next.source);
     if (square == 0.0) break;  // nothing is left
-    const double length = dot(source, next.source) / square;
+    const double length = dot(flow.ranks, source, next.source) / square;
     for_each(particles.owned, [&](std::size_t i) {
       source[i] -= length * next.source[i];
       if (!particles.is_fluid(i)) return;

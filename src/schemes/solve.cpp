@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "schemes/verbs.h"
@@ -6,9 +7,6 @@
 
 namespace tailwater {
 namespace {
-
-/// The first solve only tells where water near the surface would pull.
-constexpr double rough_tolerance = 1e-2;
 
 /// Whether particle i, near the surface, pulls although the equation does not limit it.
 template <int Dim>
@@ -72,6 +70,8 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   flow.is_held.assign(flow.particles.owned, 0);
   int rough_iterations = 0;
   if (has_air(flow)) {
+    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
+    const double rough_tolerance = std::sqrt(system.tolerance());
     rough_iterations = system.solve(pressure, rough_tolerance).iterations;
     hold_suction(flow);
   }

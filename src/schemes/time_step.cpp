@@ -18,7 +18,7 @@ double largest_speed(const Flow<Dim>& flow) {
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
     if (flow.particles.is_fluid(i)) squared = std::max(squared, flow.particles.velocity[i].squaredNorm());
   }
-  return std::sqrt(squared);
+  return std::sqrt(flow.ranks.largest(squared));
 }
 
 template <int Dim>

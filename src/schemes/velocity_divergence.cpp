@@ -12,16 +12,17 @@ namespace tailwater {
 
 namespace {
 
-/// rms over bulk fluid particles.
+/// rms over bulk fluid particles of all ranks.
 template <int Dim>
 double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   double squares = 0.0;
-  std::size_t count = 0;
+  std::int64_t count = 0;
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (!flow.is_inside(i)) continue;
     squares += field[i] * field[i];
     ++count;
   }
+  flow.ranks.sum_each(squares, count);
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
 }
 

@@ -1,5 +1,6 @@
 // The verbs of a step, shared by the schemes: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). Each does one
-// thing to the flow; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp say in which order.
+// thing to the flow; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp say in which order. On several
+// ranks all call them together; what they return is the same on all.
 //
 // Gravity: the papers' predictors hold dt g, here u_star does not unless the walls are a row with dummies. A uniform
 // vector has no divergence and the other wall rows ask for grad p . n = rho g . n, so the pressure is the same; the
@@ -45,10 +46,15 @@ WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);
 
-/// Takes out and books the particles that have passed an outlet. Returns whether there were any; then indices have
-/// changed and lists are gone. Call between steps only.
+/// Takes out and books the particles that have passed an outlet. Returns whether this rank had any; then its indices
+/// have changed and its lists are gone. Call between steps only.
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
+
+/// Hands particles to the ranks that own their places, which are chosen anew when work is shared too unevenly, and
+/// sorts those of each rank for the cache: indices change. Call between steps only.
+template <int Dim>
+Sharing share_out(Flow<Dim>& flow);
 
 /// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the
 /// present positions.

@@ -18,8 +18,7 @@ void update_wall_velocity(Flow<Dim>& flow, const std::vector<Vec<Dim>>& V, std::
   flow.neighbourhood.halo().exchange(velocity);
   set_wall_velocity<Dim>(flow.pairs(), flow.particles, flow.walls, flow.wall_fluid_weight, flow.is_wet, V,
                          flow.wall_mean, velocity);
-  flow.neighbourhood.halo().exchange(flow.wall_mean);
-  flow.neighbourhood.halo().exchange(velocity);
+  flow.neighbourhood.halo().exchange(flow.wall_mean, velocity);
 }
 
 /// What wall particle i's pressure exceeds that of its fluid neighbour f of pair k by: rho (g - a) . r_wf, hydrostatic

@@ -17,6 +17,7 @@ class BadInput(NamedTuple):
 
 FLOOR = 'points = [[0, 2], [0, 0], [3, 0], [3, 2]]'
 COLUMN = "max = [1, 0.5]"
+GATE = '[[wall]]\nname = "gate"\nshape = "box"\nfluid_side = "outside"\nmin = [1, 0]\nmax = [1.4, 1]\n'
 SECOND_COLUMN = '\n[[fluid]]\nname = "second"\n'
 TABLE = (
     BadInput("misspelt key", ("case.toml:4:11", "particles.spcing", 'did you mean "spacing"?'),
@@ -63,6 +64,15 @@ TABLE = (
     BadInput("wall of one point", ("points",), (FLOOR, "points = [[0, 0]]")),
     BadInput("wall that crosses itself", ("wall 'tank'", "crosses itself at (1.5, 1)"),
              (FLOOR, 'shape = "polygon"\nfluid_side = "inside"\npoints = [[0, 0], [3, 2], [3, 0], [0, 2], [-1, 1]]')),
+    BadInput("crest higher than the channel", ("wall 'tank'", "crest at (2, 2.5)", "0.5 m"),
+             (FLOOR, "points = [[0, 2], [0, 0], [1.5, 0], [2, 2.5], [2.5, 0], [3, 0], [3, 2]]")),
+    BadInput("gate through the floor", ("wall 'gate' crosses wall 'tank'", "at t = ", "(1"),
+             ("[time]", GATE + 'displacement = [0, "-t"]\n[time]')),
+    BadInput("gate that closes on the water", ("wall 'gate' comes nearer than a spacing", "at t = ", "crushed"),
+             ("[time]", GATE + 'displacement = [0, "10*min(t, max(0.06 - t, 0))"]\n[time]')),
+    BadInput("lid that crushes the water", ("wall 'lid' crushes the water at t = ", "0.5 m^2 of water"),
+             (FLOOR + "\n", 'points = [[0, 2], [0, 0], [1, 0], [1, 2]]\n[[wall]]\nname = "lid"\nshape = "box"\n'
+              'fluid_side = "outside"\nmin = [0, 0.6]\nmax = [1, 1]\ndisplacement = [0, "-4*t"]\n')),
     BadInput("outlet in a wall", ("outlet 'end' overlaps wall 'tank' at (3, ",),
              ("[time]", '[[outlet]]\nname = "end"\nfrom = [3, 0]\nto = [3, 2]\n[time]')),
     BadInput("outlet in the water", ("outlet 'end' cuts through fluid 'column'", "at (0.65, 0.05)"),

@@ -42,7 +42,6 @@ class CommandLine(ProgramTest):
             (("new", "dambreak", "my.toml"), ("dambreak", "dam-break", "tank", "tailwater new --help")),
             (("run",), ("--out", "tailwater run my.toml --out my_run")),
             (("run", "small.toml"), ("--out", "tailwater run my.toml --out my_run")),
-            (("run", "small.toml", "--out", "run", "-n", "2"), ("-n 2", "one rank", "leave -n out")),
             (("run", "small.toml", "--out", "run", "-n", "two"), ("-n", "two")),
             (("run", "--help-case=html"), ("html", "text", "markdown")),
         ):

@@ -125,6 +125,15 @@ TYPED_TEST(FreeSurfaceTest, WallsAreNeverMarkedAndCoverTheSurface) {
   }
 }
 
+TYPED_TEST(FreeSurfaceTest, AClumpAsDenseAsWaterIsSurface) {
+  constexpr int Dim = TypeParam::value;
+  // Seven particles almost in one place: W_0 w/C_0 is 0.32 in 2D and 0.18 in 3D.
+  std::vector<Vec<Dim>> clump;
+  for (int k = 0; k < 7; ++k) clump.push_back(0.01 * k * dx * Vec<Dim>::UnitX());
+  const Marks<Dim> marks(SurfaceTreatment::density, fluid_at<Dim>(clump, dx), {});
+  for (std::size_t i = 0; i < clump.size(); ++i) EXPECT_TRUE(marks.is_surface[i]);
+}
+
 TYPED_TEST(FreeSurfaceTest, SprayIsSurface) {
   constexpr int Dim = TypeParam::value;
   for (const SurfaceTreatment test : tests_for<Dim>()) {

@@ -85,7 +85,7 @@ TEST(VtpWriter, ReportsAFolderThatDoesNotExist) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing" / "fields.vtp";
   const EncodedPiece piece = encode_piece<2>({}, 0);
-  const std::string message = message_of<IoError>([&] { write_vtp(path, 0.0, {&piece, 1}, 0); });
+  const std::string message = message_of<IoError>([&] { write_vtp(path, 0.0, piece, 0); });
   EXPECT_NE(message.find(path.string()), std::string::npos) << message;
 }
 

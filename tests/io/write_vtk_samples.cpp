@@ -1,16 +1,21 @@
 // Writes field files of known content into the folder named on the command line, and beside each file what is in it as
-// NAME.csv, for read_back.py to compare.
+// NAME.csv, for read_back.py to compare. On three ranks each file is written by all of them.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <vector>
 
 #include "base/fp_traps.h"
 #include "io/csv_writer.h"
 #include "io/pvd_series.h"
 #include "io/vtp_writer.h"
+#include "io/write_file.h"
+#include "linear/session.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 namespace {
@@ -47,52 +52,61 @@ struct Sample {
   }
 };
 
-/// One file of pieces with `counts` particles each, and its contents as text.
+/// The particles' values as a table.
 template <int Dim>
-void write_sample(const std::filesystem::path& folder, const std::vector<std::size_t>& counts, int compression) {
-  std::string name = fmt::format("{}d_{}_level{}", Dim, fmt::join(counts, "+"), compression);
-  CsvWriter csv(folder / (name + ".csv"), {"x", "y", "z", "pressure", "u", "v", "w", "id"});
-  std::vector<EncodedPiece> pieces;
-  std::size_t first = 0;
-  for (const std::size_t count : counts) {
-    const Sample<Dim> sample(count, first);
-    pieces.push_back(encode_piece(sample.fields(), compression));
-    for (std::size_t i = 0; i < count; ++i) {
-      std::array<double, 8> row{};
-      for (int d = 0; d < Dim; ++d) {
-        row[d] = sample.position[i][d];
-        row[4 + d] = sample.velocity[i][d];
-      }
-      row[3] = sample.pressure[i];
-      row[7] = static_cast<double>(sample.id[i]);
-      csv.write(row);
+void write_table(const std::filesystem::path& path, const Sample<Dim>& sample) {
+  CsvWriter csv(path, {"x", "y", "z", "pressure", "u", "v", "w", "id"});
+  for (std::size_t i = 0; i < sample.id.size(); ++i) {
+    std::array<double, 8> row{};
+    for (int d = 0; d < Dim; ++d) {
+      row[d] = sample.position[i][d];
+      row[4 + d] = sample.velocity[i][d];
     }
-    first += count;
+    row[3] = sample.pressure[i];
+    row[7] = static_cast<double>(sample.id[i]);
+    csv.write(row);
   }
-  write_vtp(folder / (name + ".vtp"), 0.1 + 0.2, pieces, compression);
+}
+
+/// One file to which rank r gives `counts[r]` particles, and its contents as text.
+template <int Dim>
+void write_sample(const std::filesystem::path& folder, const std::vector<std::size_t>& counts, int compression,
+                  const Communicator& ranks) {
+  const std::string name = fmt::format("{}d_{}_level{}", Dim, fmt::join(counts, "+"), compression);
+  const std::size_t before = std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::size_t{0});
+  const Sample<Dim> own(counts[ranks.rank()], before);
+  write_vtp(folder / (name + ".vtp"), 0.1 + 0.2, encode_piece(own.fields(), compression), compression, ranks);
+  if (!ranks.is_root()) return;
+  write_table(folder / (name + ".csv"), Sample<Dim>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), 0));
+}
+
+/// Particles per rank. One rank: none; one; exactly one 32 KiB block of Int64; many blocks. Three: none; an empty rank
+/// at each end and in the middle.
+std::vector<std::vector<std::size_t>> samples(int ranks) {
+  if (ranks == 1) return {{0}, {1}, {4096}, {30000}};
+  return {{0, 0, 0}, {0, 1, 0}, {5000, 0, 7000}, {4096, 30000, 10}};
 }
 
 template <int Dim>
-void write_samples(const std::filesystem::path& folder) {
+void write_samples(const std::filesystem::path& folder, const Communicator& ranks) {
   for (const int compression : {0, 1, 9}) {
-    // None; one; exactly one 32 KiB block of Int64; many blocks; pieces as from several ranks, one of them empty.
-    for (const std::vector<std::size_t>& counts :
-         {std::vector<std::size_t>{0}, {1}, {4096}, {30000}, {5000, 0, 7000}}) {
-      write_sample<Dim>(folder, counts, compression);
+    for (const std::vector<std::size_t>& counts : samples(ranks.size())) {
+      write_sample<Dim>(folder, counts, compression, ranks);
     }
   }
 }
 
-void write_series(const std::filesystem::path& folder) {
+/// Every rank has `count` particles of each file.
+void write_series(const std::filesystem::path& folder, const Communicator& ranks) {
   std::filesystem::create_directory(folder / "series");
   PvdSeries series(folder / "series", "fields", 1);
-  CsvWriter csv(folder / "series.csv", {"time_s", "particles"});
+  std::string table = "time_s,particles\n";
   for (const std::size_t count : {10, 20, 0, 30}) {
     const double time = static_cast<double>(series.size()) / 3.0;
-    const Sample<2> sample(count, 0);
-    series.write(time, sample.fields());
-    csv.write(std::array{time, static_cast<double>(count)});
+    series.write(time, Sample<2>(count, 0).fields(), ranks);
+    table += fmt::format("{},{}\n", time, count * ranks.size());
   }
+  if (ranks.is_root()) write_text_file(folder / "series.csv", table);
 }
 
 }  // namespace
@@ -103,9 +117,11 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: {} FOLDER\n", argv[0]);
     return 2;
   }
+  const tailwater::LinearSession session;
+  const tailwater::Communicator ranks = tailwater::Communicator::world();
   tailwater::enable_fp_traps();
   const std::filesystem::path folder = argv[1];
-  tailwater::write_samples<2>(folder);
-  tailwater::write_samples<3>(folder);
-  tailwater::write_series(folder);
+  tailwater::write_samples<2>(folder, ranks);
+  tailwater::write_samples<3>(folder, ranks);
+  tailwater::write_series(folder, ranks);
 }

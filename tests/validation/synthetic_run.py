@@ -6,15 +6,18 @@ PYTHONPATH=validation /usr/bin/python3 tests/validation/synthetic_run.py DIR SPA
 
 import json
 import sys
+import tempfile
+import unittest
 from pathlib import Path
 
+import matplotlib.image
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from tailwater_validation import zhou1999
+from tailwater_validation import compare, zhou1999
 
 SAMPLING = 0.001  # s
 ARRIVAL = 0.59  # s: before the window in which noise is scored
@@ -41,6 +44,7 @@ SUMMARY = {
     "steps": {"count": 1600, "dt_mean_s": 0.00125},
     "cost": {"cpu_s": 60.0, "cpu_s_per_simulated_s": 30.0},
     "energy": {"start_J": 2000.0, "end_J": 1800.0, "largest_rise_over_start": 2e-4},
+    "water_balance": {"start": {"particles": 3200, "volume_m3": 0.72}},
     "volume": {"density_error_mean": 0.002, "density_error_rms": 0.01, "outside_the_walls_most": 0},
 }
 
@@ -97,6 +101,20 @@ def make_folder(folder, effective_case):
 def write_probe(folder, name, columns):
     np.savetxt(folder / "probes" / f"{name}.csv", np.stack(list(columns.values()), axis=1), delimiter=",",
                header=",".join(columns), comments="")
+
+
+class CaseTest(unittest.TestCase):
+    """A test with a made-up run of a case in self.folder, which is not there yet."""
+
+    def setUp(self):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        self.folder = Path(parent.name) / "run"
+
+    def assert_recognised_and_drawn(self, name, draw):
+        self.assertEqual(compare.recognise(self.folder), name)
+        draw(self.folder, self.folder / "picture.png")
+        self.assertEqual(matplotlib.image.imread(self.folder / "picture.png").shape[1], 11 * 160)
 
 
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):

@@ -1,16 +1,13 @@
 """The laboratory's surfaces and the scores of a made-up run of cases/janosi2004."""
 
-import tempfile
 import tomllib
 import unittest
-from pathlib import Path
 from unittest import mock
 
-import matplotlib.image
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import compare, janosi2004, janosi2004_picture
+from tailwater_validation import janosi2004, janosi2004_picture
 from tailwater_validation.curves import read_table
 
 CASE = janosi2004.DATA.parent / "case.toml"
@@ -81,16 +78,11 @@ class Data(unittest.TestCase):
                                                       for shift in janosi2004.SHIFTS], rtol=1e-9)
 
 
-class Scores(unittest.TestCase):
-    def setUp(self):
-        parent = tempfile.TemporaryDirectory()
-        self.addCleanup(parent.cleanup)
-        self.run = Path(parent.name) / "run"
-
+class Scores(synthetic_run.CaseTest):
     def score(self, **options):
-        write_run(self.run, **options)
+        write_run(self.folder, **options)
         with mock.patch.object(janosi2004, "laboratory", slope):
-            return {metric["name"]: metric for metric in janosi2004.score(self.run)["metrics"]}
+            return {metric["name"]: metric for metric in janosi2004.score(self.folder)["metrics"]}
 
     def test_surfaces_that_are_too_high(self):
         for height, verdict in ((0.003, "met"), (0.005, "missed")):
@@ -103,7 +95,7 @@ class Scores(unittest.TestCase):
                 self.assertAlmostEqual(metrics[f"rms highest {instant:g}"]["value"], 1000 * height + 1, places=9)
                 self.assertEqual(metrics[f"rms {instant:g}"]["verdict"],
                                  verdict if instant >= janosi2004.TARGET_FROM else "")
-            self.run = self.run.with_name("other")
+            self.folder = self.folder.with_name("other")
 
     def test_surfaces_that_come_late(self):
         metrics = self.score(late=0.005)
@@ -114,10 +106,8 @@ class Scores(unittest.TestCase):
             self.assertAlmostEqual(metric["shifted_value"], 0, places=9)
 
     def test_recognised_and_drawn(self):
-        write_run(self.run)
-        self.assertEqual(compare.recognise(self.run), "janosi2004")
-        janosi2004_picture.draw(self.run, self.run / "picture.png")
-        self.assertEqual(matplotlib.image.imread(self.run / "picture.png").shape[1], 11 * 160)
+        write_run(self.folder)
+        self.assert_recognised_and_drawn("janosi2004", janosi2004_picture.draw)
 
 
 if __name__ == "__main__":

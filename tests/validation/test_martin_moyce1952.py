@@ -1,15 +1,12 @@
 """The laboratory's files and the scores of made-up runs of cases/martin_moyce1952."""
 
-import tempfile
 import tomllib
 import unittest
-from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import compare, martin_moyce1952, martin_moyce1952_picture
+from tailwater_validation import martin_moyce1952, martin_moyce1952_picture
 from tailwater_validation.curves import Curve, DataError, read_table
 
 CASE = martin_moyce1952.DATA.parent
@@ -92,15 +89,10 @@ class Speed(unittest.TestCase):
             martin_moyce1952.speed(Curve(T[:2], x[:2]))
 
 
-class Scores(unittest.TestCase):
-    def setUp(self):
-        parent = tempfile.TemporaryDirectory()
-        self.addCleanup(parent.cleanup)
-        self.run = Path(parent.name) / "run"
-
+class Scores(synthetic_run.CaseTest):
     def score(self, **options):
-        write_run(self.run, **options)
-        return {metric["name"]: metric for metric in martin_moyce1952.score(self.run)["metrics"]}
+        write_run(self.folder, **options)
+        return {metric["name"]: metric for metric in martin_moyce1952.score(self.folder)["metrics"]}
 
     def test_a_late_front(self):
         for n2 in (1, 2):
@@ -111,7 +103,7 @@ class Scores(unittest.TestCase):
             self.assertLess(metrics["rms front table"]["shifted_value"], 4 * martin_moyce1952.GRID)
             self.assertGreater(metrics["rms front table"]["value"], 0.1)
             self.assertAlmostEqual(metrics["rms height"]["value"], 0, places=9)
-            self.run = self.run.with_name("other")
+            self.folder = self.folder.with_name("other")
 
     def test_a_fast_front_is_not_mended_by_a_shift(self):
         metrics = self.score(speed_factor=1.3)
@@ -122,17 +114,15 @@ class Scores(unittest.TestCase):
         self.assertEqual(metrics["rms front table"]["verdict"], "missed")
 
     def test_another_column_has_no_data(self):
-        write_run(self.run)
-        effective = self.run / "case.effective.toml"
+        write_run(self.folder)
+        effective = self.folder / "case.effective.toml"
         effective.write_text(effective.read_text().replace("n2 = 1", "n2 = 3"))
         with self.assertRaisesRegex(DataError, "n2 = 1 and 2, not 3"):
-            martin_moyce1952.score(self.run)
+            martin_moyce1952.score(self.folder)
 
     def test_recognised_and_drawn(self):
-        write_run(self.run, n2=2)
-        self.assertEqual(compare.recognise(self.run), "martin_moyce1952")
-        martin_moyce1952_picture.draw(self.run, self.run / "picture.png")
-        self.assertEqual(matplotlib.image.imread(self.run / "picture.png").shape[1], 11 * 160)
+        write_run(self.folder, n2=2)
+        self.assert_recognised_and_drawn("martin_moyce1952", martin_moyce1952_picture.draw)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,12 @@
 """The published points and the scores of a made-up run of cases/ozmen_cagatay2014."""
 
-import tempfile
 import tomllib
 import unittest
-from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import compare, ozmen_cagatay2014, ozmen_cagatay2014_picture
+from tailwater_validation import ozmen_cagatay2014, ozmen_cagatay2014_picture
 
 CASE = ozmen_cagatay2014.DATA.parent / "case.toml"
 H0, GATE, SCALE = ozmen_cagatay2014.DEPTH, ozmen_cagatay2014.GATE, ozmen_cagatay2014.TIME_SCALE
@@ -73,15 +70,10 @@ class Data(unittest.TestCase):
             self.assertEqual(probes[point.gauge]["at"][0], f"reservoir{point.X:+g}*h0")
 
 
-class Scores(unittest.TestCase):
-    def setUp(self):
-        parent = tempfile.TemporaryDirectory()
-        self.addCleanup(parent.cleanup)
-        self.run = Path(parent.name) / "run"
-
+class Scores(synthetic_run.CaseTest):
     def score(self, **options):
-        write_run(self.run, **options)
-        return {metric["name"]: metric for metric in ozmen_cagatay2014.score(self.run)["metrics"]}
+        write_run(self.folder, **options)
+        return {metric["name"]: metric for metric in ozmen_cagatay2014.score(self.folder)["metrics"]}
 
     def test_heights_that_are_wrong_by_a_known_share(self):
         metrics = self.score(factor=1.05)
@@ -97,7 +89,7 @@ class Scores(unittest.TestCase):
             metrics = self.score(factor=1.09, scheme=scheme)
             for kind in ("profile", "gauge"):
                 self.assertEqual(metrics[f"mean error {kind}"]["verdict"], verdict)
-            self.run = self.run.with_name("other")
+            self.folder = self.folder.with_name("other")
 
     def test_a_bore_that_is_late(self):
         metrics = self.score(delay=0.7)
@@ -105,10 +97,8 @@ class Scores(unittest.TestCase):
             self.assertAlmostEqual(metrics[f"bore {gauge}"]["value"], 0.7, places=9)
 
     def test_recognised_and_drawn(self):
-        write_run(self.run)
-        self.assertEqual(compare.recognise(self.run), "ozmen_cagatay2014")
-        ozmen_cagatay2014_picture.draw(self.run, self.run / "picture.png")
-        self.assertEqual(matplotlib.image.imread(self.run / "picture.png").shape[1], 11 * 160)
+        write_run(self.folder)
+        self.assert_recognised_and_drawn("ozmen_cagatay2014", ozmen_cagatay2014_picture.draw)
 
 
 if __name__ == "__main__":

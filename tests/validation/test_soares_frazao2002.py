@@ -1,15 +1,13 @@
 """The scores of a made-up run of cases/soares_frazao2002: fronts and bores that move at known speeds, a flat surface."""
 
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import compare, soares_frazao2002, soares_frazao2002_picture
+from tailwater_validation import soares_frazao2002, soares_frazao2002_picture
 from tailwater_validation.run_folder import RunFolder
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "soares_frazao2002" / "case.toml"
@@ -21,6 +19,7 @@ EFFECTIVE_CASE = """\
 title = "{title}"
 [physics]
 density = 1000.0
+gravity = [0.0, -9.81]
 [particles]
 spacing = {spacing}
 [time]
@@ -64,12 +63,11 @@ def write_run(folder, level=0.07):
     return folder
 
 
-class SoaresFrazao(unittest.TestCase):
+class SoaresFrazao(synthetic_run.CaseTest):
     def setUp(self):
-        parent = tempfile.TemporaryDirectory()
-        self.addCleanup(parent.cleanup)
-        self.run = write_run(Path(parent.name) / "run")
-        self.metrics = {metric["name"]: metric for metric in soares_frazao2002.score(self.run)["metrics"]}
+        super().setUp()
+        write_run(self.folder)
+        self.metrics = {metric["name"]: metric for metric in soares_frazao2002.score(self.folder)["metrics"]}
 
     def test_times_of_front_and_bore(self):
         for name, exact in (("arrival midway", 0.405), ("arrival toe", 0.805), ("arrival crest", 1.03),
@@ -92,15 +90,13 @@ class SoaresFrazao(unittest.TestCase):
                                delta=0.3 * SPACING**2 / particles)
 
     def test_distance_of_two_runs(self):
-        other = RunFolder(write_run(self.run.with_name("other"), level=0.072))
-        for instant, typical, largest in soares_frazao2002.distances(other, RunFolder(self.run)):
+        other = RunFolder(write_run(self.folder.with_name("other"), level=0.072))
+        for instant, typical, largest in soares_frazao2002.distances(other, RunFolder(self.folder)):
             self.assertAlmostEqual(typical, 0.002)
             self.assertAlmostEqual(largest, 0.002)
 
     def test_recognised_and_drawn(self):
-        self.assertEqual(compare.recognise(self.run), "soares_frazao2002")
-        soares_frazao2002_picture.draw(self.run, self.run / "picture.png")
-        self.assertEqual(matplotlib.image.imread(self.run / "picture.png").shape[1], 11 * 160)
+        self.assert_recognised_and_drawn("soares_frazao2002", soares_frazao2002_picture.draw)
 
     def test_the_case_is_the_one_that_is_scored(self):
         with open(CASE, "rb") as file:

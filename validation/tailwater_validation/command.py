@@ -55,6 +55,11 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
+def complain(what, code):
+    print(f"error: {what}", file=sys.stderr)
+    return code
+
+
 def execute(options, choose_groups, score):
     """Makes the runs of the groups that `choose_groups()` returns, then prints what `score(groups, program, options)`
     returns. The exit code: 0 whatever the verdicts are; 2 for bad input, also if the program refuses every run; 4 if a
@@ -73,11 +78,11 @@ def execute(options, choose_groups, score):
         (options.out / "runs").mkdir(parents=True, exist_ok=True)
         if options.settings:
             require_accepted(runs[0], program, options.out)
-    except (DataError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2 if isinstance(error, DataError) else 4
-    print(f"{len(groups)} groups, {len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all",
-          file=sys.stderr)
+    except DataError as error:
+        return complain(error, 2)
+    except OSError as error:
+        return complain(f"{error.filename}: {error.strerror}", 4)
+    print(f"{len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all", file=sys.stderr)
     try:
         make(runs, program, options.out, options.jobs)
     except KeyboardInterrupt:
@@ -85,12 +90,9 @@ def execute(options, choose_groups, score):
         return INTERRUPTED
     ends = [outcome(options.out / "runs" / run.name) for run in runs]
     if all(end["exit_code"] == 2 for end in ends):
-        print(f"error: every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}",
-              file=sys.stderr)
-        return 2
+        return complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
     try:
         print(score(groups, program, options))
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(f"{error.filename}: {error.strerror}", 4)
     return 0

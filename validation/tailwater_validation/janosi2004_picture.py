@@ -7,7 +7,7 @@ from .picture import BAR_GAP, LEFT, ORANGE, Page, draw_particles, save_page
 from .run_folder import RunFolder
 
 VIEW = ((0.25, 1.1), (-0.006, 0.135))  # m
-HEAD, ROW_GAP, FOOT, COLUMN, COLUMN_GAP = 0.95, 0.16, 0.55, 4.42, 0.36  # inches
+HEAD, ROW_GAP, FOOT, COLUMN, COLUMN_GAP = 1.0, 0.34, 0.55, 4.42, 0.36  # inches
 
 
 def draw_page(run, frames):
@@ -20,8 +20,8 @@ def draw_page(run, frames):
     for k, (frame, instant) in enumerate(zip(frames, case.INSTANTS)):
         column, row = divmod(k, rows)
         axes = page.axes(LEFT + column * (COLUMN + COLUMN_GAP), HEAD + row * (row_height + ROW_GAP), COLUMN, row_height)
-        dots = draw_particles(axes, frame, run.spacing, run.walls, VIEW, 72 * inches_per_metre,
-                              run.density * run.gravity * 0.1, f"$t$ = {instant:.3f} s")
+        dots = draw_particles(axes, frame, run, VIEW, run.density * run.gravity * 0.1)
+        axes.set_title(f"$t$ = {instant:.3f} s", loc="left", pad=2)
         axes.plot(*case.laboratory(instant), color=ORANGE, linewidth=1.2, zorder=5,
                   label="laboratory, far water at 38 mm")
         axes.spines[["left", "bottom"]].set_visible(False)
@@ -29,7 +29,7 @@ def draw_page(run, frames):
         axes.set_xlabel("x (m)" if row == rows - 1 else "", labelpad=1)
         axes.set_ylabel("z (m)" if column == 0 else "")
         if k == 0:
-            axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False)
+            axes.legend(loc="lower right", bbox_to_anchor=(1, 1), frameon=False)
     page.pressure_bar(dots, LEFT + 2 * COLUMN + COLUMN_GAP + BAR_GAP, HEAD, pictures)
     return page.figure
 

@@ -62,8 +62,7 @@ def draw_page(run, frames):
     page.head(f"Collapse of a column {a:g} m wide, n$^2$ = {n2}, Martin and Moyce (1952)", run, frames[0])
     for k, frame in enumerate(frames):
         axes = page.axes(LEFT, HEAD + k * (row + ROW_GAP), PICTURE, row)
-        dots = draw_particles(axes, frame, run.spacing, run.walls, view, 72 * inches_per_metre,
-                              run.density * case.GRAVITY * n2 * a,
+        dots = draw_particles(axes, frame, run, view, run.density * case.GRAVITY * n2 * a,
                               f"$T$ = {frame.time / scale:.1f}   ($t$ = {frame.time:.3f} s)")
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=k == len(frames) - 1)

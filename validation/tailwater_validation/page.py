@@ -3,8 +3,11 @@
 import base64
 import html
 import io
+import re
+from urllib.parse import quote
 
 from matplotlib import rc_context
+from PIL import Image
 
 from .metric import bar
 from .plots import STYLE, WIDTH
@@ -12,6 +15,10 @@ from .runs import duration
 from .study import KINDS
 
 RESOLUTION = 130  # dpi of pictures with particles
+PATH = re.compile(rb' d="[^"]*"')
+COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+PICTURE = re.compile(rb'data:image/png;base64,([^"]*)')
+LONG_NUMBER = re.compile(rb"(\.\d\d)\d+")
 
 CSS = """\
 :root { --ink: #1d2733; --soft: #5b6875; --line: #dfe4ea; --met: #00705a; --missed: #b3261e; --blue: #0072B2; }
@@ -104,9 +111,27 @@ def table(head, rows):
     return f'<div class="scroll"><table><thead>{head}</thead><tbody>{"".join(rows)}</tbody></table></div>'
 
 
+def rounded(path):
+    """A path of a drawing to a hundredth of a point."""
+    return LONG_NUMBER.sub(rb"\1", path.group())
+
+
+def with_palette(match):
+    """A picture in a drawing with 256 colours, if that is smaller."""
+    png, small = base64.b64decode(match.group(1)), io.BytesIO()
+    colours = Image.open(io.BytesIO(png)).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    colours.save(small, "PNG", optimize=True)
+    return b"data:image/png;base64," + base64.b64encode(min(png, small.getvalue(), key=len))
+
+
+def address(svg):
+    """A drawing as the address of an image. Its quotes become single ones, which the address need not encode."""
+    drawing = PICTURE.sub(with_palette, PATH.sub(rounded, COMMENT.sub(b"", svg)))
+    return "data:image/svg+xml," + quote(drawing.replace(b'"', b"'"), safe=" ='/;,+-.")
+
+
 def image(svg, caption, kind=""):
-    data = base64.b64encode(svg).decode("ascii")
-    return (f'<figure{kind}><img src="data:image/svg+xml;base64,{data}" alt="{text(caption)}"/>'
+    return (f'<figure{kind}><img src="{address(svg)}" alt="{text(caption)}"/>'
             f"<figcaption>{text(caption)}</figcaption></figure>")
 
 

@@ -9,9 +9,8 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
 
-from . import zhou1999
+from . import plots, zhou1999
 from .curves import DataError
 from .particles import nearest_frames
 from .plots import BLACK, BLUE, GREY, ORANGE, STYLE
@@ -39,17 +38,16 @@ def view_height(frames):
     return float(np.clip(1.08 * reach, LOWEST_VIEW, HIGHEST_VIEW))
 
 
-def draw_particles(axes, frame, spacing, walls, view, points_per_metre, largest_pressure, label):
-    """One particle picture, each particle a disc that covers its share of the water, coloured up to `largest_pressure`
-    (Pa), with `label` at its top. Returns the dots."""
+def draw_particles(axes, frame, run, view, largest_pressure, label="", exaggeration=1):
+    """One particle picture coloured up to `largest_pressure` (Pa), with `label` at its top; `exaggeration` is that of
+    heights. Returns the dots."""
     if "pressure" not in frame.fields:
         raise DataError(f"the field files hold no pressure, only {', '.join(frame.fields)}: "
                         'add "pressure" to output.fields')
-    dots = axes.scatter(frame.position[:, 0], frame.position[:, 1], c=frame.fields["pressure"] / 1000,
-                        s=(2**0.5 * spacing * points_per_metre) ** 2, linewidths=0, cmap="viridis", vmin=0,
-                        vmax=largest_pressure / 1000, rasterized=True, zorder=2)
-    axes.add_collection(LineCollection(walls, colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
-    axes.set(xlim=view[0], ylim=view[1], aspect="equal")
+    dots = plots.draw_particles(axes, frame.position, run.spacing, exaggeration, array=frame.fields["pressure"] / 1000,
+                                cmap="viridis", clim=(0, largest_pressure / 1000))
+    plots.draw_walls(axes, run)
+    axes.set(xlim=view[0], ylim=view[1], aspect=exaggeration)
     axes.text(0.5, 0.95, label, transform=axes.transAxes, ha="center", va="top", fontsize=10,
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5}, zorder=4)
     return dots
@@ -162,7 +160,7 @@ def draw_page(run, frames):
     for k, frame in enumerate(frames):
         row, column = divmod(k, 2)
         axes = page.axes(LEFT + column * (COLUMN + COLUMN_GAP), HEAD + row * (row_height + ROW_GAP), COLUMN, row_height)
-        dots = draw_particles(axes, frame, run.spacing, run.walls, view, 72 * inches_per_metre, zhou1999.PRESSURE_SCALE,
+        dots = draw_particles(axes, frame, run, view, zhou1999.PRESSURE_SCALE,
                               f"$T$ = {frame.time / zhou1999.TIME_SCALE:.1f}   ($t$ = {frame.time:.2f} s)")
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=row == 1, labelleft=column == 0)

@@ -85,11 +85,11 @@ class View:
         axes.tick_params(length=2.5)
 
 
-def draw_particles(axes, position, spacing, view, share=2**0.5, **style):
+def draw_particles(axes, position, spacing, exaggeration=1, share=2**0.5, **style):
     """Each particle a disc of diameter `share` dx; by default it covers its share of the water. Where heights are
     exaggerated discs would be spikes: there each is a piece about dx high."""
     x, y = position[:, 0], position[:, 1]
-    if view.exaggeration > MOST_STRETCHED:
+    if exaggeration > MOST_STRETCHED:
         wide, high = max(share, 1.1), 1.1  # without cracks
         half = 0.5 * spacing * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
         dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
@@ -131,8 +131,8 @@ def draw_moments(run, times, time_scale=None):
     for axes in every.flat[len(frames):]:
         axes.set_visible(False)
     for axes, frame in zip(every.flat, frames):
-        dots = draw_particles(axes, frame.position, run.spacing, view, array=frame.fields["pressure"] / 1000, cmap="viridis",
-                              clim=(low, high))
+        dots = draw_particles(axes, frame.position, run.spacing, view.exaggeration, cmap="viridis", clim=(low, high),
+                              array=frame.fields["pressure"] / 1000)
         draw_walls(axes, run)
         view.apply(axes)
         axes.set_title(moment(frame.time, time_scale), fontsize=9)
@@ -169,7 +169,7 @@ def draw_start(run):
     width = WIDTH - 0.8 if view.ratio < 0.3 else min(WIDTH / 2 - 1.0, 4.0 / view.ratio)
     figure = new_figure(width + 0.8, width * view.ratio + 0.6)
     axes = figure.subplots()
-    draw_particles(axes, frame.position, run.spacing, view, 0.9, facecolors=SKY)
+    draw_particles(axes, frame.position, run.spacing, view.exaggeration, 0.9, facecolors=SKY)
     draw_walls(axes, run)
     axes.add_collection(LineCollection(run.moving_walls, colors=ORANGE, linewidths=2, zorder=4))
     for probe in run.case.get("probe", []):
@@ -195,24 +195,36 @@ def draw_curves(axes, curves, first_style=0):
     grid(axes)
 
 
+def of_the_start(run, energy):
+    return energy / run.summary["energy"]["start_J"]
+
+
+HISTORIES = {
+    "total energy, of the start": lambda run, steps: of_the_start(run, steps["kinetic_J"] + steps["potential_J"]),
+    "kinetic energy, of the start": lambda run, steps: of_the_start(run, steps["kinetic_J"]),
+    "density error, mean (%)": lambda run, steps: 100 * steps["density_error_mean"],
+    "density error, rms (%)": lambda run, steps: 100 * steps["density_error_rms"],
+}
+WATER_INSIDE = {"water inside, of the start":
+                lambda run, steps: 1 - steps["volume_out_m3"] / run.summary["water_balance"]["start"]["volume_m3"]}
+
+
 def draw_histories(runs, names=None):
-    """Energy, and volume by the density error, over time, of several runs; `names` as in `labels`."""
+    """Energies, the volume's error by the density and, if water leaves, what is inside, over time, of several runs;
+    `names` as in `labels`."""
+    leaves = any(run.steps()["volume_out_m3"].any() for run in runs)
+    histories = HISTORIES | (WATER_INSIDE if leaves else {})
     figure = new_figure(height=2.4)
-    energy, kinetic, mean, rms = figure.subplots(1, 4)
+    every = figure.subplots(1, len(histories))
     for run, label, style in zip(runs, labels(runs, names), CYCLE):
-        steps, start = run.steps(), run.summary["energy"]["start_J"]
-        time = steps["time_s"]
-        style = {**style, "linewidth": 1.1, "label": label}
-        energy.plot(time, (steps["kinetic_J"] + steps["potential_J"]) / start, **style)
-        kinetic.plot(time, steps["kinetic_J"] / start, **style)
-        mean.plot(time, 100 * steps["density_error_mean"], **style)
-        rms.plot(time, 100 * steps["density_error_rms"], **style)
-    for axes, title in ((energy, "total energy, of the start"), (kinetic, "kinetic energy, of the start"),
-                        (mean, "density error, mean (%)"), (rms, "density error, rms (%)")):
-        axes.set_title(title, loc="left")
+        steps = run.steps()
+        for axes, history in zip(every, histories.values()):
+            axes.plot(steps["time_s"], history(run, steps), linewidth=1.1, label=label, **style)
+    for axes, title in zip(every, histories):
+        axes.set_title(title, loc="left", fontsize=8.5)
         axes.set_xlabel("$t$ (s)")
         grid(axes)
-    legend_below(figure, energy, 4)
+    legend_below(figure, every[0], 4)
     return figure
 
 

@@ -6,7 +6,6 @@ from .particles import nearest_frames
 from .picture import BAR_GAP, COMPUTED, LEFT, Page, draw_particles, finish_axes, save_page
 from .run_folder import RunFolder
 
-GRAVITY = 9.81
 GAUGES = (("gate", "at the gate, x = 2.39 m"), ("midway", "x = 3.2 m"), ("toe", "toe of the sill, x = 4 m"),
           ("crest", "crest, x = 4.45 m"), ("end", "end wall, x = 5.6 m"))
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000")  # Okabe and Ito's
@@ -17,15 +16,14 @@ PICTURE, ROW, VIEW_TOP = 9.3, 1.05, 0.135  # inches, inches, m: heights are draw
 
 def draw_page(run, frames):
     view = ((-0.03, case.LENGTH + 0.03), (-0.006, VIEW_TOP))
+    exaggeration = ROW / PICTURE * (view[0][1] - view[0][0]) / (view[1][1] - view[1][0])
     pictures = len(frames) * ROW + (len(frames) - 1) * ROW_GAP
     page = Page(HEAD + pictures + CURVE_HEAD + CURVE + FOOT)
     page.head("Dam break over a sill into still water, Soares-Frazao (2002); heights five times larger", run, frames[0])
     for k, frame in enumerate(frames):
         axes = page.axes(LEFT, HEAD + k * (ROW + ROW_GAP), PICTURE, ROW)
-        # A disc as high as a particle is in the stretched picture would be too wide: its size is that of the lengths.
-        dots = draw_particles(axes, frame, run.spacing, run.walls, view, 72 * 2 * PICTURE / (view[0][1] - view[0][0]),
-                              run.density * GRAVITY * case.DEPTH, f"$t$ = {frame.time:.1f} s")
-        axes.set_aspect("auto")
+        dots = draw_particles(axes, frame, run, view, run.density * run.gravity * case.DEPTH,
+                              f"$t$ = {frame.time:.1f} s", exaggeration)
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=k == len(frames) - 1)
         axes.set_ylabel("z (m)")

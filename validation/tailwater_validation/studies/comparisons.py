@@ -10,7 +10,7 @@ from ..checks import Check
 from ..metric import Metric
 from ..reading import energy_at, scored, summary, zhou
 from ..study import COMPARISON, Plot, Study
-from .laboratory import case_run
+from .laboratory import case_run, surface_distance
 from .zhou import draw_depths, draw_pressure, mean_of_readings, zhou_run
 
 
@@ -137,13 +137,10 @@ def sill_time_step(plan):
                 for courant in (0.5, 0.25, 0.125)}
     reference = variants["courant 0.125"]
 
-    def distance(k, one, other):
-        return 1000 * soares_frazao2002.distances(one, other)[k][1]
-
     claims = tuple(Check(Metric(f"sill-time-step.{instant:g}.{variant}",
                                 f"surface at t = {instant:g} s, RMS distance from that of courant 0.125, {variant}", "mm",
                                 "the paper: largest error 21 % with 3 ms, 10.2 % with 1.4 ms"), (run, reference),
-                         partial(distance, k))
+                         partial(surface_distance, k))
                    for k, instant in enumerate(soares_frazao2002.INSTANTS) for variant, run in variants.items()
                    if run is not reference)
     return comparison("sill-time-step", "Time step on the sill", "Farmani et al. find their scheme sensitive to the time step in the dam break over "

@@ -1,0 +1,174 @@
+#include "app/ranks.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+namespace tailwater {
+namespace {
+
+/// The first of these variables that holds a number; -1 if none does.
+int number_in_environment(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    const char* text = std::getenv(name);
+    char* end = nullptr;
+    if (text == nullptr) continue;
+    const long number = std::strtol(text, &end, 10);
+    if (end != text) return static_cast<int>(number);
+  }
+  return -1;
+}
+
+/// A batch system says where ranks may run; mpirun asks it.
+bool is_in_batch_job() {
+  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
+  return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
+}
+
+int usable_cores() {
+  cpu_set_t cores;
+  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+std::string find_mpirun() {
+  if (access(TAILWATER_MPIRUN, X_OK) == 0) return TAILWATER_MPIRUN;
+  return "mpirun";  // looked for in PATH
+}
+
+std::vector<std::string> mpirun_command(int count, const std::vector<std::string>& arguments) {
+  // Quiet: that a rank ended with an exit code is ours to tell.
+  std::vector<std::string> command{find_mpirun(), "--quiet", "-n", std::to_string(count)};
+  if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
+  // Ranks of two runs at once would be bound to the same cores.
+  if (!is_in_batch_job())
+    command.insert(command.end(), {"--oversubscribe", "--use-hwthread-cpus", "--bind-to", "none"});
+  command.push_back(std::filesystem::read_symlink("/proc/self/exe").string());
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+volatile std::sig_atomic_t mpirun_process = 0;
+volatile std::sig_atomic_t signals_passed_on = 0;
+
+/// mpirun hands SIGUSR1 on to all ranks, and ends them at SIGTERM.
+void pass_on(int) {
+  const int saved = errno;
+  if (mpirun_process > 0) kill(mpirun_process, signals_passed_on == 0 ? SIGUSR1 : SIGTERM);
+  signals_passed_on = signals_passed_on + 1;
+  errno = saved;
+}
+
+/// In the new process: becomes mpirun, or says through `failure` why not.
+[[noreturn]] void become_mpirun(std::vector<std::string> command, int failure) {
+  setpgid(0, 0);  // Ctrl-C goes to the launching process alone
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  execvp(words[0], words.data());
+  const int error_number = errno;
+  [[maybe_unused]] const ssize_t written = write(failure, &error_number, sizeof(error_number));
+  _exit(127);
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// "error: " before every line: a case may have several problems, one line each.
+void show_error(std::string_view message, std::string_view prefix = "") {
+  for (std::size_t start = 0; start < message.size();) {
+    const std::size_t end = std::min(message.find('\n', start), message.size());
+    fmt::print(stderr, "error: {}{}\n", prefix, message.substr(start, end - start));
+    start = end + 1;
+  }
+}
+
+}  // namespace
+
+int ranks_in_environment() {
+  return std::max(0, number_in_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}));
+}
+
+bool is_root_in_environment() {
+  return number_in_environment({"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"}) <= 0;
+}
+
+ExitCode launch_ranks(int count, const std::vector<std::string>& arguments) {
+  if (!is_in_batch_job() && count > usable_cores()) {
+    fmt::print(stderr, "warning: {} ranks on {} core(s) take turns; remedy: -n {}\n", count, usable_cores(),
+               usable_cores());
+  }
+  const std::vector<std::string> command = mpirun_command(count, arguments);
+  int failure[2];
+  if (pipe2(failure, O_CLOEXEC) != 0) throw IoError("cannot make a pipe: " + std::generic_category().message(errno));
+  struct sigaction action {};
+  action.sa_handler = pass_on;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  const pid_t process = fork();
+  if (process < 0) throw IoError("cannot start a process: " + std::generic_category().message(errno));
+  if (process == 0) become_mpirun(command, failure[1]);
+  mpirun_process = process;
+  close(failure[1]);
+  int error_number = 0;
+  const bool has_failed = read(failure[0], &error_number, sizeof(error_number)) == sizeof(error_number);
+  close(failure[0]);
+  const int code = wait_for(process);
+  if (has_failed) {
+    throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
+                                 std::generic_category().message(error_number)));
+  }
+  // Ranks that were not yet ready to end in order were ended by the signal.
+  const bool is_ours = code == 0 || code == 2 || code == 3 || code == 4;
+  return signals_passed_on > 0 && !is_ours ? ExitCode::interrupted : static_cast<ExitCode>(code);
+}
+
+ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {
+  const bool has_failed = !outcome.message.empty();
+  if (ranks.is_alone()) {
+    show_error(outcome.message);
+    return outcome.code;
+  }
+  const int own = has_failed ? static_cast<int>(outcome.code) : 0;
+  std::vector<int> codes(static_cast<std::size_t>(ranks.size()));
+  MPI_Request all_are_here = MPI_REQUEST_NULL;
+  MPI_Iallgather(&own, 1, MPI_INT, codes.data(), 1, MPI_INT, meeting, &all_are_here);
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::seconds(2);
+  const std::string name = fmt::format("rank {}: ", ranks.rank());
+  for (int are_here = 0; !are_here;) {
+    MPI_Test(&all_are_here, &are_here, MPI_STATUS_IGNORE);
+    if (has_failed && !are_here && Clock::now() > deadline) {
+      show_error(outcome.message, name);
+      MPI_Abort(ranks.handle(), own);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const auto first = std::find_if(codes.begin(), codes.end(), [](int code) { return code != 0; });
+  if (first == codes.end()) return outcome.code;
+  if (first - codes.begin() == ranks.rank()) show_error(outcome.message, ranks.is_root() ? "" : name);
+  return static_cast<ExitCode>(*first);
+}
+
+}  // namespace tailwater

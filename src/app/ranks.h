@@ -1,0 +1,36 @@
+// How a run gets its ranks, and how all of them end it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "parallel/communicator.h"
+
+namespace tailwater {
+
+/// Number of ranks with which mpirun, srun or the like started the program that this process belongs to; 0 when nobody
+/// did. As the environment says: MPI need not be running.
+int ranks_in_environment();
+
+/// Is this the rank that speaks? As above.
+bool is_root_in_environment();
+
+/// Starts this program with the same `arguments` on `count` ranks by mpirun and waits for it. Ctrl-C and SIGTERM reach
+/// the ranks as SIGUSR1, which ends a run in order (run/interrupt.h); a second one kills them. Returns their exit code.
+/// Throws InputError when there is no mpirun.
+ExitCode launch_ranks(int count, const std::vector<std::string>& arguments);
+
+/// How a command ended: with a message when it failed.
+struct Outcome {
+  ExitCode code = ExitCode::done;
+  std::string message;
+};
+
+/// `meeting` has the ranks of `ranks` and is used for nothing else: a rank that waits elsewhere must not be mistaken
+/// for one that has come. Shows the error if there is one, and returns the exit code. With several ranks all come here,
+/// or all are ended: when every rank has come, one message is shown and all have the same code; a failed rank that has
+/// waited two seconds for others, which wait for it elsewhere, shows its message and aborts them.
+ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome);
+
+}  // namespace tailwater

@@ -1,0 +1,158 @@
+#include "geometry/cell_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+
+template <int Dim>
+CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, std::span<const Vec<Dim>> water,
+                          double most)
+    : tolerance_(corner_tolerance * spec.particles.spacing) {
+  low_ = faces[0].corners[0];
+  Vec<Dim> high = low_;
+  const auto enclose = [&](const Vec<Dim>& x) {
+    low_ = low_.cwiseMin(x);
+    high = high.cwiseMax(x);
+  };
+  for (const WallFace<Dim>& face : faces) {
+    for (const Vec<Dim>& corner : face.corners) enclose(corner);
+  }
+  for (const Vec<Dim>& x : water) enclose(x);
+  const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);
+  const double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
+  std::size_t cells = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    is_periodic_[axis] = range.size() == 2;
+    if (is_periodic_[axis]) {
+      low_[axis] = range[0];
+      count_[axis] = std::max(1, static_cast<int>(std::round((range[1] - range[0]) / cell)));
+      size_[axis] = (range[1] - range[0]) / count_[axis];
+    } else {
+      count_[axis] = std::max(1, static_cast<int>(std::ceil((high[axis] - low_[axis]) / cell - corner_tolerance)));
+      size_[axis] = cell;
+    }
+    cells *= count_[axis];
+  }
+  near_wall_.resize(cells);
+  set_faces(std::move(faces));
+}
+
+template <int Dim>
+std::size_t CellSpace<Dim>::index(const Cell& c) const {
+  std::size_t i = 0;
+  for (int axis = Dim - 1; axis >= 0; --axis) i = i * count_[axis] + c[axis];
+  return i;
+}
+
+template <int Dim>
+Vec<Dim> CellSpace<Dim>::centre(const Cell& c) const {
+  Vec<Dim> x;
+  for (int axis = 0; axis < Dim; ++axis) x[axis] = low_[axis] + (c[axis] + 0.5) * size_[axis];
+  return x;
+}
+
+template <int Dim>
+typename CellSpace<Dim>::Cell CellSpace<Dim>::cell_of(const Vec<Dim>& x) const {
+  Cell c;
+  for (int axis = 0; axis < Dim; ++axis) {
+    c[axis] = std::clamp(static_cast<int>(std::floor((x[axis] - low_[axis]) / size_[axis])), 0, count_[axis] - 1);
+  }
+  return c;
+}
+
+template <int Dim>
+std::optional<typename CellSpace<Dim>::Cell> CellSpace<Dim>::next(Cell c, int axis, int step) const {
+  c[axis] += step;
+  if (is_periodic_[axis]) c[axis] = (c[axis] + count_[axis]) % count_[axis];
+  if (c[axis] < 0 || c[axis] >= count_[axis]) return std::nullopt;
+  return c;
+}
+
+template <int Dim>
+void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
+  faces_ = std::move(faces);
+  std::fill(near_wall_.begin(), near_wall_.end(), false);
+  for (const WallFace<Dim>& face : faces_) {
+    visit_around(face, face, [&](const Cell& c) { near_wall_[index(c)] = true; });
+  }
+}
+
+template <int Dim>
+bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) return false;
+  const Vec<Dim> hit = meet(face, from, to);
+  return (closest_point(face, hit) - hit).norm() <= tolerance_;
+}
+
+template <int Dim>
+int CellSpace<Dim>::face_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
+  const auto face =
+      std::ranges::find_if(faces_, [&](const WallFace<Dim>& candidate) { return passes(candidate, from, to); });
+  return face == faces_.end() ? -1 : static_cast<int>(face - faces_.begin());
+}
+
+template <int Dim>
+int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
+  if (!near_wall_[index(c)]) return -1;
+  Cell beside = c;
+  beside[axis] += step;  // beyond a periodic end as well: faces have no images
+  return face_between(centre(c), centre(beside));
+}
+
+template <int Dim>
+Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
+                   const Vec<Dim>& down) {
+  using Cell = typename CellSpace<Dim>::Cell;
+  Spread<Dim> found;
+  found.met.assign(space.faces().size(), false);
+  std::vector<bool> visited(space.count(), false);
+  const auto visit = [&](const Cell& c) {
+    if (visited[space.index(c)]) return;
+    visited[space.index(c)] = true;
+    found.cells.push_back(c);
+  };
+  for (const Cell& c : start) visit(c);
+  for (std::size_t k = 0; k < found.cells.size(); ++k) {
+    const Cell c = found.cells[k];
+    for (int move = 0; move < 2 * Dim; ++move) {
+      const int axis = move / 2;
+      const int step = move % 2 == 0 ? -1 : 1;
+      if (step * down[axis] < -0.5) continue;
+      if (const int face = space.face_beside(c, axis, step); face >= 0) {
+        found.met[face] = true;
+        ++found.sides;
+      } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
+        visit(*target);
+      } else {
+        found.way_out = space.centre(c);
+        return found;
+      }
+    }
+  }
+  return found;
+}
+
+template <int Dim>
+std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, std::span<const Vec<Dim>> positions) {
+  std::vector<typename CellSpace<Dim>::Cell> cells;
+  for (const Vec<Dim>& x : positions) {
+    const auto c = space.cell_of(x);
+    if (space.face_between(x, space.centre(c)) < 0) cells.push_back(c);
+  }
+  return cells;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                      \
+  template class CellSpace<Dim>;                                                                        \
+  template Spread<Dim> spread(const CellSpace<Dim>&, const std::vector<typename CellSpace<Dim>::Cell>&, \
+                              const Vec<Dim>&);                                                         \
+  template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, std::span<const Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,59 @@
+#include "neighbours/decomposition.h"
+
+#include <numeric>
+
+#include "base/assert.h"
+#include "parallel/exchange_plan.h"
+
+namespace tailwater {
+namespace {
+
+/// Entries that came in take the place of those that were there.
+template <class Value>
+void keep_arrivals(std::size_t owned, std::vector<Value>& field) {
+  field.erase(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned));
+}
+
+template <int Dim>
+void move_to_owners(const ExchangePlan& plan, Particles<Dim>& particles) {
+  particles.apply_to_fields([&](auto&... field) {
+    plan.exchange(field...);
+    (keep_arrivals(plan.owned(), field), ...);
+  });
+  particles.owned = particles.position.size();
+}
+
+}  // namespace
+
+template <int Dim>
+Decomposition<Dim>::Decomposition(const Communicator& ranks, const ParallelTable& settings)
+    : ranks_(ranks), tolerated_imbalance_(settings.imbalance), cuts_(ranks, settings.decomposition) {}
+
+template <int Dim>
+Sharing Decomposition<Dim>::share_out(Particles<Dim>& particles, std::span<const double> work) {
+  Sharing sharing;
+  if (ranks_.is_alone()) return sharing;
+  TAILWATER_ASSERT(work.size() == particles.owned, "one cost per owned particle");
+  particles.resize(particles.owned);
+
+  const double own = std::accumulate(work.begin(), work.end(), 0.0);
+  const double all = ranks_.sum(own);
+  if (all > 0.0) sharing.imbalance = ranks_.largest(own) * ranks_.size() / all - 1.0;
+  if (!cuts_.are_made() || sharing.imbalance > tolerated_imbalance_) {
+    cuts_.cut(particles.position, work);
+    sharing.is_cut_anew = true;
+  }
+
+  std::vector<std::vector<std::int32_t>> sent(static_cast<std::size_t>(ranks_.size()));
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    sent[cuts_.part_of(particles.position[i])].push_back(static_cast<std::int32_t>(i));
+  }
+  sharing.moved = ranks_.sum(static_cast<std::int64_t>(particles.owned - sent[ranks_.rank()].size()));
+  if (sharing.moved > 0) move_to_owners(ExchangePlan(ranks_, particles.owned, sent), particles);
+  return sharing;
+}
+
+template class Decomposition<2>;
+template class Decomposition<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,134 @@
+// The ranks of a run and what they tell each other. One rank is the default and needs no MPI. Functions are collective:
+// all ranks call them in the same order.
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace tailwater {
+
+/// What a rank has exchanged with others since the start; times include waiting for them.
+struct Traffic {
+  double exchange_seconds = 0.0;   ///< halo and migration
+  double reduction_seconds = 0.0;  ///< sums, maxima
+  std::int64_t exchanges = 0;
+  std::int64_t messages = 0;  ///< sent in exchanges
+  std::int64_t bytes = 0;     ///< sent in exchanges
+};
+
+class Communicator {
+ public:
+  /// One rank.
+  Communicator() = default;
+
+  /// All ranks of the program. MPI must be running (linear/session.h) for as long as the copies of this value are used.
+  static Communicator world();
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+  bool is_alone() const { return size_ == 1; }
+  MPI_Comm handle() const { return handle_; }
+
+  template <class Number>
+  Number sum(Number value) const {
+    reduce(&value, 1, mpi_type<Number>(), MPI_SUM);
+    return value;
+  }
+  /// Each of the numbers in place, in one message; counts up to 2^53.
+  template <class... Number>
+  void sum_each(Number&... number) const {
+    reduce_each(MPI_SUM, number...);
+  }
+
+  template <class Number>
+  Number largest(Number value) const {
+    reduce(&value, 1, mpi_type<Number>(), MPI_MAX);
+    return value;
+  }
+  template <class Number>
+  Number least(Number value) const {
+    reduce(&value, 1, mpi_type<Number>(), MPI_MIN);
+    return value;
+  }
+  template <class... Number>
+  void largest_each(Number&... number) const {
+    reduce_each(MPI_MAX, number...);
+  }
+  bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }
+
+  /// Sum over the ranks before this one.
+  std::int64_t sum_before(std::int64_t value) const;
+
+  /// What each rank gave, by rank, on all ranks. For plain values.
+  template <class Value>
+  std::vector<Value> all_gather(const Value& value) const {
+    std::vector<Value> all(static_cast<std::size_t>(size_));
+    all_gather_bytes(&value, all.data(), sizeof(Value));
+    return all;
+  }
+
+  /// counts[q] goes to rank q; returns what each rank had for this one.
+  std::vector<std::int64_t> transpose(std::span<const std::int64_t> counts) const;
+
+  /// What each rank gave, by rank, on the root; empty on the others.
+  std::vector<std::string> gather(const std::string& text) const;
+
+  /// The same entries of all ranks one behind the other, by rank, on the root; empty on the others. For plain values.
+  template <class Value>
+  std::vector<Value> gather(const std::vector<Value>& values) const {
+    if (is_alone()) return values;
+    std::vector<Value> all;
+    for (const std::string& bytes :
+         gather(std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)))) {
+      const auto* first = reinterpret_cast<const Value*>(bytes.data());
+      all.insert(all.end(), first, first + bytes.size() / sizeof(Value));
+    }
+    return all;
+  }
+
+  /// The text that rank `source` gave, on all ranks.
+  std::string broadcast(std::string text, int source = 0) const;
+
+  /// All ranks are here.
+  void meet() const;
+
+  /// Counts from the start of the program; null on one rank.
+  Traffic* traffic() const { return traffic_.get(); }
+
+ private:
+  template <class Number>
+  static MPI_Datatype mpi_type() {
+    if constexpr (std::is_same_v<Number, double>) {
+      return MPI_DOUBLE;
+    } else if constexpr (std::is_same_v<Number, int>) {
+      return MPI_INT;
+    } else {
+      static_assert(std::is_integral_v<Number> && sizeof(Number) == 8);
+      return std::is_signed_v<Number> ? MPI_INT64_T : MPI_UINT64_T;
+    }
+  }
+  template <class... Number>
+  void reduce_each(MPI_Op operation, Number&... number) const {
+    std::array<double, sizeof...(Number)> values{static_cast<double>(number)...};
+    reduce(values.data(), values.size(), MPI_DOUBLE, operation);
+    const double* value = values.data();
+    ((number = static_cast<Number>(*value++)), ...);
+  }
+  void reduce(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation) const;
+  void all_gather_bytes(const void* value, void* all, std::size_t bytes) const;
+
+  MPI_Comm handle_ = MPI_COMM_SELF;
+  int rank_ = 0;
+  int size_ = 1;
+  std::shared_ptr<Traffic> traffic_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,36 @@
+// Cuts space into one part per rank, so that each holds an equal share of weighted points: Zoltan's recursive
+// coordinate bisection or Hilbert space-filling curve (Devine et al. 2002).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "base/vec.h"
+#include "case/choices.h"
+#include "parallel/communicator.h"
+
+namespace tailwater {
+
+template <int Dim>
+class SpaceCuts {
+ public:
+  /// Throws SolverError when Zoltan does not start.
+  SpaceCuts(const Communicator& ranks, DecompositionMethod method);
+  ~SpaceCuts();
+  SpaceCuts(SpaceCuts&&) noexcept;
+  SpaceCuts& operator=(SpaceCuts&&) noexcept;
+
+  /// Makes the parts anew from the points [m] of all ranks and their weights. Collective; throws SolverError.
+  void cut(std::span<const Vec<Dim>> points, std::span<const double> weights);
+
+  bool are_made() const;
+
+  /// The rank in whose part `place` lies, also for places where no point was.
+  int part_of(const Vec<Dim>& place) const;
+
+ private:
+  struct Zoltan;
+  std::unique_ptr<Zoltan> zoltan_;
+};
+
+}  // namespace tailwater

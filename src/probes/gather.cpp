@@ -1,0 +1,68 @@
+#include "probes/gather.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace tailwater {
+namespace {
+
+/// What probes read of a particle, as it is sent.
+template <int Dim>
+struct Sample {
+  std::int64_t id;
+  std::array<double, Dim> position;
+  std::array<double, Dim> velocity;
+  double pressure;
+  double volume;
+  ParticleKind kind;
+
+  /// Copies of a particle on several ranks are alike; its periodic images differ by their place.
+  auto key() const { return std::tie(id, position); }
+};
+
+template <int Dim>
+std::array<double, Dim> to_array(const Vec<Dim>& v) {
+  std::array<double, Dim> values;
+  std::copy(v.begin(), v.end(), values.begin());
+  return values;
+}
+
+}  // namespace
+
+template <int Dim>
+Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
+  const Particles<Dim>& particles = context.particles;
+  const double reach = kernel_radius(context.kernel);
+  std::vector<Sample<Dim>> near;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec<Dim>& x = particles.position[i];
+    if (std::any_of(regions.begin(), regions.end(), [&](const Region<Dim>& r) { return r.contains(x, reach); })) {
+      near.push_back({particles.id[i], to_array<Dim>(x), to_array<Dim>(particles.velocity[i]), particles.pressure[i],
+                      particles.volume[i], particles.kind[i]});
+    }
+  }
+  near = context.ranks.gather(near);
+  std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
+  near.erase(std::unique(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() == b.key(); }),
+             near.end());
+
+  Particles<Dim> gathered;
+  gathered.resize(near.size());
+  gathered.owned = near.size();
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    gathered.position[i] = Vec<Dim>(near[i].position.data());
+    gathered.velocity[i] = Vec<Dim>(near[i].velocity.data());
+    gathered.pressure[i] = near[i].pressure;
+    gathered.volume[i] = near[i].volume;
+    gathered.kind[i] = near[i].kind;
+    gathered.wall_row[i] = -1;
+    gathered.id[i] = near[i].id;
+  }
+  return gathered;
+}
+
+template Particles<2> gather_near<2>(const ProbeContext<2>&, const std::vector<Region<2>>&);
+template Particles<3> gather_near<3>(const ProbeContext<3>&, const std::vector<Region<3>>&);
+
+}  // namespace tailwater

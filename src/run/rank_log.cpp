@@ -1,0 +1,66 @@
+#include "run/rank_log.h"
+
+#include <array>
+
+namespace tailwater {
+
+RankLog::RankLog(const Communicator& ranks, const std::filesystem::path& path) : ranks_(ranks) {
+  if (ranks.is_alone() || !ranks.is_root()) return;
+  csv_.emplace(
+      path, std::vector<std::string>{"time_s", "step", "imbalance", "is_cut_anew", "moved_particles", "particles_least",
+                                     "particles_most", "ghosts_mean", "exchange_share", "reduction_share"});
+}
+
+template <int Dim>
+void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
+  if (ranks_.is_alone()) return;
+  const auto now = Clock::now();
+  const double elapsed = std::chrono::duration<double>(now - last_).count();
+  const Traffic& traffic = *ranks_.traffic();
+  double exchange = (traffic.exchange_seconds - at_last_.exchange_seconds) / elapsed / ranks_.size();
+  double reduction = (traffic.reduction_seconds - at_last_.reduction_seconds) / elapsed / ranks_.size();
+  double ghosts = static_cast<double>(flow.neighbourhood.halo().plan.ghosts()) / ranks_.size();
+  ranks_.sum_each(exchange, reduction, ghosts);
+  const auto owned = static_cast<std::int64_t>(flow.particles.owned);
+  const std::int64_t least = ranks_.least(owned);
+  const std::int64_t most = ranks_.largest(owned);
+  last_ = now;
+  at_last_ = traffic;
+
+  imbalance_sum_ += sharing.imbalance;
+  if (lines_ > 0) imbalance_largest_ = std::max(imbalance_largest_, sharing.imbalance);
+  ++lines_;
+  cuts_ += sharing.is_cut_anew;
+  moved_ += sharing.moved;
+  if (!csv_) return;
+  csv_->write(std::array<double, 10>{flow.time, static_cast<double>(flow.step), sharing.imbalance,
+                                     static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
+                                     static_cast<double>(least), static_cast<double>(most), ghosts, exchange,
+                                     reduction});
+}
+
+nlohmann::ordered_json RankLog::json() const {
+  if (ranks_.is_alone()) return {{"count", 1}};
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count() * ranks_.size();
+  const Traffic& traffic = *ranks_.traffic();
+  double exchange = traffic.exchange_seconds / elapsed;
+  double reduction = traffic.reduction_seconds / elapsed;
+  std::int64_t messages = traffic.messages;
+  std::int64_t bytes = traffic.bytes;
+  ranks_.sum_each(exchange, reduction, messages, bytes);
+  return {{"count", ranks_.size()},
+          {"imbalance_mean", lines_ > 0 ? imbalance_sum_ / static_cast<double>(lines_) : 0.0},
+          {"imbalance_largest", imbalance_largest_},
+          {"cuts", cuts_},
+          {"moved_particles", moved_},
+          {"exchange_share", exchange},
+          {"reduction_share", reduction},
+          {"exchanges", traffic.exchanges},
+          {"messages", messages},
+          {"bytes", bytes}};
+}
+
+template void RankLog::write<2>(const Flow<2>&, const Sharing&);
+template void RankLog::write<3>(const Flow<3>&, const Sharing&);
+
+}  // namespace tailwater

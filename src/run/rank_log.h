@@ -1,0 +1,42 @@
+// How evenly a run is shared out among its ranks, and what they tell each other: ranks.csv, a line each time particles
+// are handed over, and a block of summary.json.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "io/csv_writer.h"
+#include "schemes/flow.h"
+
+namespace tailwater {
+
+class RankLog {
+ public:
+  /// Starts the file on the root. Throws IoError.
+  RankLog(const Communicator& ranks, const std::filesystem::path& path);
+
+  /// Books what sharing out did and what was exchanged since the last time. Collective. Throws IoError.
+  template <int Dim>
+  void write(const Flow<Dim>& flow, const Sharing& sharing);
+
+  /// Block "ranks" of the summary. Collective; of use on the root.
+  nlohmann::ordered_json json() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Communicator ranks_;
+  std::optional<CsvWriter> csv_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+  Traffic at_last_;
+  std::int64_t lines_ = 0;
+  std::int64_t cuts_ = 0;
+  std::int64_t moved_ = 0;
+  double imbalance_sum_ = 0.0;
+  double imbalance_largest_ = 0.0;  ///< after the first line, which is of the start
+};
+
+}  // namespace tailwater

@@ -1,0 +1,100 @@
+"""Several ranks: how a run gets them and how they end, by themselves or not."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, ProgramTest, environment
+
+MPIRUN = os.environ["MPIRUN"]
+
+
+def command_line(process):
+    """The words of a process; none when it is gone."""
+    try:
+        return pathlib.Path(f"/proc/{process}/cmdline").read_text().split("\0")
+    except OSError:
+        return []
+
+
+class RanksTest(ProgramTest):
+    def mpirun(self, *arguments, expect):
+        """Several ranks as a user of mpirun starts them. Returns their messages."""
+        result = subprocess.run([MPIRUN, "--quiet", *map(str, arguments)], cwd=self.folder, env=environment(),
+                                stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, expect, result.stdout + result.stderr)
+        return result
+
+    def processes(self):
+        """Numbers of all processes that run a case into this test's folder."""
+        out = str(self.folder / "out")
+        found = [int(entry.name) for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit()]
+        return [process for process in found if out in command_line(process)]
+
+    def start_long_run(self):
+        process = self.start("run", "small.toml", "--out", self.folder / "out", "-n", "2", "--set", "time.end=1000")
+        self.wait_for((self.folder / "out" / "fields" / "fields_00000.vtp").exists, process)
+        return process
+
+    def test_starts_its_ranks(self):
+        self.call("run", "small.toml", "--out", "two", "-n", "2", "--quiet")
+        self.assertEqual(self.summary("two")["status"], "done")
+
+    def test_is_a_rank_of_mpirun(self):
+        for count in ((), ("-n", "2")):
+            self.mpirun("-n", "2", PROGRAM, "run", "small.toml", "--out", "out", "--force", "--quiet", *count, expect=0)
+            self.assertEqual(self.summary("out")["status"], "done")
+
+    def test_refuses_wrong_counts_before_anything(self):
+        for count in ("0", "-1"):
+            error = self.call("run", "small.toml", "--out", "out", f"-n{count}", expect=2).stderr
+            self.assertIn("at least one rank", error)
+        error = self.mpirun("-n", "2", PROGRAM, "run", "small.toml", "--out", "out", "-n", "3", expect=2).stderr
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertIn("leave -n out", error)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_other_commands_refuse_ranks(self):
+        error = self.mpirun("-n", "2", PROGRAM, "check", "small.toml", expect=2).stderr
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertIn("tailwater check without mpirun", error)
+
+    def test_an_error_of_all_is_told_once(self):
+        error = self.call("run", "missing.toml", "--out", "out", "-n", "2", expect=4).stderr
+        self.assertEqual(len(error.splitlines()), 1, error)
+        error = self.call("run", "small.toml", "--out", "out", "-n", "2", "--set", "particles.spcing=1",
+                          expect=2).stderr
+        self.assertEqual(len(error.splitlines()), 1, error)
+        self.assertIn('did you mean "spacing"?', error)
+
+    def test_an_error_of_one_rank_ends_all(self):
+        out = ("--out", "out", "--quiet")
+        error = self.mpirun("-n", "1", PROGRAM, "run", "small.toml", *out, ":",
+                            "-n", "1", PROGRAM, "run", "missing.toml", *out, expect=4).stderr
+        self.assertIn("error: rank 1: missing.toml", error)
+
+    def test_interrupt_ends_all_in_order(self):
+        process = self.start_long_run()
+        self.assertGreaterEqual(len(self.processes()), 4)  # this one, mpirun, two ranks
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, error)
+        self.assertIn("interrupted: results in", error)
+        self.assertEqual(self.summary("out")["status"], "interrupted")
+        self.assertEqual(self.processes(), [])
+
+    def test_no_rank_outlives_the_program(self):
+        process = self.start_long_run()
+        process.kill()
+        process.wait()
+        deadline = time.monotonic() + 20
+        while self.processes() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.assertEqual(self.processes(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,169 @@
+// Probes read the same however the particles are shared out. Sums over particles come in another order, so readings
+// differ by rounding: some hundred terms of one sign are exact to 1e-13, and no reading magnifies this by ten.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "io/shared_folder.h"
+#include "probes/probe_set.h"
+#include "probes/tank.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+/// Particle `i` at `x` goes to this rank.
+template <int Dim>
+using Deal = std::function<int(std::size_t i, const Vec<Dim>& x)>;
+
+/// Sloping water that moves, and a single particle before its front and above it.
+template <int Dim>
+Tank<Dim> sloping_tank() {
+  Tank<Dim> tank(0.6, [](const Vec<Dim>& x) { return x[0] < 0.8 && x[Dim - 1] < 0.6 - 0.3 * x[0]; });
+  Vec<Dim> drop = Vec<Dim>::Constant(0.52);
+  drop[0] = 0.93;
+  drop[Dim - 1] = 1.1;
+  tank.add(drop, true, 3.0);
+  for (std::size_t i = 0; i < tank.particles.size(); ++i) {
+    const Vec<Dim>& x = tank.particles.position[i];
+    for (int d = 0; d < Dim; ++d) tank.particles.velocity[i][d] = std::sin(3.0 * x[0] + 2.0 * x[Dim - 1] + d);
+  }
+  tank.locate();
+  return tank;
+}
+
+template <int Dim>
+std::vector<ProbeTable> all_probes() {
+  using Tank = Tank<Dim>;
+  std::vector<ProbeTable> probes{
+      probe_at(ProbeType::depth, Tank::at(0.33, 0.1)),
+      probe_at(ProbeType::depth, Tank::at(0.95, 0.1)),  // dry, below the drop
+      probe_along(ProbeType::profile, Tank::at(0.1, 0.1), Tank::at(0.9, 0.1)),
+      probe_at(ProbeType::wall_pressure, Tank::at(0.0, 0.2)),
+      probe_at(ProbeType::wall_pressure, Tank::at(0.0, 1.2)),
+      // Nearest to the left wall, then to the floor.
+      probe_along(ProbeType::wall_pressure_mean, Tank::at(0.0, 0.14), Tank::at(0.14, 0.0)),
+      probe_at(ProbeType::pressure, Tank::at(0.41, 0.23)),
+      probe_at(ProbeType::velocity, Tank::at(0.41, 0.23)),
+      probe_at(ProbeType::velocity, Tank::at(0.5, 1.4)),
+      probe_at(ProbeType::energy, {}),
+      probe_at(ProbeType::volume, {}),
+      probe_at(ProbeType::front, {}),
+  };
+  for (std::size_t k = 0; k < probes.size(); ++k) probes[k].name = "p" + std::to_string(k);
+  return probes;
+}
+
+/// What rank `rank` has of the tank: its own particles and all others as ghosts, or these alone.
+template <int Dim>
+Particles<Dim> part_of(const Particles<Dim>& all, const Deal<Dim>& deal, int rank, bool with_ghosts) {
+  Particles<Dim> part;
+  for (const bool is_own : {true, false}) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if ((deal(i, all.position[i]) == rank) != is_own || !(is_own || with_ghosts)) continue;
+      part.position.push_back(all.position[i]);
+      part.velocity.push_back(all.velocity[i]);
+      part.pressure.push_back(all.pressure[i]);
+      part.volume.push_back(all.volume[i]);
+      part.kind.push_back(all.kind[i]);
+      part.wall_row.push_back(all.wall_row[i]);
+      part.id.push_back(all.id[i]);
+    }
+    if (is_own) part.owned = part.size();
+  }
+  return part;
+}
+
+std::vector<double> numbers_in(const std::filesystem::path& path) {
+  std::string text = text_of(path);
+  text.erase(0, text.find('\n') + 1);
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream stream(text);
+  return {std::istream_iterator<double>(stream), {}};
+}
+
+/// Takes all readings on one rank and on all, and compares them.
+template <int Dim>
+void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
+  Tank<Dim> tank = sloping_tank<Dim>();
+  tank.spec.probes = all_probes<Dim>();
+  // Without ghosts no rank knows who is connected.
+  if (!with_ghosts) tank.spec.probes.pop_back();
+  const FlowTotals totals{.kinetic_energy = 1.5, .potential_energy = 2.5, .volume_out = 0.25};
+
+  const SharedFolder together;
+  const Communicator& ranks = together.ranks();
+  ProbeSet<Dim> probes(make_probes<Dim>(tank.spec, tank.boundary),
+                       RunFolder::create(together.path(), false, together.ranks()), together.ranks());
+  const Particles<Dim> part = part_of<Dim>(tank.particles, deal, ranks.rank(), with_ghosts);
+  const CellGrid<Dim> grid(part.position, 3.0 * tank.dx);
+  const ProbeContext<Dim> whole = tank.context();
+  probes.record(
+      {part, grid, whole.kernel, whole.boundary, whole.density, whole.gravity, whole.spacing, 0.0, totals, ranks});
+
+  if (!ranks.is_root()) return;
+  const TemporaryFolder alone;
+  ProbeSet<Dim> single(make_probes<Dim>(tank.spec, tank.boundary), RunFolder::create(alone.path(), false));
+  single.record({whole.particles, whole.grid, whole.kernel, whole.boundary, whole.density, whole.gravity, whole.spacing,
+                 0.0, totals});
+  for (const ProbeTable& probe : tank.spec.probes) {
+    const std::filesystem::path file = std::filesystem::path("probes") / (probe.name + ".csv");
+    const std::vector<double> expected = numbers_in(alone.path() / file);
+    const std::vector<double> read = numbers_in(together.path() / file);
+    ASSERT_EQ(read.size(), expected.size()) << probe.name;
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      EXPECT_NEAR(read[k], expected[k], 1e-12 * std::max(1.0, std::abs(expected[k]))) << probe.name << ", number " << k;
+    }
+  }
+}
+
+template <class Dimension>
+class ProbesOnRanks : public testing::Test {
+ protected:
+  static constexpr int Dim = Dimension::value;
+
+  static Deal<Dim> round_robin() {
+    return [n = Communicator::world().size()](std::size_t i, const Vec<Dim>&) { return static_cast<int>(i % n); };
+  }
+  /// Ranks 2 and on have none.
+  static Deal<Dim> halves() {
+    return [n = Communicator::world().size()](std::size_t, const Vec<Dim>& x) { return n > 1 && x[0] < 0.4 ? 1 : 0; };
+  }
+};
+TYPED_TEST_SUITE(ProbesOnRanks, Dimensions);
+
+TYPED_TEST(ProbesOnRanks, RoundRobin) { expect_same_readings<TypeParam::value>(this->round_robin(), false); }
+TYPED_TEST(ProbesOnRanks, RoundRobinWithGhosts) { expect_same_readings<TypeParam::value>(this->round_robin(), true); }
+TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanks) { expect_same_readings<TypeParam::value>(this->halves(), false); }
+TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanksWithGhosts) {
+  expect_same_readings<TypeParam::value>(this->halves(), true);
+}
+
+TYPED_TEST(ProbesOnRanks, WithoutFluidTheFrontIsZero) {
+  constexpr int Dim = TypeParam::value;
+  const Tank<Dim> tank(0.5, [](const Vec<Dim>&) { return false; });
+  ProbeContext<Dim> context = tank.context();
+  const Reading<Dim> front = make_probes<Dim>(
+                                 [&] {
+                                   CaseSpec spec = tank.spec;
+                                   spec.probes = {probe_at(ProbeType::front, {})};
+                                   return spec;
+                                 }(),
+                                 tank.boundary)[0]
+                                 .reading;
+  const ProbeContext<Dim> on_ranks{context.particles,
+                                   context.grid,
+                                   context.kernel,
+                                   context.boundary,
+                                   context.density,
+                                   context.gravity,
+                                   context.spacing,
+                                   0.0,
+                                   {},
+                                   Communicator::world()};
+  EXPECT_EQ(front.take(on_ranks), (std::vector<Row>{{0.0, 0.0}}));
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,263 @@
+// The same flow on one rank and on several. What differs is the order of sums and, within the tolerance of the pressure
+// solve, its answer.
+//
+// Bound. With rows scaled to unit diagonal the solve leaves |r|_2 <= tau |b|_2. The inverse is not negative and its row
+// sums are at most those of the discrete Laplacian over the depth, so |A^-1|_inf |b|_inf is of the size of the largest
+// pressure P, and |dp|_inf <= |A^-1|_inf |r|_2 <= tau sqrt(n) P over n unknowns, up to a factor of shape. A step turns
+// dp into dt/(rho dx) 4 dp of velocity at most (the weights of a row of the gradient add up to less than 4/dx), and N
+// steps into N times that, as long as they do not amplify: a hundredfold is granted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double tau = 1e-11;
+constexpr double granted = 100.0;
+constexpr double dx = 0.05;
+constexpr int steps = 12;  // particles are shared out twice
+
+template <int Dim>
+struct Particle {
+  std::int64_t id;
+  Vec<Dim> position;
+  Vec<Dim> velocity;
+  double pressure;
+};
+
+/// The fluid of all ranks by id, on the root.
+template <int Dim>
+std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
+  std::vector<Particle<Dim>> own;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    own.push_back({flow.particles.id[i], flow.neighbourhood.wrapped(flow.particles.position[i]),
+                   flow.particles.velocity[i], flow.particles.pressure[i]});
+  }
+  std::vector<Particle<Dim>> all = flow.ranks.gather(own);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+template <int Dim>
+void run(Flow<Dim>& flow, int count) {
+  start(flow);
+  for (int n = 0; n < count; ++n) {
+    if (n % 5 == 0) share_out(flow);
+    let_go(flow);
+    advance(flow, next_time_step(flow));
+  }
+}
+
+/// Runs the case on all ranks and on one, from velocities set by `prepare`, and compares.
+template <int Dim, class Prepare>
+void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
+  spec.pressure_solver.tolerance = tau;
+  const Communicator world = Communicator::world();
+  Flow<Dim> alone(spec);
+  Flow<Dim> shared(spec, world);
+  prepare(alone);
+  prepare(shared);
+  run(alone, steps);
+  run(shared, steps);
+
+  ASSERT_EQ(world.sum(shared.particles.owned), alone.particles.owned);
+  const double unknowns = static_cast<double>(alone.particles.owned);
+  const double dt = alone.time / steps;
+  const double speed_scale = std::sqrt(2.0 * g * depth) + 1.0;
+  const double P = 1000.0 * (g * depth + speed_scale * speed_scale);
+  const double dp = (granted * tau * std::sqrt(unknowns) + std::sqrt(tau)) * P;
+  const double du = steps * 4.0 * dt / (1000.0 * spec.particles.spacing) * dp;
+  EXPECT_NEAR(shared.time, alone.time, alone.time * du);  // steps go with the largest speed, 1 m/s or more
+  const std::vector<Particle<Dim>> expected = fluid_of(alone);
+  const std::vector<Particle<Dim>> found = fluid_of(shared);
+  if (!world.is_root()) return;
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    ASSERT_EQ(found[k].id, expected[k].id);
+    EXPECT_LT((found[k].velocity - expected[k].velocity).norm(), du) << "particle " << found[k].id;
+    EXPECT_LT((found[k].position - expected[k].position).norm(), alone.time * du) << "particle " << found[k].id;
+    EXPECT_LT(std::abs(found[k].pressure - expected[k].pressure), dp + P * du / speed_scale);
+  }
+}
+
+const auto as_it_is = [](auto&) {};
+
+template <class D>
+class RanksTest : public testing::Test {};
+TYPED_TEST_SUITE(RanksTest, Dimensions);
+
+template <int Dim>
+CaseSpec jittered_tank() {
+  CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, 0.3);
+  spec.particles.jitter = 0.1;
+  return spec;
+}
+
+TYPED_TEST(RanksTest, Tank) {
+  constexpr int Dim = TypeParam::value;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = jittered_tank<Dim>();
+    spec.scheme.integrator = integrator;
+    spec.scheme.implicit_form = ImplicitForm::repeated;  // the other is not solved to the end: its test is below
+    expect_same<Dim>(spec, 0.3, as_it_is);
+  }
+}
+
+TYPED_TEST(RanksTest, PublishedFormulationsAndOtherWalls) {
+  constexpr int Dim = TypeParam::value;
+  for (const SchemeName name : {SchemeName::farzin2014, SchemeName::farmani2020}) {
+    CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, 0.3);
+    spec.scheme.name = name;
+    spec.scheme.formulation = Formulation::published;
+    apply_formulation(spec.scheme);
+    expect_same<Dim>(spec, 0.3, as_it_is);
+  }
+}
+
+TYPED_TEST(RanksTest, ConsistentOperatorsStressAndFriction) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  spec.scheme.laplacian = LaplacianKind::consistent;
+  spec.scheme.smagorinsky = 0.1;
+  spec.physics.viscosity = 1e-3;
+  spec.walls[0].slip = Slip::no_slip;
+  expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
+TYPED_TEST(RanksTest, PeriodicVortex) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double k = 2.0 * std::numbers::pi;
+  CaseSpec spec;
+  spec.general.dimension = Dim;
+  spec.particles.spacing = Dim == 2 ? dx : 0.1;
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.domain.periodic_x = {0.0, 1.0};
+  spec.domain.periodic_y = {0.0, 1.0};
+  if (Dim == 3) spec.domain.periodic_z = {0.0, 1.0};
+  FluidTable water;
+  water.min = Coordinates(Dim, 0.0);
+  water.max = Coordinates(Dim, 1.0);
+  spec.fluid = {water};
+  expect_same<Dim>(spec, 0.0, [](Flow<Dim>& flow) {
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+      const Vec<Dim>& x = flow.particles.position[i];
+      flow.particles.velocity[i][0] = std::sin(k * x[0]) * std::cos(k * x[1]);
+      flow.particles.velocity[i][1] = -std::cos(k * x[0]) * std::sin(k * x[1]);
+    }
+  });
+}
+
+TEST(RanksTest, AMovingWall) {
+  CaseSpec spec = jittered_tank<2>();
+  WallTable piston;
+  piston.name = "piston";
+  piston.shape = WallShape::box;
+  piston.min = {-0.5, 0.0};
+  piston.max = {0.0, 0.6};
+  piston.fluid_side = FluidSide::outside;
+  piston.displacement = {"0.2*t", "0"};
+  spec.walls[0].open.emplace_back("-x");
+  spec.walls.push_back(piston);
+  expect_same<2>(spec, 0.3, as_it_is);
+}
+
+TEST(RanksTest, WaterThatLeavesIsBookedOnAllRanks) {
+  CaseSpec spec = jittered_tank<2>();
+  spec.walls[0].open.emplace_back("+x");
+  OutletTable end;
+  end.from = {1.0, 0.0};
+  end.to = {1.0, 0.6};
+  end.direction = {1.0, 0.0};
+  spec.outlets = {end};
+  spec.fluid[0].velocity = {2.0, 0.0};
+  const auto water_in = [](const Flow<2>& flow) {
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < flow.particles.owned; ++i) count += flow.particles.is_fluid(i);
+    return flow.ranks.sum(count);
+  };
+  Flow<2> flow(spec, Communicator::world());
+  const std::int64_t at_start = water_in(flow);
+  run(flow, 40);
+  EXPECT_GT(flow.open_ends[0].departed.particles, 0);
+  EXPECT_EQ(water_in(flow) + flow.open_ends[0].departed.particles, at_start);
+  expect_same<2>(spec, 0.3, as_it_is);
+}
+
+/// Fewer particles than ranks: some have nothing to do.
+TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = free_case(dx);
+  spec.general.dimension = Dim;
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.physics.gravity[0] = g;
+  spec.scheme.length = 1.0;
+  FluidTable drop;
+  drop.min = Coordinates(Dim, 0.0);
+  drop.max = Coordinates(Dim, dx);
+  spec.fluid = {drop};
+  expect_same<Dim>(spec, 1.0, as_it_is);
+}
+
+/// Through the collapse and the impact; chance decides after it.
+TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
+  CaseSpec spec = zhou_case(0.04, Integrator::explicit_projection);
+  const double end = 2.0 * std::sqrt(0.6 / g);
+  const auto energy_at_end = [&](Flow<2>& flow) {
+    start(flow);
+    while (flow.time < end) {
+      if (flow.step % 5 == 0) share_out(flow);
+      advance(flow, next_time_step(flow));
+    }
+    const FlowMeasures measures = measure(flow);
+    return measures.kinetic_energy + measures.potential_energy;
+  };
+  Flow<2> alone(spec);
+  Flow<2> shared(spec, Communicator::world());
+  const double expected = energy_at_end(alone);
+  EXPECT_NEAR(energy_at_end(shared), expected, spec.pressure_solver.tolerance * expected);
+}
+
+/// The second projection stops after a few corrections, and its sweeps stop at the ranks' borders. Two answers that
+/// leave a divergence of d at most differ by a velocity of at most 2 d over the depth.
+TEST(RanksTest, TheSecondProjectionLeavesAsLittleOnAllRanks) {
+  CaseSpec spec = zhou_case(0.04, Integrator::implicit_projection);
+  spec.pressure_solver.tolerance = tau;
+  Flow<2> alone(spec);
+  Flow<2> shared(spec, Communicator::world());
+  start(alone);
+  start(shared);
+  double bound = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const StepReport expected = advance(alone, next_time_step(alone));
+    const StepReport found = advance(shared, next_time_step(shared));
+    EXPECT_NEAR(found.divergence_new, expected.divergence_new, 0.5 * expected.divergence_new);
+    bound += 2.0 * std::max(found.divergence_new, expected.divergence_new) * 0.6;
+    EXPECT_NEAR(measure(shared).largest_speed, measure(alone).largest_speed, bound);
+  }
+}
+
+/// Work is measured in pairs; the parts follow the water, however it moves.
+TEST(RanksTest, WorkStaysSharedEvenly) {
+  CaseSpec spec = zhou_case(0.02, Integrator::explicit_projection);
+  Flow<2> flow(spec, Communicator::world());
+  start(flow);
+  share_out(flow);
+  for (int n = 0; n < 100; ++n) {
+    if (n % 5 == 0) {
+      const Sharing sharing = share_out(flow);
+      // Less than a column of the lattice's 60 x 30 can be cut no finer than the column: 1 in 60 of all the work.
+      if (n > 5) EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.ranks.size() / 60.0);
+    }
+    advance(flow, next_time_step(flow));
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
