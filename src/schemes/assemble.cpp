@@ -126,15 +126,14 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
     row.finish(1.0, flow.open_ends[flow.end_of[i]].pressure_at(flow.particles.position[i], flow.density));
     return false;
   }
-  const bool has_air = flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
   const bool is_dry = !flow.takes_part[i];  // a wall
-  if (is_dry || (!has_air && flow.is_surface[i] && !flow.is_closed)) {
+  if (is_dry || (!has_air(flow) && flow.is_surface[i] && !flow.is_closed)) {
     row.finish_as_zero();
     return false;
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const double air = has_air ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
+  const double air = has_air(flow) ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
