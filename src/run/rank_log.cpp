@@ -32,6 +32,7 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   ++lines_;
   cuts_ += sharing.is_cut_anew;
   moved_ += sharing.moved;
+  ghosts_sum_ += ghosts * ranks_.size();
   if (!csv_) return;
   csv_->write(std::array<double, 10>{flow.time, static_cast<double>(flow.step), sharing.imbalance,
                                      static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
@@ -53,6 +54,7 @@ nlohmann::ordered_json RankLog::json() const {
           {"imbalance_largest", imbalance_largest_},
           {"cuts", cuts_},
           {"moved_particles", moved_},
+          {"ghosts", lines_ > 0 ? ghosts_sum_ / static_cast<double>(lines_) : 0.0},
           {"exchange_share", exchange},
           {"reduction_share", reduction},
           {"exchanges", traffic.exchanges},

@@ -35,6 +35,7 @@ class RankLog {
   std::int64_t lines_ = 0;
   std::int64_t cuts_ = 0;
   std::int64_t moved_ = 0;
+  double ghosts_sum_ = 0.0;  ///< of all ranks
   double imbalance_sum_ = 0.0;
   double imbalance_largest_ = 0.0;  ///< after the first line, which is of the start
 };

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""Forecast of the time per step on many ranks: the last table of docs/scaling.md.
+
+    T = c n (1 + loss) + messages x latency + bytes/bandwidth
+
+n particles per rank. c, loss, bytes per ghost, exchanges per step and iterations are measured (docs/scaling.csv, and
+scaling_3d.csv); latency and bandwidth are those of a usual cluster, assumed. Multigrid: every iteration passes all its
+levels, each with so many exchanges; its set-up counts as so many iterations more.
+Usage: scripts/scaling_model.py
+"""
+import csv
+import math
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LATENCY, BANDWIDTH = 2e-6, 10e9  # s per message, bytes/s: assumed
+LAYER = 3.6  # dx; support and skin: ghosts lie this far around a rank's particles
+REDUCTIONS = 30  # per step outside the solves; 3 more per iteration
+EXCHANGES_PER_LEVEL = 5  # two relaxations, residual, restriction, prolongation
+SETUP_ITERATIONS = 10  # of messages in the set-up of multigrid
+COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG prints, 3D assumed
+NEIGHBOURS = {2: 8, 3: 26}
+COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
+START_BYTES = {2: 100, 3: 140}  # per particle of the whole case, on every rank, while it starts
+
+
+def read(name):
+    with (ROOT / "docs" / name).open() as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def ghosts(n, dimension):
+    edge = n ** (1 / dimension)
+    return (edge + 2 * LAYER) ** dimension - n
+
+
+class Model:
+    def __init__(self, dimension, rows):
+        self.dimension = dimension
+        largest = max(row["particles"] for row in rows)
+        alone, two = (next(row for row in rows if row["particles"] == largest and row["ranks"] == ranks)
+                      for ranks in (1, 2))
+        self.c = alone["seconds_per_step"] / largest
+        self.loss = 2 * two["seconds_per_step"] / alone["seconds_per_step"] - 1
+        self.iterations = alone["iterations_per_step"]
+        self.exchanges = two["messages_per_step"] / 2  # one neighbour each
+        self.bytes_per_step = two["bytes_per_step"] / 2
+        self.ghosts = two["ghosts"] / 2
+
+    def parts(self, particles, ranks):
+        n = particles / ranks
+        halo = self.exchanges * NEIGHBOURS[self.dimension] * LATENCY
+        halo += self.bytes_per_step / self.ghosts * ghosts(n, self.dimension) / BANDWIDTH
+        hops = math.log2(ranks)
+        sums = (REDUCTIONS + 3 * self.iterations) * hops * LATENCY
+        levels = math.log(particles / 10, COARSENING[self.dimension])
+        multigrid = ((self.iterations + SETUP_ITERATIONS) * levels * EXCHANGES_PER_LEVEL *
+                     COARSE_NEIGHBOURS[self.dimension] * LATENCY)
+        return self.c * n, self.c * n * self.loss, halo, sums, multigrid
+
+
+def main():
+    print("| | particles | ranks | particles per rank | own work, s | lost beside others, s | halo, ms | sums, ms | "
+          "multigrid's messages, ms | s per step | efficiency | start, GB per rank |")
+    print("| --- " * 12 + "|")
+    for dimension, name in ((2, "scaling.csv"), (3, "scaling_3d.csv")):
+        model = Model(dimension, read(name))
+        for particles, ranks in ((1e7, 1e2), (1e8, 1e3), (1e8, 1e4), (1e9, 1e4)):
+            own, lost, halo, sums, multigrid = model.parts(particles, ranks)
+            total = own + lost + halo + sums + multigrid
+            print(f"| {dimension}D | {particles:.0e} | {ranks:.0e} | {particles / ranks:.0e} | {own:.2f} | {lost:.2f} | "
+                  f"{1e3 * halo:.1f} | {1e3 * sums:.1f} | {1e3 * multigrid:.0f} | {total:.2f} | {own / total:.0%} | "
+                  f"{1e-9 * START_BYTES[dimension] * particles:.1f} |")
+
+
+if __name__ == "__main__":
+    main()
