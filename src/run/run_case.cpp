@@ -251,8 +251,8 @@ class Run {
     if (!is_here) culprit.reset();
     const std::string reason = ranks_.broadcast(is_here ? describe(*culprit) : std::string(), rank);
     fail(reason +
-             ". The run has become unstable; remedy: a smaller scheme.courant, more scheme.artificial_viscosity, or "
-             "scheme.formulation = \"robust\"",
+             ". The run has become unstable; remedy: a smaller scheme.courant, a larger "
+             "scheme.noise_viscosity, or scheme.formulation = \"robust\" where it is not chosen",
          culprit);
   }
 
