@@ -2,32 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tailwater {
 
 namespace {
 
 template <int Dim>
-struct Box {
-  Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
-  Vec<Dim> high = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());
+using Box = Eigen::AlignedBox<double, Dim>;
 
-  bool holds(const Vec<Dim>& place) const {
-    return (place.array() >= low.array()).all() && (place.array() <= high.array()).all();
-  }
-};
-
-/// Around the owned particles and `margin` [m] beyond.
+/// Around the owned particles and `margin` [m] beyond; empty without any.
 template <int Dim>
 Box<Dim> box_around(const Particles<Dim>& particles, double margin) {
   Box<Dim> box;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    box.low = box.low.cwiseMin(particles.position[i]);
-    box.high = box.high.cwiseMax(particles.position[i]);
-  }
-  box.low.array() -= margin;
-  box.high.array() += margin;
+  for (std::size_t i = 0; i < particles.owned; ++i) box.extend(particles.position[i]);
+  box.min().array() -= margin;
+  box.max().array() += margin;
   return box;
 }
 
@@ -91,7 +80,7 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
     for (const Vec<Dim>& shift : shifts) {
       if (rank == ranks.rank() && shift.isZero(0.0)) continue;  // the particles themselves
       for (std::size_t i = 0; i < particles.owned; ++i) {
-        if (!boxes[rank].holds(particles.position[i] + shift)) continue;
+        if (!boxes[rank].contains(particles.position[i] + shift)) continue;
         sent[rank].push_back(static_cast<std::int32_t>(i));
         if (shifts.size() > 1) halo.shift.push_back(shift);
       }
@@ -99,7 +88,7 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
   }
   halo.plan = ExchangePlan(ranks, particles.owned, sent);
   particles.apply_to_fields([&](auto&... field) { halo.exchange(field...); });
-  halo.exchange_positions(particles.position);
+  if (shifts.size() > 1) halo.exchange_positions(particles.position);
   return halo;
 }
 

@@ -6,21 +6,13 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "neighbours/pairs.h"
 
 namespace tailwater {
 
-template <int Dim>
-double concentration(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume, double W_0) {
-  double sum = volume[i] * W_0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    sum += volume[pairs.j[k]] * pairs.W[k];
-  }
-  return sum;
-}
-
-/// Both sums in one pass over the row.
+/// C_i [1] and grad C_i [1/m], in one pass over the row.
 template <int Dim>
 std::pair<double, Vec<Dim>> concentration_with_gradient(const Pairs<Dim>& pairs, std::size_t i,
                                                         std::span<const double> volume, double W_0) {

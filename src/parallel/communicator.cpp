@@ -1,8 +1,6 @@
 #include "parallel/communicator.h"
 
-#include <algorithm>
 #include <cstring>
-#include <numeric>
 
 #include "base/assert.h"
 

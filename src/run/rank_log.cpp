@@ -19,7 +19,7 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   const Traffic& traffic = *ranks_.traffic();
   double exchange = (traffic.exchange_seconds - at_last_.exchange_seconds) / elapsed / ranks_.size();
   double reduction = (traffic.reduction_seconds - at_last_.reduction_seconds) / elapsed / ranks_.size();
-  double ghosts = static_cast<double>(flow.neighbourhood.halo().plan.ghosts()) / ranks_.size();
+  auto ghosts = static_cast<double>(flow.neighbourhood.halo().plan.ghosts());
   ranks_.sum_each(exchange, reduction, ghosts);
   const auto owned = static_cast<std::int64_t>(flow.particles.owned);
   const std::int64_t least = ranks_.least(owned);
@@ -32,12 +32,12 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   ++lines_;
   cuts_ += sharing.is_cut_anew;
   moved_ += sharing.moved;
-  ghosts_sum_ += ghosts * ranks_.size();
+  ghosts_sum_ += ghosts;
   if (!csv_) return;
   csv_->write(std::array<double, 10>{flow.time, static_cast<double>(flow.step), sharing.imbalance,
                                      static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
-                                     static_cast<double>(least), static_cast<double>(most), ghosts, exchange,
-                                     reduction});
+                                     static_cast<double>(least), static_cast<double>(most), ghosts / ranks_.size(),
+                                     exchange, reduction});
 }
 
 nlohmann::ordered_json RankLog::json() const {

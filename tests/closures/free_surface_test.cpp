@@ -58,8 +58,9 @@ struct Marks {
     std::vector<double> filling(set.size());
     std::vector<Vec<Dim>> gradient(set.size());
     for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-      filling[i] = concentration<Dim>(set.pairs(), i, set.particles.volume, W_0) / C_0;
-      gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
+      const auto [sum, direction] = concentration_with_gradient<Dim>(set.pairs(), i, set.particles.volume, W_0);
+      filling[i] = sum / C_0;
+      gradient[i] = direction;
     }
     find_free_surface<Dim>(test, {set.pairs(), set.particles, filling, gradient, operators.tensors, dx, C_0, W_0, 0.99},
                            is_surface);

@@ -29,7 +29,7 @@ struct Shifted {
         gradient(set.size()),
         shift(set.size(), Vec<Dim>::Ones()) {
     for (std::size_t i = 0; i < set.size(); ++i) {
-      gradient[i] = concentration_gradient<Dim>(set.pairs(), i, set.particles.volume);
+      gradient[i] = concentration_with_gradient<Dim>(set.pairs(), i, set.particles.volume, 0.0).second;
     }
     const std::vector<double> interior(set.size(), is_near_surface ? 0.0 : 1.0);
     beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, interior, gradient, shift);

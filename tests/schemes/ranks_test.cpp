@@ -45,14 +45,18 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
   return all;
 }
 
+/// As a run takes it.
+template <int Dim>
+void shared_step(Flow<Dim>& flow) {
+  if (flow.step % 5 == 0) share_out(flow);
+  let_go(flow);
+  advance(flow, next_time_step(flow));
+}
+
 template <int Dim>
 void run(Flow<Dim>& flow, int count) {
   start(flow);
-  for (int n = 0; n < count; ++n) {
-    if (n % 5 == 0) share_out(flow);
-    let_go(flow);
-    advance(flow, next_time_step(flow));
-  }
+  for (int n = 0; n < count; ++n) shared_step(flow);
 }
 
 /// Runs the case on all ranks and on one, from velocities set by `prepare`, and compares.
@@ -211,10 +215,7 @@ TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
   const double end = 2.0 * std::sqrt(0.6 / g);
   const auto energy_at_end = [&](Flow<2>& flow) {
     start(flow);
-    while (flow.time < end) {
-      if (flow.step % 5 == 0) share_out(flow);
-      advance(flow, next_time_step(flow));
-    }
+    while (flow.time < end) shared_step(flow);
     const FlowMeasures measures = measure(flow);
     return measures.kinetic_energy + measures.potential_energy;
   };
