@@ -40,7 +40,7 @@ std::span<const KeyUse> key_uses() {
       {"scheme", "name", "farmani2020", {}, {}},
       {"scheme", "source", "velocity-divergence", {}, {}},
       {"scheme", "source", "density", {}, {}},
-      {"scheme", "source", "mixed", {}, {"density_relaxation"}},
+      {"scheme", "source", "mixed", {}, {"density_relaxation", "energy_slack"}},
       {"scheme", "surface", "air", {}, {}},
       {"scheme", "surface", "cone", {}, {}},
       {"scheme", "surface", "farzin", {}, {}},

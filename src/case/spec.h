@@ -258,6 +258,7 @@ struct SchemeTable {
   double shifting_cap = 0.1;
 
   double density_relaxation = 0.01;
+  double energy_slack = 1e-4;
 
   ImplicitForm implicit_form = ImplicitForm::residual;
   int corrections = 2;
@@ -326,6 +327,9 @@ struct SchemeTable {
              "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
              "Share of the density error corrected per step by the source of the pressure equation");
+    v.number("energy_slack", self.energy_slack, "", Range::above(0.0),
+             "Rise of the energy that the walls do not explain, over m g L/2 and the kinetic energy, at which the "
+             "density source stops; it gives way from 0 on (formulation)");
     v.choice(
         "implicit_form", self.implicit_form,
         "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "

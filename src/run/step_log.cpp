@@ -19,6 +19,9 @@ StepLog::StepLog(const std::filesystem::path& path)
                   "kinetic_J",
                   "potential_J",
                   "density_work_J",
+                  "wall_work_J",
+                  "viscous_work_J",
+                  "density_share",
                   "density_error_mean",
                   "density_error_rms",
                   "density_error_max",
@@ -31,7 +34,7 @@ StepLog::StepLog(const std::filesystem::path& path)
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
-  csv_.write(std::array<double, 23>{time,
+  csv_.write(std::array<double, 26>{time,
                                     static_cast<double>(step),
                                     report.dt,
                                     static_cast<double>(report.passes),
@@ -45,6 +48,9 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                                     measures.kinetic_energy,
                                     measures.potential_energy,
                                     report.density_work,
+                                    report.wall_work,
+                                    report.viscous_work,
+                                    report.density_share,
                                     measures.density_error_mean,
                                     measures.density_error_rms,
                                     measures.density_error_largest,

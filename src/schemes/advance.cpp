@@ -21,8 +21,8 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   hold_open_ends(flow, dt);
   StepReport report = take_step(flow, dt);
   Interventions& counts = report.interventions;
-  flow.ranks.sum_each(report.density_work, counts.put_back, counts.capped_shifts, counts.clamped_pressures,
-                      counts.fallback_rows);
+  flow.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.clamped_pressures, counts.fallback_rows);
+  balance_energy(flow, report);
   flow.time += dt;
   ++flow.step;
   return report;

@@ -9,8 +9,8 @@
 //        surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is
 //        marked instead, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
-// gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
-//        particles too far apart: at the surface nothing pulls
+// gamma  share of the density error that a step corrects, as far as the energy allows (`balance_energy`); s_i is 1 for
+//        particles too close and `interior` for particles too far apart: at the surface nothing pulls
 //
 // Wall rows. A row with dummies behind: on the wall the same equation, and each dummy has the pressure of the row
 // beside it, p_d = sum_w W p_w/sum_w W, so that nothing flows across the wall (Neumann). Dummies: p_w = sum_f W (p_f +
@@ -41,7 +41,7 @@ double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
   if (flow.scheme.source == SourceKind::density) return unit * (flow.concentration[i] - 1.0);
   const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
   const double answered = (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
-  return flow.scheme.density_relaxation * unit * answered;
+  return flow.density_share * flow.scheme.density_relaxation * unit * answered;
 }
 
 template <int Dim>

@@ -17,6 +17,8 @@ StepReport project(Flow<Dim>& flow, double dt) {
   const SolveReport solved = solve(flow, report.interventions);
   correct(flow, dt);  // (F16)
   report.density_work = density_source_work(flow, dt);
+  report.wall_work = wall_work(flow, dt);
+  report.viscous_work = viscous_work(flow, dt);
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   return report;

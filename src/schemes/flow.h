@@ -45,6 +45,9 @@ struct StepReport {
   double divergence_new = 0.0;    ///< 1/s; the same at the new positions
   double divergence_moved = 0.0;  ///< 1/s; rms of the difference: the part that comes from the old positions
   double density_work = 0.0;      ///< J; of the pressure on what the density source expands
+  double wall_work = 0.0;         ///< J; of the pressure of moving walls on the water
+  double viscous_work = 0.0;      ///< J; of viscosity and friction on the water
+  double density_share = 1.0;     ///< of the density source that the energy left to the next step
   Interventions interventions;
 };
 
@@ -77,6 +80,8 @@ struct Flow {
   Particles<Dim> particles;
   double time = 0.0;  ///< s
   std::int64_t step = 0;
+  double energy_rise = 0.0;    ///< J; from the least energy so far, without what the walls brought
+  double density_share = 1.0;  ///< of the density source that this leaves (`balance_energy`)
   std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
   std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
@@ -97,6 +102,7 @@ struct Flow {
   // One step:
   std::vector<Vec<Dim>> position_old;  ///< r^n, owned; in `shift`, the positions before it
   std::vector<Vec<Dim>> velocity_old;  ///< u^n, owned
+  double energy_old = 0.0;             ///< J; of the owned fluid at r^n, u^n
   std::vector<Vec<Dim>> u_star;        ///< predicted velocity, without gravity unless `predicts_gravity`
   // Of moving walls, by row of the table of wall particles:
   std::vector<Vec<Dim>> wall_velocity_old;   ///< m/s; at the start of the step

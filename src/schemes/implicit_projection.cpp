@@ -43,6 +43,7 @@ StepReport two_projections_step(Flow<Dim>& flow, double dt) {
   drive_walls_to_end(flow, dt);
   flow.walls.velocity = flow.wall_velocity_next;
   report.iterations += reproject(flow, dt, report.interventions).iterations;
+  report.wall_work = wall_work(flow, dt);  // of the pressure of both
   report.passes = 2;
   report.divergence_new = report.divergence_old = bulk_divergence(flow);  // the solve was at the new positions
   shift(flow, dt, report.interventions);
@@ -68,6 +69,8 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
     const SolveReport solved = solve(flow, report.interventions);
     correct(flow, dt);  // (F24)
     report.density_work = density_source_work(flow, dt);
+    report.wall_work = wall_work(flow, dt);
+    report.viscous_work = viscous_work(flow, dt);
     report.divergence_old = bulk_divergence(flow);
 
     report.pressure_change = relative_change(flow.ranks, pressure_before, particles.pressure);

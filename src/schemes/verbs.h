@@ -18,10 +18,14 @@ namespace tailwater {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks = false);
 
-/// Wraps the particles into a periodic domain and keeps r^n and u^n: lists reach only a skin beyond the domain, so no
+/// Wraps the particles into a periodic domain and keeps r^n, u^n and their energy: lists reach only a skin beyond the domain, so no
 /// particle may stay outside for more than a step.
 template <int Dim>
 void remember(Flow<Dim>& flow);
+
+/// Kinetic and potential energy [J] of this rank's fluid.
+template <int Dim>
+double energy_of_rank(const Flow<Dim>& flow);
 
 /// Moving walls: the velocity that the projection gives the fluid beside them, and the acceleration of dt that leads
 /// there. It is their mean velocity over the step, so that what they sweep is what the water leaves; with
@@ -87,6 +91,23 @@ void assemble(Flow<Dim>& flow, double dt, Interventions& interventions);
 /// at the positions of its equation.
 template <int Dim>
 double density_source_work(const Flow<Dim>& flow, double dt);
+
+/// Work [J] of the pressure of moving walls on this rank's water in a step of dt. Needs the pressure of this step and
+/// the walls' velocity that `correct` left.
+template <int Dim>
+double wall_work(const Flow<Dim>& flow, double dt);
+
+/// Work [J] of viscosity and wall friction on this rank's water in a step of dt: what they dissipate, below 0, unless
+/// moving walls drag the water. Needs `predict`.
+template <int Dim>
+double viscous_work(const Flow<Dim>& flow, double dt);
+
+/// Books the energy of the step and sets which share of the density source it leaves to the next. Lifting water that
+/// had come too close costs energy, which the scheme must have dissipated before: the share falls from 1 to 0 while
+/// the energy stands up to `energy_slack` above its least, the work of walls apart (docs/theory/robustness.md). Adds up
+/// the works of all ranks in `report`.
+template <int Dim>
+void balance_energy(Flow<Dim>& flow, StepReport& report);
 
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
