@@ -24,10 +24,13 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
   energy_end_ = total_energy(measures);
   energy_out_ = measures.departed.energy;
-  const double accounted = energy_end_ + energy_out_;
+  brought_by_walls_ += report.brought_by_walls();
+  viscous_work_ += report.viscous_work;
+  const double accounted = energy_end_ + energy_out_ - brought_by_walls_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.density_work;
+  density_share_sum_ += report.density_share;
   unexplained_least_ = std::min(unexplained_least_, accounted - density_work_);
   unexplained_rise_ = std::max(unexplained_rise_, accounted - density_work_ - unexplained_least_);
   escaped_ = escaped;
@@ -56,9 +59,12 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
        {{"start_J", energy_start_},
         {"end_J", energy_end_},
         {"out_J", energy_out_},
+        {"brought_by_walls_J", brought_by_walls_},
+        {"viscous_work_J", viscous_work_},
         {"largest_rise_J", energy_rise_},
         {"largest_rise_over_start", over_start(energy_rise_)},
         {"density_work_J", density_work_},
+        {"density_share_mean", steps_ > 0 ? density_share_sum_ / steps : 1.0},
         {"largest_rise_less_density_work_over_start", over_start(unexplained_rise_)}}},
       {"volume",
        {{"fluid_particles_start", fluid_particles_at_start},

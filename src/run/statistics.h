@@ -36,9 +36,12 @@ class RunStatistics {
   double energy_start_;
   double energy_end_;
   double energy_out_ = 0.0;  ///< J; with the water that left: no loss
-  double energy_least_;      ///< J; the least of what is inside and what left
+  double brought_by_walls_ = 0.0;
+  double viscous_work_ = 0.0;
+  double energy_least_;  ///< J; the least of what is inside and what left, without what walls brought
   double energy_rise_ = 0.0;
   double density_work_ = 0.0;
+  double density_share_sum_ = 0.0;
   double unexplained_least_;  ///< of the energy less density_work_
   double unexplained_rise_ = 0.0;
   std::size_t most_escaped_ = 0;

@@ -7,8 +7,13 @@
 namespace tailwater {
 namespace {
 
-/// The force on a wall, summed over the kernel, is known to some (dx/depth)^2: 4 % at 12 rows of particles.
-constexpr double wall_work_in_doubt = 0.25;
+/// Share of what walls bring that is not counted as a rise if it was more: the force on a wall, summed over the kernel,
+/// is known to some (dx/depth)^2, 4 % at 12 rows of particles.
+constexpr double in_doubt = 0.25;
+
+/// [speed/L]; at which a rise is forgotten. Water at rest dissipates nothing that could pay for lifting a lattice that
+/// was placed too close: it rises slowly.
+constexpr double fading_rate = 1.4;
 
 /// Work [J] of a moving wall's particle: the conservative gradient's force on each fluid neighbour, times its velocity.
 template <int Dim>
@@ -56,6 +61,7 @@ double viscous_work(const Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, StepReport& report) {
+  double change = energy_of_rank(flow) - flow.energy_old;
   double mass = 0.0;
   double kinetic = 0.0;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
@@ -63,16 +69,18 @@ void balance_energy(Flow<Dim>& flow, StepReport& report) {
     mass += flow.density * flow.particles.volume[i];
     kinetic += flow.kinetic_energy_of(i);
   }
-  double change = energy_of_rank(flow) - flow.energy_old;
   flow.ranks.sum_each(report.density_work, report.wall_work, report.viscous_work, change, mass, kinetic);
-  const double brought =
-      report.wall_work + wall_work_in_doubt * std::abs(report.wall_work) + std::max(0.0, report.viscous_work);
+
+  const double doubt = in_doubt * (std::abs(report.wall_work) + report.dragged());
   const double g = flow.gravity.norm();
-  const double faded = g > 0.0 ? std::exp(-report.dt * std::sqrt(g / flow.length)) : 1.0;
-  flow.energy_rise = std::max(0.0, faded * flow.energy_rise + change - brought);
+  const double speed = g > 0.0 ? flow.time_step_rule.reference_speed : largest_speed(flow);
+  const double faded = std::exp(-fading_rate * speed * report.dt / flow.length);
+  flow.energy_rise = std::max(0.0, faded * flow.energy_rise + change - report.brought_by_walls() - doubt);
+
   const double at_hand = 0.5 * mass * g * flow.length + kinetic;
   if (at_hand > 0.0) {
-    flow.density_share = std::clamp(1.0 - flow.energy_rise / (flow.scheme.energy_slack * at_hand), 0.0, 1.0);
+    const double left = std::max(0.0, 1.0 - flow.energy_rise / (flow.scheme.energy_slack * at_hand));
+    flow.density_share = left * left;
   }
   report.density_share = flow.density_share;
 }

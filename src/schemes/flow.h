@@ -49,6 +49,11 @@ struct StepReport {
   double viscous_work = 0.0;      ///< J; of viscosity and friction on the water
   double density_share = 1.0;     ///< of the density source that the energy left to the next step
   Interventions interventions;
+
+  /// J; what viscosity and friction brought: moving walls drag the water by more than is dissipated.
+  double dragged() const { return std::max(0.0, viscous_work); }
+  /// J; what moving walls gave the water.
+  double brought_by_walls() const { return wall_work + dragged(); }
 };
 
 template <int Dim>

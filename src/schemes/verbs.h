@@ -102,10 +102,10 @@ double wall_work(const Flow<Dim>& flow, double dt);
 template <int Dim>
 double viscous_work(const Flow<Dim>& flow, double dt);
 
-/// Books the energy of the step and sets which share of the density source it leaves to the next. Lifting water that
-/// had come too close costs energy, which the scheme must have dissipated before: the share falls from 1 to 0 while
-/// the energy stands up to `energy_slack` above its least, the work of walls apart (docs/theory/robustness.md). Adds up
-/// the works of all ranks in `report`.
+/// Books the energy of the step, adds up the works of all ranks in `report`, and sets which share of the density source
+/// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
+/// before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the work of walls
+/// apart; rises are slowly forgotten (docs/theory/robustness.md).
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, StepReport& report);
 

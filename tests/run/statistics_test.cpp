@@ -56,6 +56,24 @@ TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
   EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_less_density_work_over_start"].get<double>(), 0.075);
 }
 
+TEST(RunStatistics, WhatMovingWallsBringIsNoRise) {
+  RunStatistics statistics(with_energy(0.0, 10.0));
+  StepReport report = step_of(0.1, 1, 1);
+  report.wall_work = 2.0;
+  report.viscous_work = -0.5;
+  report.density_share = 0.5;
+  statistics.add(report, with_energy(0.0, 11.5), 0);
+  report.wall_work = 0.0;
+  report.viscous_work = 0.25;  // dragged along
+  report.density_share = 1.0;
+  statistics.add(report, with_energy(0.0, 12.0), 0);
+  const auto json = statistics.json(1, 1);
+  EXPECT_DOUBLE_EQ(json["energy"]["brought_by_walls_J"].get<double>(), 2.25);
+  EXPECT_DOUBLE_EQ(json["energy"]["viscous_work_J"].get<double>(), -0.25);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 0.25);  // 10, 9.5, 9.75
+  EXPECT_DOUBLE_EQ(json["energy"]["density_share_mean"].get<double>(), 0.75);
+}
+
 TEST(RunStatistics, EnergyThatLeftIsNeitherLostNorGained) {
   FlowMeasures later = with_energy(1.0, 5.0);
   later.departed.energy = 4.0;
