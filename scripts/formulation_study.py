@@ -34,6 +34,7 @@ VARIANTS = {
     "published kernel": ["scheme.kernel=farzin"],
     "no shifting": ["scheme.shifting=none"],
     "no density relaxation": ["scheme.density_relaxation=0"],
+    "density source whatever the energy": ["scheme.energy_slack=1e3"],
     "detected surface (cone)": ["scheme.surface=cone"],
     "consistent divergence": ["scheme.divergence=consistent"],
     "consistent gradient": ["scheme.gradient=consistent"],

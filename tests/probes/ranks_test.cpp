@@ -141,27 +141,27 @@ TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanksWithGhosts) {
 }
 
 TYPED_TEST(ProbesOnRanks, WithoutFluidTheFrontIsZero) {
-  constexpr int Dim = TypeParam::value;
-  const Tank<Dim> tank(0.5, [](const Vec<Dim>&) { return false; });
-  ProbeContext<Dim> context = tank.context();
-  const Reading<Dim> front = make_probes<Dim>(
-                                 [&] {
-                                   CaseSpec spec = tank.spec;
-                                   spec.probes = {probe_at(ProbeType::front, {})};
-                                   return spec;
-                                 }(),
-                                 tank.boundary)[0]
-                                 .reading;
-  const ProbeContext<Dim> on_ranks{context.particles,
-                                   context.grid,
-                                   context.kernel,
-                                   context.boundary,
-                                   context.density,
-                                   context.gravity,
-                                   context.spacing,
-                                   0.0,
-                                   {},
-                                   Communicator::world()};
+  constexpr int dimension = TypeParam::value;
+  const Tank<dimension> tank(0.5, [](const Vec<dimension>&) { return false; });
+  ProbeContext<dimension> context = tank.context();
+  const Reading<dimension> front = make_probes<dimension>(
+                                       [&] {
+                                         CaseSpec spec = tank.spec;
+                                         spec.probes = {probe_at(ProbeType::front, {})};
+                                         return spec;
+                                       }(),
+                                       tank.boundary)[0]
+                                       .reading;
+  const ProbeContext<dimension> on_ranks{context.particles,
+                                         context.grid,
+                                         context.kernel,
+                                         context.boundary,
+                                         context.density,
+                                         context.gravity,
+                                         context.spacing,
+                                         0.0,
+                                         {},
+                                         Communicator::world()};
   EXPECT_EQ(front.take(on_ranks), (std::vector<Row>{{0.0, 0.0}}));
 }
 

@@ -254,7 +254,9 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
     if (n % 5 == 0) {
       const Sharing sharing = share_out(flow);
       // Less than a column of the lattice's 60 x 30 can be cut no finer than the column: 1 in 60 of all the work.
-      if (n > 5) EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.ranks.size() / 60.0);
+      if (n > 5) {
+        EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.ranks.size() / 60.0);
+      }
     }
     advance(flow, next_time_step(flow));
   }
