@@ -1,3 +1,4 @@
+// The books of the energy, and what they leave to the density source.
 #include <algorithm>
 #include <cmath>
 

@@ -18,8 +18,8 @@ namespace tailwater {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks = false);
 
-/// Wraps the particles into a periodic domain and keeps r^n, u^n and their energy: lists reach only a skin beyond the domain, so no
-/// particle may stay outside for more than a step.
+/// Wraps the particles into a periodic domain and keeps r^n, u^n and their energy: lists reach only a skin beyond the
+/// domain, so no particle may stay outside for more than a step.
 template <int Dim>
 void remember(Flow<Dim>& flow);
 
