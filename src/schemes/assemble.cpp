@@ -1,6 +1,6 @@
 // The pressure equation, row by row. For fluid particle i
 //
-//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
+//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (e s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
 // with `source = "mixed"`; the first term alone is (F15), and `source = "density"` is (B17), rho (C/C_0 - 1)/dt^2.
 //
@@ -9,8 +9,8 @@
 //        surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is
 //        marked instead, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
-// gamma  share of the density error that a step corrects, as far as the energy allows (`balance_energy`); s_i is 1 for
-//        particles too close and `interior` for particles too far apart: at the surface nothing pulls
+// gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
+//        particles too far apart: at the surface nothing pulls; e is what the energy leaves of it (`balance_energy`)
 //
 // Wall rows. A row with dummies behind: on the wall the same equation, and each dummy has the pressure of the row
 // beside it, p_d = sum_w W p_w/sum_w W, so that nothing flows across the wall (Neumann). Dummies: p_w = sum_f W (p_f +
@@ -40,8 +40,8 @@ double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
   const double unit = flow.density / (dt * dt);
   if (flow.scheme.source == SourceKind::density) return unit * (flow.concentration[i] - 1.0);
   const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
-  const double answered = (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
-  return flow.density_share * flow.scheme.density_relaxation * unit * answered;
+  const double answered = flow.density_share * (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
+  return flow.scheme.density_relaxation * unit * answered;
 }
 
 template <int Dim>

@@ -86,7 +86,7 @@ struct Flow {
   double time = 0.0;  ///< s
   std::int64_t step = 0;
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
-  double density_share = 1.0;           ///< of the density source that this leaves (`balance_energy`)
+  double density_share = 1.0;           ///< of the density error's source that this leaves
   std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
   std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
