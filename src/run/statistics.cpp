@@ -5,7 +5,7 @@
 namespace tailwater {
 
 RunStatistics::RunStatistics(const FlowMeasures& start)
-    : energy_start_(total_energy(start)),
+    : energy_start_(start.energy()),
       energy_end_(energy_start_),
       energy_least_(energy_start_),
       unexplained_least_(energy_start_) {}
@@ -22,7 +22,7 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   divergence_moved_squares_ += report.divergence_moved * report.divergence_moved;
   density_error_sum_ += measures.density_error_mean;
   density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
-  energy_end_ = total_energy(measures);
+  energy_end_ = measures.energy();
   energy_out_ = measures.departed.energy;
   brought_by_walls_ += report.brought_by_walls();
   viscous_work_ += report.viscous_work;

@@ -18,10 +18,6 @@ class RunStatistics {
   nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
  private:
-  static double total_energy(const FlowMeasures& measures) {
-    return measures.kinetic_energy + measures.potential_energy;
-  }
-
   std::int64_t steps_ = 0;
   std::int64_t passes_ = 0;
   std::int64_t iterations_ = 0;

@@ -31,15 +31,31 @@ double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
   return dt * particles.volume[i] * recoil.dot(flow.walls.velocity[particles.wall_row[i]]);
 }
 
+template <int Dim>
+double viscous_work(const Flow<Dim>& flow, double dt) {
+  double work = 0.0;
+  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+    if (!flow.particles.is_fluid(i)) continue;
+    const Vec<Dim>& acceleration = flow.acceleration[i];
+    const Vec<Dim> way = dt * (flow.velocity_old[i] + 0.5 * dt * acceleration);
+    work += flow.density * flow.particles.volume[i] * acceleration.dot(way);
+  }
+  return work;
+}
+
 }  // namespace
 
 template <int Dim>
-double energy_of_rank(const Flow<Dim>& flow) {
-  double energy = 0.0;
+FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
+  FluidSums sums;
   for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.is_fluid(i)) energy += flow.kinetic_energy_of(i) + flow.potential_energy_of(i);
+    if (!flow.particles.is_fluid(i)) continue;
+    const double kinetic_energy = flow.kinetic_energy_of(i);
+    sums.mass += flow.density * flow.particles.volume[i];
+    sums.kinetic_energy += kinetic_energy;
+    sums.energy += kinetic_energy + flow.potential_energy_of(i);
   }
-  return energy;
+  return sums;
 }
 
 template <int Dim>
@@ -53,28 +69,18 @@ double wall_work(const Flow<Dim>& flow, double dt) {
 }
 
 template <int Dim>
-double viscous_work(const Flow<Dim>& flow, double dt) {
-  double work = 0.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    const Vec<Dim>& acceleration = flow.acceleration[i];
-    const Vec<Dim> way = dt * (flow.velocity_old[i] + 0.5 * dt * acceleration);
-    work += flow.density * flow.particles.volume[i] * acceleration.dot(way);
-  }
-  return work;
+void book_work(const Flow<Dim>& flow, double dt, StepReport& report) {
+  report.density_work = density_source_work(flow, dt);
+  report.wall_work = wall_work(flow, dt);
+  report.viscous_work = viscous_work(flow, dt);
 }
 
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, StepReport& report) {
-  double change = energy_of_rank(flow) - flow.energy_old;
-  double mass = 0.0;
-  double kinetic = 0.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    mass += flow.density * flow.particles.volume[i];
-    kinetic += flow.kinetic_energy_of(i);
-  }
-  flow.ranks.sum_each(report.density_work, report.wall_work, report.viscous_work, change, mass, kinetic);
+  FluidSums sums = fluid_sums_of_rank(flow);
+  double change = sums.energy - flow.energy_old;
+  flow.ranks.sum_each(report.density_work, report.wall_work, report.viscous_work, change, sums.mass,
+                      sums.kinetic_energy);
 
   const double doubt = in_doubt * (std::abs(report.wall_work) + report.dragged());
   const double g = flow.gravity.norm();
@@ -82,7 +88,7 @@ void balance_energy(Flow<Dim>& flow, StepReport& report) {
   const double faded = std::exp(-fading_rate * speed * report.dt / flow.length);
   flow.energy_rise = std::max(0.0, faded * flow.energy_rise + change - report.brought_by_walls() - doubt);
 
-  const double at_hand = 0.5 * mass * g * flow.length + kinetic;
+  const double at_hand = 0.5 * sums.mass * g * flow.length + sums.kinetic_energy;
   if (at_hand > 0.0) {
     const double left = std::max(0.0, 1.0 - flow.energy_rise / (flow.scheme.energy_slack * at_hand));
     flow.density_share += share_of_change * (left * left - flow.density_share);
@@ -90,12 +96,12 @@ void balance_energy(Flow<Dim>& flow, StepReport& report) {
   report.density_share = flow.density_share;
 }
 
-template double energy_of_rank<2>(const Flow<2>&);
-template double energy_of_rank<3>(const Flow<3>&);
+template FluidSums fluid_sums_of_rank<2>(const Flow<2>&);
+template FluidSums fluid_sums_of_rank<3>(const Flow<3>&);
 template double wall_work<2>(const Flow<2>&, double);
 template double wall_work<3>(const Flow<3>&, double);
-template double viscous_work<2>(const Flow<2>&, double);
-template double viscous_work<3>(const Flow<3>&, double);
+template void book_work<2>(const Flow<2>&, double, StepReport&);
+template void book_work<3>(const Flow<3>&, double, StepReport&);
 template void balance_energy<2>(Flow<2>&, StepReport&);
 template void balance_energy<3>(Flow<3>&, StepReport&);
 

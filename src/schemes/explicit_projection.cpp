@@ -16,9 +16,7 @@ StepReport project(Flow<Dim>& flow, double dt) {
   assemble(flow, dt, report.interventions);  // (F15)
   const SolveReport solved = solve(flow, report.interventions);
   correct(flow, dt);  // (F16)
-  report.density_work = density_source_work(flow, dt);
-  report.wall_work = wall_work(flow, dt);
-  report.viscous_work = viscous_work(flow, dt);
+  book_work(flow, dt, report);
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   return report;

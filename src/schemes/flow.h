@@ -169,6 +169,8 @@ struct FlowMeasures {
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
   Departed departed;  ///< through all outlets since the start
+
+  double energy() const { return kinetic_energy + potential_energy; }
 };
 
 /// Collective.

@@ -68,9 +68,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
     assemble(flow, dt, report.interventions);              // (F22)
     const SolveReport solved = solve(flow, report.interventions);
     correct(flow, dt);  // (F24)
-    report.density_work = density_source_work(flow, dt);
-    report.wall_work = wall_work(flow, dt);
-    report.viscous_work = viscous_work(flow, dt);
+    book_work(flow, dt, report);
     report.divergence_old = bulk_divergence(flow);
 
     report.pressure_change = relative_change(flow.ranks, pressure_before, particles.pressure);

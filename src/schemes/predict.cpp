@@ -13,7 +13,7 @@ void remember(Flow<Dim>& flow) {
   flow.position_old.assign(flow.particles.position.begin(), flow.particles.position.begin() + owned);
   flow.velocity_old.assign(flow.particles.velocity.begin(), flow.particles.velocity.begin() + owned);
   flow.wall_velocity_old = flow.walls.velocity;
-  flow.energy_old = energy_of_rank(flow);
+  flow.energy_old = fluid_sums_of_rank(flow).energy;
 }
 
 template <int Dim>

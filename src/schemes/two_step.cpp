@@ -26,9 +26,7 @@ StepReport two_step(Flow<Dim>& flow, double dt) {
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   correct(flow, dt);  // (B16), (B18)
-  report.density_work = density_source_work(flow, dt);
-  report.wall_work = wall_work(flow, dt);
-  report.viscous_work = viscous_work(flow, dt);
+  book_work(flow, dt, report);
   report.divergence_old = bulk_divergence(flow);
   move(flow, dt, report.interventions);  // (B19)
   locate(flow);

@@ -23,9 +23,15 @@ void locate(Flow<Dim>& flow, bool keep_marks = false);
 template <int Dim>
 void remember(Flow<Dim>& flow);
 
-/// Kinetic and potential energy [J] of this rank's fluid.
+/// Sums over this rank's fluid.
+struct FluidSums {
+  double mass = 0.0;            ///< kg (per metre of width in 2D)
+  double kinetic_energy = 0.0;  ///< J
+  double energy = 0.0;          ///< J; kinetic and potential
+};
+
 template <int Dim>
-double energy_of_rank(const Flow<Dim>& flow);
+FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 
 /// Moving walls: the velocity that the projection gives the fluid beside them, and the acceleration of dt that leads
 /// there. It is their mean velocity over the step, so that what they sweep is what the water leaves; with
@@ -97,10 +103,10 @@ double density_source_work(const Flow<Dim>& flow, double dt);
 template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt);
 
-/// Work [J] of viscosity and wall friction on this rank's water in a step of dt: what they dissipate, below 0, unless
-/// moving walls drag the water. Needs `predict`.
+/// Books the works of a step on this rank's water: of the density source, of moving walls, and of viscosity and friction
+/// (what they dissipate, below 0, unless moving walls drag the water). Call after `correct`, before anything moves.
 template <int Dim>
-double viscous_work(const Flow<Dim>& flow, double dt);
+void book_work(const Flow<Dim>& flow, double dt, StepReport& report);
 
 /// Books the energy of the step, adds up the works of all ranks in `report`, and sets which share of the density source
 /// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
