@@ -103,8 +103,9 @@ double density_source_work(const Flow<Dim>& flow, double dt);
 template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt);
 
-/// Books the works of a step on this rank's water: of the density source, of moving walls, and of viscosity and friction
-/// (what they dissipate, below 0, unless moving walls drag the water). Call after `correct`, before anything moves.
+/// Books the works of a step on this rank's water: of the density source, of moving walls, and of viscosity and
+/// friction (what they dissipate, below 0, unless moving walls drag the water). Call after `correct`, before anything
+/// moves.
 template <int Dim>
 void book_work(const Flow<Dim>& flow, double dt, StepReport& report);
 
