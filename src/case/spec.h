@@ -329,7 +329,7 @@ struct SchemeTable {
              "Share of the density error corrected per step by the source of the pressure equation");
     v.number("energy_slack", self.energy_slack, "", Range::above(0.0),
              "Rise of the energy that the walls do not explain, over m g L/2 and the kinetic energy, at which the "
-             "density source stops; it gives way from 0 on (formulation)");
+             "density source stops lifting; it gives way from 0 on (formulation)");
     v.choice(
         "implicit_form", self.implicit_form,
         "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "

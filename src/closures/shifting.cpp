@@ -37,6 +37,23 @@ Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   return direction;
 }
 
+/// Share of a shift's part along the surface's normal that particle i keeps: 0 in the three outermost rows, whose
+/// support the surface cuts, 1 where all neighbours are inside. A flat surface reads a mean of `interior` over the
+/// neighbours of 0.26, 0.75, 0.98, 1 from the second row on.
+template <int Dim>
+double normal_share(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> interior,
+                    std::size_t i) {
+  double sum = 0.0;
+  double weight = 0.0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (!particles.is_fluid(j)) continue;
+    sum += pairs.W[k] * interior[j];
+    weight += pairs.W[k];
+  }
+  return weight > 0.0 ? interior[i] * std::clamp(4.0 * sum / weight - 3.0, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -51,11 +68,12 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
-    if (interior[i] < 1.0) {
+    const double kept = normal_share(pairs, particles, interior, i);
+    if (kept < 1.0) {
       const double steepness = concentration_gradient[i].norm();
       if (steepness * law.spacing > 1e-3) {
         const Vec<Dim> normal = concentration_gradient[i] / steepness;
-        shift[i] -= (1.0 - interior[i]) * shift[i].dot(normal) * normal;
+        shift[i] -= (1.0 - kept) * shift[i].dot(normal) * normal;
       }
     }
     const double ratio = shift[i].norm() / law.cap;

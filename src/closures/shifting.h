@@ -6,11 +6,12 @@
 //           Taylor-Green vortex dies of it; docs/theory/closures.md)
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
-// Both: no part along the free surface's normal where `interior` (free_surface.h) is 0, all of it where that is 1,
-// nothing for particles with few neighbours, and a smooth bound, dr/sqrt(1 + (dr/cap)^2): ordinary shifts are a
-// hundredth of dx and hardly notice, the particles where two bodies of water meet, whose neighbours are all on one
-// side, would be thrown a quarter of dx. (F31) and (F32), the correction of u and p by their gradients, belong to the
-// published scheme and is done there.
+// Both: no part along the free surface's normal where the surface is in reach, by `interior` (free_surface.h) of the
+// particle and its neighbours: there the gradient is the surface's, and would drive water out of the inside; nothing
+// for particles with few neighbours, and a smooth bound, dr/sqrt(1 + (dr/cap)^2): ordinary shifts are a hundredth of dx
+// and hardly notice, the particles where two bodies of water meet, whose neighbours are all on one side, would be
+// thrown a quarter of dx. (F31) and (F32), the correction of u and p by their gradients, belong to the published scheme
+// and is done there.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +31,8 @@ struct ShiftingLaw {
   double W_spacing = 0.0;  ///< 1/m^Dim; W(dx)
 };
 
-/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid. Returns how many
-/// would have been longer than the bound.
+/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid, `interior` must be
+/// up to date on ghosts. Returns how many would have been longer than the bound.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
                           const Particles<Dim>& particles, std::span<const double> interior,

@@ -1,22 +1,25 @@
 // The pressure equation, row by row. For fluid particle i
 //
-//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (e s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
+//   sum_j c_ij (p_i - p_j) + a_i p_i = -(rho/dt) div u_star + gamma rho (s_i clamp(C/C_0 - 1, -0.1, 0.1) + o_i)/dt^2
 //
 // with `source = "mixed"`; the first term alone is (F15), and `source = "density"` is (B17), rho (C/C_0 - 1)/dt^2.
 //
 // c_ij   weights of the Laplacian: Morris, consistent (F23), or (B8)
-// a_i    weight of the air (air.h): what is missing of A_0, sum_j c_ij on a full lattice, counts as p = 0 on the
-//        surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection; 0 where the surface is
-//        marked instead, whose rows are p = 0
+// a_i    near the surface the weight of the air (air.h): what is missing of A_0, sum_j c_ij on a full lattice, counts
+//        as p = 0 on the surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection. Inside
+//        4 |grad C_i|^2, by `interior`: the force of a uniform pressure p on disordered particles is -2 p grad C_i, so
+//        div grad p has the part -4 |grad C|^2 p, and without it in the matrix pressures of deep disordered water
+//        overshoot from step to step (docs/theory/robustness.md). 0 where the surface is marked, whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
-// gamma  share of the density error that a step corrects; s_i is 1 for particles too close and `interior` for
-//        particles too far apart: at the surface nothing pulls; e is what the energy leaves of it (`balance_energy`)
+// gamma  share of the density error that a step corrects; s_i is what the energy leaves of it for particles too close
+//        (`balance_energy`) and `interior` for particles too far apart: at the surface nothing pulls
 //
 // Wall rows. A row with dummies behind: on the wall the same equation, and each dummy has the pressure of the row
 // beside it, p_d = sum_w W p_w/sum_w W, so that nothing flows across the wall (Neumann). Dummies: p_w = sum_f W (p_f +
 // rho (g - a) . r_wf)/sum_f W, weights of one sign, so that the whole is an M-matrix. Pressure rows: the consistent
 // gradient along the normal, (F39). Dry walls: p = 0.
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "closures/wall_contact.h"
@@ -40,7 +43,7 @@ double density_source(const Flow<Dim>& flow, std::size_t i, double dt) {
   const double unit = flow.density / (dt * dt);
   if (flow.scheme.source == SourceKind::density) return unit * (flow.concentration[i] - 1.0);
   const double error = std::clamp(flow.concentration[i] - 1.0, -largest_density_error, largest_density_error);
-  const double answered = flow.density_share * (error < 0.0 ? flow.interior[i] : 1.0) * error + flow.wall_overlap[i];
+  const double answered = (error < 0.0 ? flow.interior[i] : flow.density_share) * error + flow.wall_overlap[i];
   return flow.scheme.density_relaxation * unit * answered;
 }
 
@@ -117,6 +120,14 @@ double full_sum(const Flow<Dim>& flow) {
   return flow.lattice.morris;
 }
 
+/// a_i: air near the surface, disorder inside.
+template <int Dim>
+double air_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
+  const double air = flow.air_law.weight(sum, full_sum(flow));
+  if (!flow.particles.is_fluid(i)) return air;
+  return std::lerp(air, 4.0 * flow.concentration_gradient[i].squaredNorm(), flow.interior[i]);
+}
+
 /// The pressure equation without its source. Returns whether the row had to fall back to two-point weights.
 template <int Dim>
 bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
@@ -133,7 +144,7 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const double air = has_air(flow) ? flow.air_law.weight(sum, full_sum(flow)) : 0.0;
+  const double air = has_air(flow) ? air_weight(flow, i, sum) : 0.0;
   if (sum + air <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;

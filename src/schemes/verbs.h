@@ -111,8 +111,8 @@ void book_work(const Flow<Dim>& flow, double dt, StepReport& report);
 
 /// Books the energy of the step, adds up the works of all ranks in `report`, and sets which share of the density source
 /// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
-/// before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the work of walls
-/// apart; rises are slowly forgotten (docs/theory/robustness.md).
+/// before. The share of what expands falls from 1 to 0 while the energy rises to `energy_slack` above its least, the
+/// work of walls apart; rises are slowly forgotten (docs/theory/robustness.md).
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, StepReport& report);
 
