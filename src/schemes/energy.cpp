@@ -16,10 +16,6 @@ constexpr double in_doubt = 0.25;
 /// was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
-/// By which the share goes in a step to where it should be: energy that rises and falls from step to step, as when a
-/// start off the walls hits them, would switch the density source on and off.
-constexpr double share_of_change = 0.1;
-
 /// Work [J] of a moving wall's particle: the conservative gradient's force on each fluid neighbour, times its velocity.
 template <int Dim>
 double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
@@ -91,7 +87,7 @@ void balance_energy(Flow<Dim>& flow, StepReport& report) {
   const double at_hand = 0.5 * sums.mass * g * flow.length + sums.kinetic_energy;
   if (at_hand > 0.0) {
     const double left = std::max(0.0, 1.0 - flow.energy_rise / (flow.scheme.energy_slack * at_hand));
-    flow.density_share += share_of_change * (left * left - flow.density_share);
+    flow.density_share = left * left;
   }
   report.density_share = flow.density_share;
 }

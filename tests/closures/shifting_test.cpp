@@ -25,13 +25,15 @@ TYPED_TEST_SUITE(ShiftingTest, Dimensions);
 template <int Dim>
 struct Shifted {
   Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, bool is_near_surface)
+      : Shifted(law, points, speed, std::vector<double>(points.size(), is_near_surface ? 0.0 : 1.0)) {}
+
+  Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, const std::vector<double>& interior)
       : set(moving(points, speed), make_kernel<Dim>(KernelName::wendland_c2, radius), dx),
         gradient(set.size()),
         shift(set.size(), Vec<Dim>::Ones()) {
     for (std::size_t i = 0; i < set.size(); ++i) {
       gradient[i] = concentration_with_gradient<Dim>(set.pairs(), i, set.particles.volume, 0.0).second;
     }
-    const std::vector<double> interior(set.size(), is_near_surface ? 0.0 : 1.0);
     beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, interior, gradient, shift);
   }
 
@@ -104,6 +106,28 @@ TYPED_TEST(ShiftingTest, HasNoPartAlongTheNormalNearTheSurface) {
       largest = std::max(largest, shifted.shift[i].norm());
     }
     EXPECT_GT(largest, 0.0);
+  }
+}
+
+// The third row is inside, but the surface cuts its support; from the fifth row on all neighbours are inside.
+TYPED_TEST(ShiftingTest, HasItsPartAlongTheNormalWhereAllNeighboursAreInside) {
+  constexpr int Dim = TypeParam::value;
+  for (const ShiftingKind kind : kinds) {
+    const std::vector<Vec<Dim>> points = jittered_cube<Dim>(13, dx, 0.1);
+    const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is on top
+    std::vector<double> interior(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) interior[i] = row(i) < 2 ? 0.0 : 1.0;
+    const Shifted<Dim> shifted(law_of<Dim>(kind, 1e6 * dx), points, 1.0, interior);
+    const Shifted<Dim> whole(law_of<Dim>(kind, 1e6 * dx), points, 1.0, false);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].template head<Dim - 1>().cwiseAbs().maxCoeff() > 3.0 * dx) continue;
+      if (row(i) == 2) {
+        const Vec<Dim> normal = shifted.gradient[i].normalized();
+        EXPECT_LT(std::abs(shifted.shift[i].dot(normal)), 0.3 * std::abs(whole.shift[i].dot(normal)));
+      } else if (row(i) >= 5) {
+        EXPECT_EQ(shifted.shift[i], whole.shift[i]);
+      }
+    }
   }
 }
 
