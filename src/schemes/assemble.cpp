@@ -9,7 +9,8 @@
 //        as p = 0 on the surface (the idea of Nair & Tomar 2014), so the equation needs no surface detection. Inside
 //        4 |grad C_i|^2, by `interior`: the force of a uniform pressure p on disordered particles is -2 p grad C_i, so
 //        div grad p has the part -4 |grad C|^2 p, and without it in the matrix pressures of deep disordered water
-//        overshoot from step to step (docs/theory/robustness.md). 0 where the surface is marked, whose rows are p = 0
+//        overshoot from step to step (docs/theory/robustness.md); and a little softness. 0 where the surface is marked,
+//        whose rows are p = 0
 // o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
 // gamma  share of the density error that a step corrects; s_i is what the energy leaves of it for particles too close
 //        (`balance_energy`) and `interior` for particles too far apart: at the surface nothing pulls
@@ -36,6 +37,10 @@ namespace {
 
 /// The density source answers errors up to this: a pile-up is dissolved over some steps, not blown up in one.
 constexpr double largest_density_error = 0.1;
+
+/// [1/dx^2]; weight of every row inside, as if sound went 100 dx per step. Nothing else holds the mean pressure of
+/// ordered water that fills its box; under a surface it compresses the bottom by 0.03 %.
+constexpr double softness = 1e-4;
 
 /// (B17), or the share of the density error that a step corrects beside the divergence [Pa/m^2].
 template <int Dim>
@@ -125,7 +130,8 @@ template <int Dim>
 double air_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.air_law.weight(sum, full_sum(flow));
   if (!flow.particles.is_fluid(i)) return air;
-  return std::lerp(air, 4.0 * flow.concentration_gradient[i].squaredNorm(), flow.interior[i]);
+  const double disorder = 4.0 * flow.concentration_gradient[i].squaredNorm();
+  return std::lerp(air, disorder + softness / (flow.spacing * flow.spacing), flow.interior[i]);
 }
 
 /// The pressure equation without its source. Returns whether the row had to fall back to two-point weights.

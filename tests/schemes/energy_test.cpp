@@ -107,23 +107,22 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
   CaseSpec spec = free_case(0.05);
   spec.scheme.integrator = GetParam();
   spec.physics.viscosity = 0.25;
-  spec.particles.jitter = 0.1;
+  spec.physics.gravity = {0.0, -g};
   spec.domain.periodic_x = {0.0, 0.6};
   WallTable bed;
   bed.points = {{0.0, 0.0}, {0.6, 0.0}};
-  WallTable lid;
-  lid.points = {{0.6, 0.5}, {0.0, 0.5}};
-  bed.slip = lid.slip = Slip::no_slip;
-  lid.displacement = {"t", 0.0};
-  spec.walls = {bed, lid};
+  bed.slip = Slip::no_slip;
+  bed.displacement = {"t", 0.0};
+  spec.walls = {bed};
   FluidTable water;
   water.min = {0.0, 0.0};
   water.max = {0.6, 0.5};
   spec.fluid = {water};
   Flow<2> flow(spec);
+  const double start = energy(flow);
   const Books books = run_to(flow, 0.1);
   EXPECT_GT(books.viscous_work, 1.0);  // J/m
-  EXPECT_NEAR(books.viscous_work, energy(flow), 0.01 * books.viscous_work);
+  EXPECT_NEAR(books.viscous_work, energy(flow) - start, 0.01 * books.viscous_work);
   EXPECT_GT(books.mean_share, 0.95);
 }
 
