@@ -125,11 +125,10 @@ double full_sum(const Flow<Dim>& flow) {
   return flow.lattice.morris;
 }
 
-/// a_i: air near the surface, disorder inside.
+/// a_i: air near the surface (and on walls), disorder inside.
 template <int Dim>
-double air_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
+double own_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.air_law.weight(sum, full_sum(flow));
-  if (!flow.particles.is_fluid(i)) return air;
   const double disorder = 4.0 * flow.concentration_gradient[i].squaredNorm();
   return std::lerp(air, disorder + softness / (flow.spacing * flow.spacing), flow.interior[i]);
 }
@@ -150,12 +149,12 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   }
   bool fell_back = false;
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
-  const double air = has_air(flow) ? air_weight(flow, i, sum) : 0.0;
-  if (sum + air <= 0.0) {
+  const double own = has_air(flow) ? own_weight(flow, i, sum) : 0.0;
+  if (sum + own <= 0.0) {
     row.finish_as_zero();  // a lone particle: nothing around it, no pressure
     return fell_back;
   }
-  row.finish(sum + air, 0.0);
+  row.finish(sum + own, 0.0);
   return fell_back;
 }
 

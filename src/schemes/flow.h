@@ -47,7 +47,7 @@ struct StepReport {
   double density_work = 0.0;      ///< J; of the pressure on what the density source expands
   double wall_work = 0.0;         ///< J; of the pressure of moving walls on the water
   double viscous_work = 0.0;      ///< J; of viscosity and friction on the water
-  double density_share = 1.0;     ///< of the density source that the energy left to the next step
+  double density_share = 1.0;     ///< of what the density source would lift that the energy left to the next step
   Interventions interventions;
 
   /// J; what viscosity and friction brought: moving walls drag the water by more than is dissipated.
@@ -86,7 +86,7 @@ struct Flow {
   double time = 0.0;  ///< s
   std::int64_t step = 0;
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
-  double density_share = 1.0;           ///< of the density error's source that this leaves
+  double density_share = 1.0;           ///< of what the density source would lift that this leaves
   std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
   std::vector<std::int16_t> end_of;     ///< the open end in whose stretch an owned particle is in this step, or -1
 
