@@ -39,7 +39,7 @@ namespace {
 constexpr double largest_density_error = 0.1;
 
 /// [1/dx^2]; weight of every row inside, as if sound went 100 dx per step. Nothing else holds the mean pressure of
-/// ordered water that fills its box; under a surface it compresses the bottom by 0.03 %.
+/// ordered water that fills its box; under a surface it compresses the bottom by 0.03 % (0.1 % at the implicit step).
 constexpr double softness = 1e-4;
 
 /// (B17), or the share of the density error that a step corrects beside the divergence [Pa/m^2].
