@@ -68,7 +68,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
-    const double kept = normal_share(pairs, particles, interior, i);
+    const double kept = law.kind == ShiftingKind::lind ? normal_share(pairs, particles, interior, i) : interior[i];
     if (kept < 1.0) {
       const double steepness = concentration_gradient[i].norm();
       if (steepness * law.spacing > 1e-3) {

@@ -112,23 +112,25 @@ TYPED_TEST(ShiftingTest, HasNoPartAlongTheNormalNearTheSurface) {
 // The third row is inside, but the surface cuts its support; from the fifth row on all neighbours are inside.
 TYPED_TEST(ShiftingTest, HasItsPartAlongTheNormalWhereAllNeighboursAreInside) {
   constexpr int Dim = TypeParam::value;
-  for (const ShiftingKind kind : kinds) {
-    const std::vector<Vec<Dim>> points = jittered_cube<Dim>(13, dx, 0.1);
-    const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is on top
-    std::vector<double> interior(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) interior[i] = row(i) < 2 ? 0.0 : 1.0;
-    const Shifted<Dim> shifted(law_of<Dim>(kind, 1e6 * dx), points, 1.0, interior);
-    const Shifted<Dim> whole(law_of<Dim>(kind, 1e6 * dx), points, 1.0, false);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].template head<Dim - 1>().cwiseAbs().maxCoeff() > 3.0 * dx) continue;
-      if (row(i) == 2) {
-        const Vec<Dim> normal = shifted.gradient[i].normalized();
-        EXPECT_LT(std::abs(shifted.shift[i].dot(normal)), 0.3 * std::abs(whole.shift[i].dot(normal)));
-      } else if (row(i) >= 5) {
-        EXPECT_EQ(shifted.shift[i], whole.shift[i]);
-      }
+  const ShiftingLaw law = law_of<Dim>(ShiftingKind::lind, 1e6 * dx);
+  const std::vector<Vec<Dim>> points = jittered_cube<Dim>(13, dx, 0.1);
+  const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is on top
+  std::vector<double> interior(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) interior[i] = row(i) < 2 ? 0.0 : 1.0;
+  const Shifted<Dim> shifted(law, points, 1.0, interior);
+  const Shifted<Dim> whole(law, points, 1.0, false);
+  int third_row = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].template head<Dim - 1>().cwiseAbs().maxCoeff() > 3.0 * dx) continue;
+    if (row(i) == 2) {
+      const Vec<Dim> normal = shifted.gradient[i].normalized();
+      EXPECT_LT(std::abs(shifted.shift[i].dot(normal)), 0.3 * std::abs(whole.shift[i].dot(normal)));
+      ++third_row;
+    } else if (row(i) >= 5) {
+      EXPECT_EQ(shifted.shift[i], whole.shift[i]);
     }
   }
+  EXPECT_GT(third_row, 0);
 }
 
 TYPED_TEST(ShiftingTest, BoundsItselfSmoothly) {
