@@ -1,5 +1,7 @@
-// Forces between fluid particles.
+// Sums over a particle's fluid neighbours: forces, means.
 #pragma once
+
+#include <span>
 
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
@@ -15,6 +17,22 @@ Vec<Dim> sum_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles
     if (particles.is_fluid(j)) sum += force(j, k);
   }
   return sum;
+}
+
+/// Mean of `field` over the fluid neighbours of particle i, weighted by the kernel, with the particle itself at weight
+/// `own_weight`; 0 where nothing has any weight. `field` must be up to date on ghosts.
+template <int Dim>
+double mean_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
+                       std::span<const double> field, double own_weight) {
+  double sum = own_weight * field[i];
+  double weight = own_weight;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (!particles.is_fluid(j)) continue;
+    sum += pairs.W[k] * field[j];
+    weight += pairs.W[k];
+  }
+  return weight > 0.0 ? sum / weight : 0.0;
 }
 
 }  // namespace tailwater

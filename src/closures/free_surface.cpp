@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 
 namespace tailwater {
 namespace {
@@ -100,15 +101,8 @@ void find_interior(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std
   for_each(pairs.owned(), [&](std::size_t i) {
     interior[i] = 0.0;
     if (!particles.is_fluid(i)) return;
-    double sum = W_0 * concentration[i];
-    double weight = W_0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (!particles.is_fluid(j)) continue;
-      sum += pairs.W[k] * concentration[j];
-      weight += pairs.W[k];
-    }
-    const double step = std::clamp((sum / weight - interior_begins) / (interior_is_full - interior_begins), 0.0, 1.0);
+    const double mean = mean_over_fluid(pairs, particles, i, concentration, W_0);
+    const double step = std::clamp((mean - interior_begins) / (interior_is_full - interior_begins), 0.0, 1.0);
     interior[i] = step * step * (3.0 - 2.0 * step);
   });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 
 namespace tailwater {
 namespace {
@@ -43,15 +44,7 @@ Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
 template <int Dim>
 double normal_share(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> interior,
                     std::size_t i) {
-  double sum = 0.0;
-  double weight = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    if (!particles.is_fluid(j)) continue;
-    sum += pairs.W[k] * interior[j];
-    weight += pairs.W[k];
-  }
-  return weight > 0.0 ? interior[i] * std::clamp(4.0 * sum / weight - 3.0, 0.0, 1.0) : 0.0;
+  return interior[i] * std::clamp(4.0 * mean_over_fluid(pairs, particles, i, interior, 0.0) - 3.0, 0.0, 1.0);
 }
 
 }  // namespace

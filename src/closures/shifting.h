@@ -6,13 +6,12 @@
 //           Taylor-Green vortex dies of it; docs/theory/closures.md)
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
-// Both: no part along the free surface's normal where `interior` (free_surface.h) is 0, all of it where that is 1; lind
-// none wherever the surface is in reach, by `interior` of the neighbours too: there the gradient is the surface's, and
-// would drive water out of the inside. Nothing
-// for particles with few neighbours, and a smooth bound, dr/sqrt(1 + (dr/cap)^2): ordinary shifts are a hundredth of dx
-// and hardly notice, the particles where two bodies of water meet, whose neighbours are all on one side, would be
-// thrown a quarter of dx. (F31) and (F32), the correction of u and p by their gradients, belong to the published scheme
-// and is done there.
+// Both: no part along the free surface's normal where `interior` (free_surface.h) is 0, all of it where that is 1;
+// lind none wherever the surface is in reach, by `interior` of the neighbours too: there the gradient is the
+// surface's, and would drive water out of the inside. Nothing for particles with few neighbours, and a smooth bound,
+// dr/sqrt(1 + (dr/cap)^2): ordinary shifts are a hundredth of dx and hardly notice, the particles where two bodies of
+// water meet, whose neighbours are all on one side, would be thrown a quarter of dx. (F31) and (F32), the correction
+// of u and p by their gradients, belong to the published scheme and are done there.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,6 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   }
   if (flow.scheme.surface == SurfaceTreatment::air) {
     find_interior<Dim>(pairs, particles, flow.concentration, flow.W_0, flow.interior);
-    halo.exchange(flow.interior);
   }
   if (keep_marks) return;
   find_free_surface<Dim>(flow.scheme.surface,
@@ -58,7 +57,6 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   halo.exchange(flow.is_surface);
   if (flow.scheme.surface != SurfaceTreatment::air) {
     find_interior_by_marks<Dim>(pairs, particles, flow.spacing, flow.is_surface, flow.interior);
-    halo.exchange(flow.interior);
   }
 }
 

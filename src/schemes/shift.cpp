@@ -36,6 +36,7 @@ void shift(Flow<Dim>& flow, double dt, Interventions& interventions) {
   if (flow.scheme.shifting == ShiftingKind::none) return;
   Particles<Dim>& particles = flow.particles;
   flow.shift.resize(particles.owned);
+  flow.neighbourhood.halo().exchange(flow.interior);
   interventions.capped_shifts += compute_shift<Dim>(flow.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                     flow.interior, flow.concentration_gradient, flow.shift);
   for_each(particles.owned, [&](std::size_t i) {
