@@ -37,6 +37,12 @@ constexpr double ssor_factor = 1.35;
 static_assert(sizeof(PetscInt) == sizeof(int), "the CSR arrays are shared with PETSc");
 static_assert(sizeof(PetscScalar) == sizeof(double), "the values are shared with PETSc");
 
+/// Numbers divided by one that happens to vanish, not slow progress.
+bool is_breakdown(KSPConvergedReason reason) {
+  return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
+         reason == KSP_DIVERGED_NANORINF;
+}
+
 KSPType krylov_type(KrylovMethod method, std::int64_t unknowns) {
   switch (method) {
     case KrylovMethod::bicgstab:
@@ -149,7 +155,7 @@ struct PressureSystem::Petsc {
   PetscVector residual;
   PetscKrylovSolver solver;
   PetscNullSpace constants;
-  std::size_t solver_size = 0;  ///< rows of this rank
+  std::optional<std::size_t> solver_size;  ///< rows of this rank; none: it is not the settings' method
 
   /// A vector of PETSc's that shares `values`.
   static void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vector) {
@@ -332,12 +338,20 @@ void PressureSystem::make_matrix() {
 
 void PressureSystem::set_up_solver() {
   Petsc& petsc = *petsc_;
-  if (ranks_.any(petsc.solver.get() == nullptr || petsc.solver_size != size())) {
+  if (ranks_.any(petsc.solver_size != size())) {
     check_petsc(KSPCreate(ranks_.handle(), petsc.solver.create()));
     petsc.solver_size = size();
     configure(petsc.solver.get(), settings_, size_of_all_, ranks_.is_alone(), constant_is_free_);
   }
   check_petsc(KSPSetOperators(petsc.solver.get(), petsc.matrix.get(), petsc.matrix.get()));
+}
+
+/// From 0 with GMRES; the next solve has the method of the settings again.
+void PressureSystem::begin_again() {
+  Petsc& petsc = *petsc_;
+  check_petsc(VecZeroEntries(petsc.solution.get()));
+  check_petsc(KSPSetType(petsc.solver.get(), KSPGMRES));
+  petsc.solver_size.reset();
 }
 
 double PressureSystem::residual_norm() {
@@ -387,9 +401,8 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
   KSP solver = petsc.solver.get();
   // Later solves with one pattern are of rows little changed: the set-up of multigrid costs as much as a solve.
   check_petsc(KSPSetReusePreconditioner(solver, is_first_of_pattern ? PETSC_FALSE : PETSC_TRUE));
-  // The solver measures the preconditioned residual; where that ends too early it goes on from there.
-  for (double tolerance = tolerance_wanted; report.residual > tolerance_wanted;
-       tolerance *= 0.5 * tolerance_wanted / report.residual) {
+  double tolerance = tolerance_wanted;
+  while (report.residual > tolerance_wanted) {
     const double residual_before = report.residual;
     check_petsc(KSPSetTolerances(solver, tolerance, no_absolute_tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
     check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
@@ -399,7 +412,17 @@ SolveReport PressureSystem::solve(std::span<double> solution, std::optional<doub
     check_petsc(KSPGetConvergedReason(solver, &reason));
     report.iterations += static_cast<int>(iterations);
     report.residual = residual_norm() / rhs_norm;
-    if (reason > 0) continue;
+    if (reason > 0) {
+      // The solver measures the preconditioned residual; where that ends too early it goes on from there.
+      tolerance *= 0.5 * tolerance_wanted / report.residual;
+      continue;
+    }
+    if (is_breakdown(reason) && report.restarts == 0) {
+      begin_again();
+      ++report.restarts;
+      report.residual = 1.0;
+      continue;
+    }
     const PetscReal* history = nullptr;
     PetscInt length = 0;
     check_petsc(KSPGetResidualHistory(solver, &history, &length));

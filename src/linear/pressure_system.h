@@ -16,6 +16,7 @@ namespace tailwater {
 
 struct SolveReport {
   int iterations = 0;
+  int restarts = 0;       ///< after a breakdown of the Krylov method
   double residual = 0.0;  ///< |b - A x| / |b|, rows scaled, computed from x
 };
 
@@ -66,8 +67,9 @@ class PressureSystem {
   /// and the solution gets mean 0.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
 
-  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Throws SolverError with the
-  /// residual history when the tolerance is not reached. `tolerance` overrides the settings' own. Collective.
+  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Where the Krylov method breaks down
+  /// it begins again from 0, once, with GMRES, which cannot. Throws SolverError with the residual history when the
+  /// tolerance is not reached. `tolerance` overrides the settings' own. Collective.
   SolveReport solve(std::span<double> solution, std::optional<double> tolerance = {});
 
   /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, of each rank's rows alone.
@@ -91,6 +93,7 @@ class PressureSystem {
   void make_rhs_consistent();
   void make_matrix();
   void set_up_solver();
+  void begin_again();
   double residual_norm();
 
   PressureSolverTable settings_;

@@ -29,12 +29,13 @@ StepLog::StepLog(const std::filesystem::path& path)
                   "capped_shifts",
                   "clamped_pressures",
                   "fallback_rows",
+                  "restarted_solves",
                   "volume_out_m3",
                   "energy_out_J"}) {}
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
-  csv_.write(std::array<double, 26>{time,
+  csv_.write(std::array<double, 27>{time,
                                     static_cast<double>(step),
                                     report.dt,
                                     static_cast<double>(report.passes),
@@ -58,6 +59,7 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                                     static_cast<double>(counts.capped_shifts),
                                     static_cast<double>(counts.clamped_pressures),
                                     static_cast<double>(counts.fallback_rows),
+                                    static_cast<double>(counts.restarted_solves),
                                     measures.departed.volume,
                                     measures.departed.energy});
 }

@@ -119,6 +119,7 @@ Interventions& Interventions::operator+=(const Interventions& other) {
   capped_shifts += other.capped_shifts;
   clamped_pressures += other.clamped_pressures;
   fallback_rows += other.fallback_rows;
+  restarted_solves += other.restarted_solves;
   return *this;
 }
 

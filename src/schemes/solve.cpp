@@ -68,15 +68,16 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   PressureSystem& system = flow.pressure_system;
   const std::span<double> pressure = std::span(flow.particles.pressure).first(flow.particles.owned);
   flow.is_held.assign(flow.particles.owned, 0);
-  int rough_iterations = 0;
+  SolveReport rough;
   if (has_air(flow)) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
     const double rough_tolerance = std::sqrt(system.tolerance());
-    rough_iterations = system.solve(pressure, rough_tolerance).iterations;
+    rough = system.solve(pressure, rough_tolerance);
     hold_suction(flow);
   }
   SolveReport report = system.solve(pressure);
-  report.iterations += rough_iterations;
+  report.iterations += rough.iterations;
+  interventions.restarted_solves += static_cast<std::size_t>(rough.restarts + report.restarts);
   if (has_air(flow)) interventions.clamped_pressures += cut_suction(flow);
   finish_pressure(flow);
   return report;

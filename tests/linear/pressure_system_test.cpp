@@ -290,6 +290,31 @@ TEST(PressureSystem, NoConvergenceIsAnErrorWithItsHistory) {
   }
 }
 
+TEST(PressureSystem, ABreakdownIsNoFailure) {
+  // x_0 - 3 x_1 = 1, x_1 + x_0 = 1: with no preconditioner (the diagonal is 1) the first residual r = (1, 1) is
+  // orthogonal to A r, by whose product with it BiCGStab divides.
+  SmallSystem small;
+  small.row_begin = {0, 1, 2};
+  small.columns = {1, 0};
+  small.weights = {3.0, -1.0};
+  small.diagonal = {1.0, 1.0};
+  small.rhs = {1.0, 1.0};
+  PressureSolverTable settings = solver_settings(1e-10);
+  settings.method = KrylovMethod::bicgstab;
+  settings.preconditioner = PreconditionerName::jacobi;
+  PressureSystem system(settings);
+  system.set_pattern(small.row_begin, small.columns);
+  for (int solve = 0; solve < 2; ++solve) {  // the second begins with BiCGStab again
+    small.pass_values_to(system);
+    std::vector<double> solution(2, 0.0);
+    const SolveReport report = system.solve(solution);
+    EXPECT_EQ(report.restarts, 1);
+    EXPECT_LE(report.residual, 1e-10);
+    EXPECT_NEAR(solution[0], 1.0, 1e-9);
+    EXPECT_NEAR(solution[1], 0.0, 1e-9);
+  }
+}
+
 TEST(PressureSystem, ANonFiniteSourceIsAnError) {
   SmallSystem small = random_system(20, 7);
   small.rhs[3] = std::numeric_limits<double>::infinity();
