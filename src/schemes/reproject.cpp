@@ -83,10 +83,6 @@ template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) {
   Particles<Dim>& particles = flow.particles;
   assemble_weights(flow, interventions);
-  for_each(particles.owned, [&](std::size_t i) {
-    if (flow.is_held[i]) flow.pressure_system.divide_diagonal(i, flow.interior[i]);
-  });
-
   update_wall_velocity(flow, flow.walls.velocity, particles.velocity);
   std::vector<double> source(particles.size(), 0.0);
   for_each(particles.owned, [&](std::size_t i) {
@@ -123,6 +119,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     });
     std::swap(next, last);
   }
+  interventions.restarted_solves += static_cast<std::size_t>(report.restarts);
   finish_pressure(flow);
   return report;
 }

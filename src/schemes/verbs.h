@@ -137,7 +137,7 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 
 /// A second projection, at the present positions: takes div u out of the velocity as far as `corrections` reach, and
 /// adds what does it to the pressure, without suction near the surface (but for what lengths and mixing of corrections
-/// bring back). The particles stay. Needs `locate`, and `solve` for the rows that are held. Reports its one solve.
+/// bring back). The particles stay. Needs `locate`. Reports its one solve.
 template <int Dim>
 SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions);
 
