@@ -255,7 +255,7 @@ struct SchemeTable {
 
   ShiftingKind shifting = ShiftingKind::lind;
   double shifting_strength = 3.0;
-  double shifting_cap = 0.1;
+  double shifting_cap = 0.2;
 
   double density_relaxation = 0.01;
   double energy_slack = 1e-4;
@@ -323,7 +323,7 @@ struct SchemeTable {
              "(formulation)");
     v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
              "Factor of the shifting displacement; eps of (F30) for the published one (formulation)");
-    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.1),
+    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.3),
              "Largest shift of one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
              "Share of the density error corrected per step by the source of the pressure equation");

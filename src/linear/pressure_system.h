@@ -67,8 +67,8 @@ class PressureSystem {
   /// and the solution gets mean 0.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
 
-  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Where the Krylov method breaks down
-  /// it begins again from 0, once, with GMRES, which cannot. Throws SolverError with the residual history when the
+  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Where the Krylov method breaks
+  /// down it begins again from 0, once, with GMRES, which cannot. Throws SolverError with the residual history when the
   /// tolerance is not reached. `tolerance` overrides the settings' own. Collective.
   SolveReport solve(std::span<double> solution, std::optional<double> tolerance = {});
 

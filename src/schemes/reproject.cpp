@@ -55,15 +55,15 @@ void follow(Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_re
 }
 
 /// Near the surface nothing holds the particles together: `correction`, added to the pressure, leaves of suction there
-/// the share `interior`. Suction would do work (docs/theory/robustness.md).
+/// the share `interior`, and of a dummy's nothing. Suction would do work (docs/theory/robustness.md).
 template <int Dim>
 void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
   if (!has_air(flow)) return;
   const std::vector<double>& pressure = flow.particles.pressure;
   for_each(flow.particles.owned, [&](std::size_t i) {
     const double sum = pressure[i] + correction[i];
-    if (!flow.is_solved_for(i) || flow.interior[i] >= 1.0 || sum >= 0.0) return;
-    correction[i] = flow.interior[i] * sum - pressure[i];
+    const double share = suction_share(flow, i);
+    if (sum < 0.0 && share < 1.0) correction[i] = share * sum - pressure[i];
   });
 }
 

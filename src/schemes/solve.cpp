@@ -8,10 +8,14 @@
 namespace tailwater {
 namespace {
 
-/// Whether particle i, near the surface, pulls although the equation does not limit it.
+/// Exponent of the solver's tolerance in that of the rough solve: rows whose rough pressure is within it of 0 may be
+/// told wrongly, and are cut.
+constexpr double roughness = 0.6;
+
+/// Whether the equation does not limit the suction of particle i, and should.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return flow.is_solved_for(i) && !flow.is_held[i] && flow.interior[i] < 1.0 && flow.particles.pressure[i] < 0.0;
+  return !flow.is_held[i] && flow.particles.pressure[i] < 0.0 && suction_share(flow, i) < 1.0;
 }
 
 /// Limits suction in the equation where the present pressure asks for it.
@@ -19,8 +23,9 @@ template <int Dim>
 void hold_suction(Flow<Dim>& flow) {
   for_each(flow.particles.owned, [&](std::size_t i) {
     if (!pulls(flow, i)) return;
-    flow.pressure_system.divide_diagonal(i, flow.interior[i]);
-    flow.particles.pressure[i] *= flow.interior[i];
+    const double share = suction_share(flow, i);
+    flow.pressure_system.divide_diagonal(i, share);
+    flow.particles.pressure[i] *= share;
     flow.is_held[i] = 1;
   });
 }
@@ -29,8 +34,8 @@ void hold_suction(Flow<Dim>& flow) {
 template <int Dim>
 std::size_t cut_suction(Flow<Dim>& flow) {
   return count_each(flow.particles.owned, [&](std::size_t i) {
-    if (!pulls(flow, i)) return false;
-    flow.particles.pressure[i] *= flow.interior[i];
+    if (!flow.particles.is_fluid(i) || !pulls(flow, i)) return false;  // dummies follow the fluid
+    flow.particles.pressure[i] *= suction_share(flow, i);
     return true;
   });
 }
@@ -71,7 +76,7 @@ SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   SolveReport rough;
   if (has_air(flow)) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const double rough_tolerance = std::sqrt(system.tolerance());
+    const double rough_tolerance = std::pow(system.tolerance(), roughness);
     rough = system.solve(pressure, rough_tolerance);
     hold_suction(flow);
   }

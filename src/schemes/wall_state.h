@@ -1,4 +1,4 @@
-// Velocity and pressure of wall particles, kept in step with the fluid's.
+// Wall particles kept in step with the fluid, and how far either may pull.
 #pragma once
 
 #include "schemes/flow.h"
@@ -9,6 +9,14 @@ namespace tailwater {
 template <int Dim>
 bool has_air(const Flow<Dim>& flow) {
   return flow.scheme.surface == SurfaceTreatment::air && !flow.is_closed;
+}
+
+/// What owned particle i may keep of a pressure below 0 where there is air: fluid the share of it that is inside,
+/// dummies nothing.
+template <int Dim>
+double suction_share(const Flow<Dim>& flow, std::size_t i) {
+  if (flow.is_solved_for(i)) return flow.interior[i];
+  return !flow.particles.is_fluid(i) && flow.walls.treatment == WallTreatment::dummies ? 0.0 : 1.0;
 }
 
 /// Sets the wall entries of `velocity` from its fluid entries and the walls' own velocity `V`, one entry per row of

@@ -85,7 +85,8 @@ TEST(JitteredTank, CarriesItsWeightAfterAFewSteps) {
       ++count;
     }
     EXPECT_NEAR(pressure / count, flow.density * g * depth, 0.5 * flow.density * g * depth);  // still settling
-    EXPECT_GT(measure(flow).energy(), (1.0 - 1.5e-3) * energy_at_start);
+    // Shifting and the pull on light water let a disordered block sink by 1.5e-3; with disorder as air it is 1.9e-3.
+    EXPECT_GT(measure(flow).energy(), (1.0 - 1.7e-3) * energy_at_start);
   }
 }
 
