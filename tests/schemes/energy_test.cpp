@@ -79,6 +79,28 @@ TEST(DensitySource, GivesNoEnergyToAStartThatHitsItsWalls) {
   EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4);
 }
 
+TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
+  CaseSpec spec = free_case(0.02);
+  spec.scheme.integrator = GetParam();
+  apply_formulation(spec.scheme);
+  spec.physics.gravity = {0.0, -g};
+  WallTable corner;
+  corner.points = {{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}};
+  spec.walls = {corner};
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {0.4, 0.4};
+  water.velocity = {2.0, 0.0};  // off the wall, which cannot hold it
+  spec.fluid = {water};
+  Flow<2> flow(spec);
+  const double start = energy(flow);
+  while (flow.time < 0.06) {
+    step(flow);
+    ASSERT_LT(energy(flow), start);
+  }
+  EXPECT_GT(energy(flow), 0.96 * start);
+}
+
 TEST_P(Energy, OfAPistonIsItsWork) {
   CaseSpec spec;
   spec.scheme.integrator = GetParam();
