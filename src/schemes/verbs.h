@@ -118,8 +118,9 @@ void balance_energy(Flow<Dim>& flow, StepReport& report);
 
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
-/// (0 in the outermost rows, 1 inside), and the system is solved again. With an M-matrix this can only raise pressures,
-/// so no new row begins to pull (docs/theory/robustness.md); what does all the same is cut and counted.
+/// (0 in the outermost rows, 1 inside; a dummy's by 0), and the system is solved again. With an M-matrix this can only
+/// raise pressures, so no new row begins to pull (docs/theory/robustness.md); what does all the same is cut and
+/// counted.
 template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions);
 
