@@ -16,8 +16,8 @@ namespace tailwater {
 
 struct SolveReport {
   int iterations = 0;
-  int restarts = 0;       ///< after a breakdown of the Krylov method
-  double residual = 0.0;  ///< |b - A x| / |b|, rows scaled, computed from x
+  std::size_t restarts = 0;  ///< after a breakdown of the Krylov method
+  double residual = 0.0;     ///< |b - A x| / |b|, rows scaled, computed from x
 };
 
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.

@@ -118,7 +118,6 @@ struct Flow {
   std::vector<Vec<Dim>> wall_mean;
   std::vector<Vec<Dim>> acceleration;
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; only where a term needs it
-  std::vector<std::uint8_t> is_held;        ///< owned; suction limited by the pressure equation (`solve`)
   std::vector<double> wall_overlap;         ///< share of the particle behind a wall, owned; for the density source
   std::vector<double> target_divergence;    ///< 1/s; what the pressure equation leaves of div u at its positions
   std::vector<double> divergence;           ///< 1/s; as last measured, owned

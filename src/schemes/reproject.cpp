@@ -119,7 +119,7 @@ SolveReport reproject(Flow<Dim>& flow, double dt, Interventions& interventions) 
     });
     std::swap(next, last);
   }
-  interventions.restarted_solves += static_cast<std::size_t>(report.restarts);
+  interventions.restarted_solves += report.restarts;
   finish_pressure(flow);
   return report;
 }

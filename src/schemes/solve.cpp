@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "base/for_each.h"
 #include "schemes/verbs.h"
@@ -12,29 +14,32 @@ namespace {
 /// told wrongly, and are cut.
 constexpr double roughness = 0.6;
 
-/// Whether the equation does not limit the suction of particle i, and should.
+/// Whether particle i pulls and may not with all of it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return !flow.is_held[i] && flow.particles.pressure[i] < 0.0 && suction_share(flow, i) < 1.0;
+  return flow.particles.pressure[i] < 0.0 && suction_share(flow, i) < 1.0;
 }
 
-/// Limits suction in the equation where the present pressure asks for it.
+/// Limits suction in the equation where the present pressure asks for it. Returns 1 for each row held, by owned
+/// particle.
 template <int Dim>
-void hold_suction(Flow<Dim>& flow) {
+std::vector<std::uint8_t> hold_suction(Flow<Dim>& flow) {
+  std::vector<std::uint8_t> is_held(flow.particles.owned, 0);
   for_each(flow.particles.owned, [&](std::size_t i) {
     if (!pulls(flow, i)) return;
     const double share = suction_share(flow, i);
     flow.pressure_system.divide_diagonal(i, share);
     flow.particles.pressure[i] *= share;
-    flow.is_held[i] = 1;
+    is_held[i] = 1;
   });
+  return is_held;
 }
 
-/// Cuts what pulls all the same. Returns how many.
+/// Cuts what pulls all the same in rows that are not held. Returns how many.
 template <int Dim>
-std::size_t cut_suction(Flow<Dim>& flow) {
+std::size_t cut_suction(Flow<Dim>& flow, const std::vector<std::uint8_t>& is_held) {
   return count_each(flow.particles.owned, [&](std::size_t i) {
-    if (!flow.particles.is_fluid(i) || !pulls(flow, i)) return false;  // dummies follow the fluid
+    if (is_held[i] || !flow.particles.is_fluid(i) || !pulls(flow, i)) return false;  // dummies follow the fluid
     flow.particles.pressure[i] *= suction_share(flow, i);
     return true;
   });
@@ -72,18 +77,18 @@ template <int Dim>
 SolveReport solve(Flow<Dim>& flow, Interventions& interventions) {
   PressureSystem& system = flow.pressure_system;
   const std::span<double> pressure = std::span(flow.particles.pressure).first(flow.particles.owned);
-  flow.is_held.assign(flow.particles.owned, 0);
   SolveReport rough;
+  std::vector<std::uint8_t> is_held;
   if (has_air(flow)) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
     const double rough_tolerance = std::pow(system.tolerance(), roughness);
     rough = system.solve(pressure, rough_tolerance);
-    hold_suction(flow);
+    is_held = hold_suction(flow);
   }
   SolveReport report = system.solve(pressure);
   report.iterations += rough.iterations;
-  interventions.restarted_solves += static_cast<std::size_t>(rough.restarts + report.restarts);
-  if (has_air(flow)) interventions.clamped_pressures += cut_suction(flow);
+  interventions.restarted_solves += rough.restarts + report.restarts;
+  if (has_air(flow)) interventions.clamped_pressures += cut_suction(flow, is_held);
   finish_pressure(flow);
   return report;
 }

@@ -308,7 +308,7 @@ TEST(PressureSystem, ABreakdownIsNoFailure) {
     small.pass_values_to(system);
     std::vector<double> solution(2, 0.0);
     const SolveReport report = system.solve(solution);
-    EXPECT_EQ(report.restarts, 1);
+    EXPECT_EQ(report.restarts, 1U);
     EXPECT_LE(report.residual, 1e-10);
     EXPECT_NEAR(solution[0], 1.0, 1e-9);
     EXPECT_NEAR(solution[1], 0.0, 1e-9);
