@@ -15,7 +15,7 @@
 #include "run/estimate.h"
 #include "run/progress.h"
 #include "run/run_case.h"
-#include "schemes/flow.h"
+#include "flow/flow.h"
 
 namespace tailwater {
 namespace {
@@ -29,11 +29,11 @@ struct CheckOptions {
 template <int Dim>
 void check_in(const CaseSpec& spec, const CheckOptions& options) {
   Flow<Dim> flow(spec);
-  make_probes<Dim>(spec, flow.boundary);
-  require_reachable_end(spec, flow.time_step_rule);
+  make_probes<Dim>(spec, flow.walls.boundary);
+  require_reachable_end(spec, flow.setup.time_step_rule);
   fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
   const std::string picture =
-      preview_svg(spec, flow.boundary, make_fluid_particles(spec, flow.boundary), flow.walls.particles);
+      preview_svg(spec, flow.walls.boundary, make_fluid_particles(spec, flow.walls.boundary), flow.walls.particles);
   const std::filesystem::path preview = options.preview.empty()
                                             ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
                                             : options.preview;

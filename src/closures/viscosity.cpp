@@ -66,36 +66,6 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
 }
 
 template <int Dim>
-void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
-                       const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
-                       std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration) {
-  if (std::ranges::all_of(walls.friction, [](double lambda) { return lambda == 0.0; })) return;
-  // The no-slip velocity where the wall particle stands: of the mirror image behind the wall, or of the wall itself.
-  const bool is_image = walls.treatment == WallTreatment::dummies;
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    Vec<Dim> wall_velocity = Vec<Dim>::Zero();
-    double weights = 0.0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (particles.is_fluid(j)) continue;
-      const auto row = particles.wall_row[j];
-      const double lambda = walls.friction[row];
-      if (lambda == 0.0) continue;
-      const Vec<Dim>& V = walls.velocity[row];
-      const Vec<Dim> difference =
-          (is_image ? Vec<Dim>(V - wall_mean[j]) : Vec<Dim>(Vec<Dim>::Zero())) + V - velocity[i];
-      const double weight = lambda * morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
-      sum += weight * (difference - walls.particles.blocked[row] * difference);
-      wall_velocity += weight * V;
-      weights += weight;
-    }
-    if (weights > 0.0) acceleration[i] += law.at_wall((velocity[i] - wall_velocity / weights).norm()) * sum;
-  });
-}
-
-template <int Dim>
 void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
                             std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
   if (law.channel_width == 0.0) return;
@@ -154,9 +124,6 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
                                            std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
   template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
                                          std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
-  template void add_wall_friction<Dim>(const Pairs<Dim>&, const Particles<Dim>&, const WallModel<Dim>&,               \
-                                       const ViscosityLaw&, double, std::span<const Vec<Dim>>,                        \
-                                       std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                               \
   template void add_side_wall_friction<Dim>(const Particles<Dim>&, const ViscosityLaw&, std::span<const Vec<Dim>>,    \
                                             std::span<Vec<Dim>>);                                                     \
   template void add_consistent_viscosity<Dim>(                                                                        \

@@ -11,8 +11,9 @@
 #include <cstdint>
 #include <span>
 
-#include "closures/wall_velocity.h"
+#include "neighbours/pairs.h"
 #include "operators/renormalisation.h"
+#include "particles/particles.h"
 
 namespace tailwater {
 
@@ -53,14 +54,6 @@ template <int Dim>
 void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
                            std::span<const double> density, std::span<const double> viscosity,
                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
-
-/// Friction of walls, lambda times the no-slip stress of the wall law: the tangential part of
-/// sum_w lambda c_iw nu_wall(|u_i|) (u_noslip - u_i), where u_noslip is -mean_w for dummies, which stand for mirror
-/// images, and 0 on the wall; all velocities relative to the wall's own. Only slows down, relative to the wall.
-template <int Dim>
-void add_wall_friction(const Pairs<Dim>& pairs, const Particles<Dim>& particles, const WallModel<Dim>& walls,
-                       const ViscosityLaw& law, double spacing, std::span<const Vec<Dim>> velocity,
-                       std::span<const Vec<Dim>> wall_mean, std::span<Vec<Dim>> acceleration);
 
 /// Friction of a 2D channel's side walls on fluid particles. Only slows down.
 template <int Dim>

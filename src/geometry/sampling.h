@@ -23,6 +23,7 @@ struct WallParticles {
   std::size_t on_wall = 0;  ///< the first so many stand on the wall itself, the others behind it
 
   std::size_t size() const { return position.size(); }
+  bool is_on_wall(std::int32_t row) const { return static_cast<std::size_t>(row) < on_wall; }
 };
 
 /// Layers of dummy particles that fill the kernel's support behind a wall; with a row on the wall, that row included.

@@ -70,6 +70,12 @@ void Neighbourhood<Dim>::keep(Particles<Dim>& particles, std::span<const std::in
 }
 
 template <int Dim>
+void Neighbourhood<Dim>::forget(Particles<Dim>& particles) {
+  particles.resize(particles.owned);
+  has_lists_ = false;
+}
+
+template <int Dim>
 std::vector<double> Neighbourhood<Dim>::work(const Particles<Dim>& particles) const {
   std::vector<double> work(particles.owned, 1.0);
   if (!has_lists_ || list_.row_begin.size() != particles.owned + 1) return work;

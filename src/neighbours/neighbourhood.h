@@ -36,6 +36,9 @@ class Neighbourhood {
   /// between steps only: indices change.
   void reorder(Particles<Dim>& particles);
 
+  /// Forgets lists and ghosts: the next `update` makes them anew, as if there never were any.
+  void forget(Particles<Dim>& particles);
+
   /// Leaves only these owned particles, in this order, and forgets lists and ghosts. Call between steps only: indices
   /// change.
   void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);

@@ -6,9 +6,9 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "flow/verbs.h"
 #include "geometry/check.h"
 #include "schemes/advance.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 namespace {
@@ -35,13 +35,13 @@ void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow) {
   RunEstimate estimate;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    ++(flow.particles.is_fluid(i) ? estimate.fluid_particles : estimate.wall_particles);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    ++(flow.state.particles.is_fluid(i) ? estimate.fluid_particles : estimate.wall_particles);
   }
   estimate.memory = memory_estimate<Dim>(estimate.fluid_particles, estimate.wall_particles,
                                          neighbours_in_support<Dim>(spec.scheme.support));
 
-  flow.neighbourhood.reorder(flow.particles);
+  flow.neighbourhood.reorder(flow.state.particles);
   double dt = std::min(next_time_step(flow), spec.time.end);
   advance(flow, dt);
   const auto start = std::chrono::steady_clock::now();

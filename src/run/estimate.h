@@ -2,7 +2,7 @@
 #pragma once
 
 #include "case/spec.h"
-#include "schemes/flow.h"
+#include "flow/flow.h"
 
 namespace tailwater {
 

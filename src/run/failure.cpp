@@ -26,12 +26,11 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
 
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.particles;
+  const Particles<Dim>& particles = flow.state.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
-    const bool was_predicted = i < flow.u_star.size();
     if (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
-        !std::isfinite(particles.pressure[i]) || (was_predicted && !flow.u_star[i].array().isFinite().all())) {
+        !std::isfinite(particles.pressure[i])) {
       return i;
     }
   }
@@ -42,17 +41,17 @@ template <int Dim>
 void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,
                    double last_good_time, std::optional<std::size_t> culprit, const std::string& message) {
   std::filesystem::path failure;
-  do_together(flow.ranks, [&] { failure = folder.make_failure(); });
+  do_together(flow.setup.ranks, [&] { failure = folder.make_failure(); });
   // Plain positions, velocities and pressures only: the work fields are those of the failed step.
   const FluidFields<Dim> fields(flow, last_good, {"pressure", "velocity", "id"});
-  write_vtp(failure / "last_good.vtp", last_good_time, encode_piece(fields.view(), 1), 1, flow.ranks);
+  write_vtp(failure / "last_good.vtp", last_good_time, encode_piece(fields.view(), 1), 1, flow.setup.ranks);
 
   std::string report;
   if (culprit) {
     const std::size_t i = *culprit;
     auto out = std::back_inserter(report);
-    if (flow.time > last_good_time) {
-      fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.particles, i));
+    if (flow.state.time > last_good_time) {
+      fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.state.particles, i));
     }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
     fmt::format_to(out, "its neighbours before the step:\n");
@@ -62,12 +61,12 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
       if (j < last_good.owned) {
         fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
       } else {
-        fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.particles, j));
+        fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.state.particles, j));
       }
     }
   }
-  const std::vector<std::string> reports = flow.ranks.gather(report);
-  do_on_root(flow.ranks,
+  const std::vector<std::string> reports = flow.setup.ranks.gather(report);
+  do_on_root(flow.setup.ranks,
              [&] { write_text_file(failure / "report.txt", fmt::format("{}\n{}", message, fmt::join(reports, ""))); });
 }
 

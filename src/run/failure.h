@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "flow/flow.h"
 #include "io/run_folder.h"
-#include "schemes/flow.h"
 
 namespace tailwater {
 

@@ -16,13 +16,13 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
   std::sort(fluid.begin(), fluid.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
   // Before the first step there are no work fields yet: the start is a lattice with no marks.
-  const bool has_work_fields = !flow.concentration.empty();
+  const bool has_work_fields = !flow.here.concentration.empty();
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);
     pressure_.push_back(particles.pressure[i]);
-    density_error_.push_back(has_work_fields ? flow.concentration[i] - 1.0 : 0.0);
-    is_surface_.push_back(has_work_fields ? flow.is_surface[i] : 0);
+    density_error_.push_back(has_work_fields ? flow.here.concentration[i] - 1.0 : 0.0);
+    is_surface_.push_back(has_work_fields ? flow.here.is_surface[i] : 0);
     id_.push_back(particles.id[i]);
   }
 }

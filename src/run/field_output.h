@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "flow/flow.h"
 #include "io/vtp_writer.h"
-#include "schemes/flow.h"
 
 namespace tailwater {
 

@@ -5,7 +5,8 @@
 #include <chrono>
 #include <string>
 
-#include "schemes/flow.h"
+#include "flow/measure.h"
+#include "flow/step.h"
 
 namespace tailwater {
 

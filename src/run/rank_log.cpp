@@ -21,7 +21,7 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   double reduction = (traffic.reduction_seconds - at_last_.reduction_seconds) / elapsed / ranks_.size();
   auto ghosts = static_cast<double>(flow.neighbourhood.halo().plan.ghosts());
   ranks_.sum_each(exchange, reduction, ghosts);
-  const auto owned = static_cast<std::int64_t>(flow.particles.owned);
+  const auto owned = static_cast<std::int64_t>(flow.state.particles.owned);
   const std::int64_t least = ranks_.least(owned);
   const std::int64_t most = ranks_.largest(owned);
   last_ = now;
@@ -34,7 +34,7 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   moved_ += sharing.moved;
   ghosts_sum_ += ghosts;
   if (!csv_) return;
-  csv_->write(std::array<double, 10>{flow.time, static_cast<double>(flow.step), sharing.imbalance,
+  csv_->write(std::array<double, 10>{flow.state.time, static_cast<double>(flow.state.step), sharing.imbalance,
                                      static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
                                      static_cast<double>(least), static_cast<double>(most), ghosts / ranks_.size(),
                                      exchange, reduction});

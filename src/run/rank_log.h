@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "flow/measure.h"
+#include "flow/step.h"
 #include "io/csv_writer.h"
-#include "schemes/flow.h"
 
 namespace tailwater {
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "case/writer.h"
+#include "flow/verbs.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
 #include "io/pvd_series.h"
@@ -25,7 +26,6 @@
 #include "run/statistics.h"
 #include "run/step_log.h"
 #include "schemes/advance.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 namespace {
@@ -67,14 +67,14 @@ struct Water {
 /// Inside, on all ranks.
 template <int Dim>
 Water water_in(const Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.particles;
+  const Particles<Dim>& particles = flow.state.particles;
   Water water;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     ++water.particles;
     water.volume += particles.volume[i];
   }
-  flow.ranks.sum_each(water.particles, water.volume);
+  flow.setup.ranks.sum_each(water.particles, water.volume);
   return water;
 }
 
@@ -94,13 +94,13 @@ template <int Dim>
 std::size_t count_outside(const Eigen::AlignedBox<double, Dim>& box, const Flow<Dim>& flow) {
   if (box.isEmpty()) return 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    const Vec<Dim>& x = flow.particles.position[i];
-    count += flow.particles.is_fluid(i) && !box.contains(x) &&
-             std::none_of(flow.open_ends.begin(), flow.open_ends.end(),
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    const Vec<Dim>& x = flow.state.particles.position[i];
+    count += flow.state.particles.is_fluid(i) && !box.contains(x) &&
+             std::none_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
                           [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
   }
-  return flow.ranks.sum(count);
+  return flow.setup.ranks.sum(count);
 }
 
 /// Of this rank.
@@ -123,7 +123,7 @@ class Run {
         tells_(ranks.is_root() && !options.quiet),
         flow_(spec, ranks),
         water_at_start_(water_in(flow_)),
-        probe_list_(make_probes<Dim>(spec, flow_.boundary)),
+        probe_list_(make_probes<Dim>(spec, flow_.walls.boundary)),
         folder_(make_folder(flow_, spec, options)),
         series_(folder_.fields(), "fields", spec.output.compression),
         wall_series_(folder_.fields(), "walls", spec.output.compression),
@@ -156,8 +156,8 @@ class Run {
  private:
   /// Last in the row of checks: from here on there are traces.
   static RunFolder make_folder(const Flow<Dim>& flow, const CaseSpec& spec, const RunOptions& options) {
-    require_reachable_end(spec, flow.time_step_rule);
-    return RunFolder::create(options.out, options.force, flow.ranks);
+    require_reachable_end(spec, flow.setup.time_step_rule);
+    return RunFolder::create(options.out, options.force, flow.setup.ranks);
   }
 
   ExitCode loop() {
@@ -171,11 +171,11 @@ class Run {
     require_sound_step(next_time_step(flow_));
     attempt([&] { start(flow_); });
     record_probes(measure(flow_));
-    while (flow_.time < spec_.time.end) {
+    while (flow_.state.time < spec_.time.end) {
       if (ranks_.any(interrupt.requested())) return ExitCode::interrupted;
-      if (flow_.time >= next_fields) {
+      if (flow_.state.time >= next_fields) {
         write_fields();
-        next_fields = (std::floor(flow_.time / field_interval) + 1.0) * field_interval;
+        next_fields = (std::floor(flow_.state.time / field_interval) + 1.0) * field_interval;
       }
       step();
     }
@@ -186,7 +186,7 @@ class Run {
     remember_good();
     const double dt = next_time_step(flow_);
     require_sound_step(dt);
-    const bool is_shared_out = flow_.step % steps_between_sorts == 0;
+    const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
     if (is_shared_out) rank_log_.write(flow_, share_out(flow_));
     const bool some_left = let_go(flow_);
     // An index must mean the same particle before and after the step.
@@ -196,30 +196,30 @@ class Run {
     // water.
     attempt([&] { report = advance(flow_, std::min(dt, spec_.time.end)); });
     const FlowMeasures measures = measure(flow_);
-    const std::size_t outside = count_outside<Dim>(box_around(flow_.boundary), flow_);
+    const std::size_t outside = count_outside<Dim>(box_around(flow_.walls.boundary), flow_);
     warn_if_outside(outside);
     statistics_.add(report, measures, outside);
-    if (step_log_) step_log_->write(flow_.time, flow_.step, report, measures);
+    if (step_log_) step_log_->write(flow_.state.time, flow_.state.step, report, measures);
     record_probes(measures);
-    progress_.show(flow_.time, flow_.step, report, measures);
+    progress_.show(flow_.state.time, flow_.state.step, report, measures);
   }
 
   void remember_good() {
-    last_good_ = flow_.particles;
-    last_good_time_ = flow_.time;
+    last_good_ = flow_.state.particles;
+    last_good_time_ = flow_.state.time;
   }
 
   void require_sound_step(double dt) {
-    const double reference_step = flow_.time_step_rule.largest(0.0, 0.0);
+    const double reference_step = flow_.setup.time_step_rule.largest(0.0, 0.0);
     if (!std::isfinite(reference_step) || dt >= collapsed_step * reference_step) return;
     const double speed = largest_speed(flow_);
     std::optional<std::size_t> culprit;
-    if (flow_.particles.owned > 0) culprit = fastest_particle(flow_.particles);
-    if (culprit && flow_.particles.velocity[*culprit].norm() < speed) culprit.reset();
+    if (flow_.state.particles.owned > 0) culprit = fastest_particle(flow_.state.particles);
+    if (culprit && flow_.state.particles.velocity[*culprit].norm() < speed) culprit.reset();
     blame(culprit, [&](std::size_t i) {
       return fmt::format("the time step collapsed to {:.3g} s: particle {} at {} moves at {:.4g} m/s", dt,
-                         flow_.particles.id[i], place<Dim>(flow_.particles.position[i]),
-                         flow_.particles.velocity[i].norm());
+                         flow_.state.particles.id[i], place<Dim>(flow_.state.particles.position[i]),
+                         flow_.state.particles.velocity[i].norm());
     });
   }
 
@@ -235,7 +235,7 @@ class Run {
     const std::optional<std::size_t> culprit = find_non_finite(flow_);
     if (ranks_.any(culprit.has_value())) {
       blame(culprit, [&](std::size_t i) {
-        return fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.particles.id[i],
+        return fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.state.particles.id[i],
                            place<Dim>(last_good_.position[i]));
       });
     }
@@ -259,10 +259,10 @@ class Run {
   /// `culprit`: on the rank that has it.
   [[noreturn]] void fail(const std::string& reason, std::optional<std::size_t> culprit) {
     const std::string message =
-        fmt::format("step {} from t = {:.6g} s failed: {}", flow_.step, last_good_time_, reason);
+        fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, last_good_time_, reason);
     write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
-    flow_.particles = last_good_;
-    flow_.time = last_good_time_;
+    flow_.state.particles = last_good_;
+    flow_.state.time = last_good_time_;
     throw SolverError(
         fmt::format("{}. The last good fields and a report are in {}", message, (folder_.path() / "failure").string()));
   }
@@ -274,29 +274,29 @@ class Run {
     fmt::print(stderr,
                "warning: at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still "
                "computed, and counted in summary.json. Remedy: higher walls\n",
-               flow_.time, outside);
+               flow_.state.time, outside);
   }
 
   void write_fields() {
-    if (last_fields_time_ == flow_.time && series_.size() > 0) return;
-    last_fields_time_ = flow_.time;
-    const FluidFields<Dim> fields(flow_, flow_.particles, spec_.output.fields);
-    series_.write(flow_.time, fields.view(), ranks_);
-    if (!flow_.wall_motion.moving().empty()) {
-      do_on_root(ranks_, [&] { wall_series_.write(flow_.time, WallFields<Dim>(flow_.boundary).view()); });
+    if (last_fields_time_ == flow_.state.time && series_.size() > 0) return;
+    last_fields_time_ = flow_.state.time;
+    const FluidFields<Dim> fields(flow_, flow_.state.particles, spec_.output.fields);
+    series_.write(flow_.state.time, fields.view(), ranks_);
+    if (!flow_.setup.wall_motion.moving().empty()) {
+      do_on_root(ranks_, [&] { wall_series_.write(flow_.state.time, WallFields<Dim>(flow_.walls.boundary).view()); });
     }
   }
 
   void record_probes(const FlowMeasures& measures) {
-    if (!probes_.is_due(flow_.time)) return;
-    probes_.record({.particles = flow_.particles,
+    if (!probes_.is_due(flow_.state.time)) return;
+    probes_.record({.particles = flow_.state.particles,
                     .grid = flow_.neighbourhood.grid(),
                     .kernel = flow_.neighbourhood.kernel(),
-                    .boundary = flow_.boundary,
-                    .density = flow_.density,
-                    .gravity = flow_.gravity,
-                    .spacing = flow_.spacing,
-                    .time = flow_.time,
+                    .boundary = flow_.walls.boundary,
+                    .density = flow_.setup.density,
+                    .gravity = flow_.setup.gravity,
+                    .spacing = flow_.setup.spacing,
+                    .time = flow_.state.time,
                     .totals = {.kinetic_energy = measures.kinetic_energy,
                                .potential_energy = measures.potential_energy,
                                .density_error_mean = measures.density_error_mean,
@@ -307,17 +307,18 @@ class Run {
 
   Water water_out() const {
     Departed all;
-    for (const OpenEnd<Dim>& end : flow_.open_ends) all += end.departed;
+    for (const OpenEndState& end : flow_.state.open_ends) all += end.departed;
     return {all.particles, all.volume};
   }
 
   nlohmann::ordered_json water_balance() const {
     nlohmann::ordered_json outlets = nlohmann::ordered_json::array();
-    for (const OpenEnd<Dim>& end : flow_.open_ends) {
-      outlets.push_back({{"name", end.outlet.name},
-                         {"particles", end.departed.particles},
-                         {"volume_m3", end.departed.volume},
-                         {"energy_J", end.departed.energy}});
+    for (std::size_t e = 0; e < flow_.setup.open_ends.size(); ++e) {
+      const Departed& departed = flow_.state.open_ends[e].departed;
+      outlets.push_back({{"name", flow_.setup.open_ends[e].outlet.name},
+                         {"particles", departed.particles},
+                         {"volume_m3", departed.volume},
+                         {"energy_J", departed.energy}});
     }
     return {{"start", water_at_start_.json()},
             {"inside", water_in(flow_).json()},
@@ -326,7 +327,7 @@ class Run {
   }
 
   void print_water_balance() const {
-    if (flow_.open_ends.empty()) return;
+    if (flow_.setup.open_ends.empty()) return;
     const Water inside = water_in(flow_);
     if (!tells_) return;
     fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(), inside.text(),
@@ -338,21 +339,22 @@ class Run {
     const double cpu = ranks_.sum(cpu_seconds() - cpu_start_);
     const double memory = ranks_.sum(peak_memory_bytes());
     const auto fluid = static_cast<std::size_t>(water_in(flow_).particles);
-    const std::size_t all = ranks_.sum(flow_.particles.owned);
-    nlohmann::ordered_json summary = {{"title", spec_.general.title},
-                                      {"case", options_.case_file.string()},
-                                      {"status", status},
-                                      {"exit_code", static_cast<int>(code)},
-                                      {"message", message},
-                                      {"spacing_m", spec_.particles.spacing},
-                                      {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
-                                      {"time_s", {{"end", spec_.time.end}, {"reached", flow_.time}}},
-                                      {"cost",
-                                       {{"wall_clock_s", wall_seconds},
-                                        {"cpu_s", cpu},
-                                        {"cpu_s_per_simulated_s", flow_.time > 0.0 ? cpu / flow_.time : 0.0},
-                                        {"peak_memory_bytes", memory}}},
-                                      {"ranks", rank_log_.json()}};
+    const std::size_t all = ranks_.sum(flow_.state.particles.owned);
+    nlohmann::ordered_json summary = {
+        {"title", spec_.general.title},
+        {"case", options_.case_file.string()},
+        {"status", status},
+        {"exit_code", static_cast<int>(code)},
+        {"message", message},
+        {"spacing_m", spec_.particles.spacing},
+        {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
+        {"time_s", {{"end", spec_.time.end}, {"reached", flow_.state.time}}},
+        {"cost",
+         {{"wall_clock_s", wall_seconds},
+          {"cpu_s", cpu},
+          {"cpu_s_per_simulated_s", flow_.state.time > 0.0 ? cpu / flow_.state.time : 0.0},
+          {"peak_memory_bytes", memory}}},
+        {"ranks", rank_log_.json()}};
     summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
     summary["water_balance"] = water_balance();
     summary.update(provenance());

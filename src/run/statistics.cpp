@@ -25,11 +25,11 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   energy_end_ = measures.energy();
   energy_out_ = measures.departed.energy;
   brought_by_walls_ += report.brought_by_walls();
-  viscous_work_ += report.viscous_work;
+  viscous_work_ += report.work.viscous;
   const double accounted = energy_end_ + energy_out_ - brought_by_walls_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
-  density_work_ += report.density_work;
+  density_work_ += report.work.density;
   density_share_sum_ += report.density_share;
   unexplained_least_ = std::min(unexplained_least_, accounted - density_work_);
   unexplained_rise_ = std::max(unexplained_rise_, accounted - density_work_ - unexplained_least_);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "schemes/flow.h"
+#include "flow/measure.h"
+#include "flow/step.h"
 
 namespace tailwater {
 

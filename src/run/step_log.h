@@ -3,8 +3,9 @@
 
 #include <filesystem>
 
+#include "flow/measure.h"
+#include "flow/step.h"
 #include "io/csv_writer.h"
-#include "schemes/flow.h"
 
 namespace tailwater {
 

@@ -1,17 +1,19 @@
 #include "schemes/advance.h"
 
+#include "pressure/verbs.h"
 #include "schemes/projection.h"
 #include "schemes/two_step.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 namespace {
 
 template <int Dim>
-StepReport take_step(Flow<Dim>& flow, double dt) {
-  if (flow.scheme.name == SchemeName::farmani2020) return two_step(flow, dt);
-  return flow.scheme.integrator == Integrator::explicit_projection ? explicit_projection_step(flow, dt)
-                                                                   : implicit_projection_step(flow, dt);
+StepReport take_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  const SchemeTable& scheme = flow.setup.scheme;
+  if (scheme.name == SchemeName::farmani2020) return two_step(flow, start, dt);
+  if (scheme.integrator == Integrator::explicit_projection) return explicit_projection_step(flow, start, dt);
+  return scheme.implicit_form == ImplicitForm::residual ? two_projections_step(flow, start, dt)
+                                                        : repeated_projection_step(flow, start, dt);
 }
 
 }  // namespace
@@ -19,12 +21,14 @@ StepReport take_step(Flow<Dim>& flow, double dt) {
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   hold_open_ends(flow, dt);
-  StepReport report = take_step(flow, dt);
+  const StepStart<Dim> start = remember(flow);
+  StepReport report = take_step(flow, start, dt);
+  report.dt = dt;
   Interventions& counts = report.interventions;
-  flow.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.clamped_pressures, counts.fallback_rows);
-  balance_energy(flow, report);
-  flow.time += dt;
-  ++flow.step;
+  flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.clamped_pressures, counts.fallback_rows);
+  balance_energy(flow, start, report);
+  flow.state.time += dt;
+  ++flow.state.step;
   return report;
 }
 

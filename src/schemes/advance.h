@@ -1,7 +1,8 @@
 // What a run asks of a scheme, whichever the case chose.
 #pragma once
 
-#include "schemes/flow.h"
+#include "flow/flow.h"
+#include "flow/step.h"
 
 namespace tailwater {
 
@@ -10,7 +11,7 @@ namespace tailwater {
 template <int Dim>
 void start(Flow<Dim>& flow);
 
-/// A step by the scheme and integrator that the case chose; advances flow.time and flow.step.
+/// A step by the scheme and integrator that the case chose; advances the time and the number of the step.
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt);
 

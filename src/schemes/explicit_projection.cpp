@@ -1,41 +1,23 @@
+#include "pressure/operators.h"
+#include "pressure/verbs.h"
+#include "schemes/project.h"
 #include "schemes/projection.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 
 template <int Dim>
-StepReport project(Flow<Dim>& flow, double dt) {
-  StepReport report;
-  report.dt = dt;
-  report.passes = 1;
-  remember(flow);
-  drive_walls(flow, dt);
+StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  StepReport report = project(flow, start, dt);  // (F14)-(F16)
+  const std::vector<double> divergence_old = find_divergence(flow);
+  report.divergence_old = bulk_rms(flow, divergence_old);  // (F18): what is left at the old positions
+  report.interventions.put_back += move(flow, start, dt);  // (F17)
   locate(flow);
-  predict(flow, dt);  // (F14)
-  aim(flow, dt);
-  assemble(flow, dt, report.interventions);  // (F15)
-  const SolveReport solved = solve(flow, report.interventions);
-  correct(flow, dt);  // (F16)
-  book_work(flow, dt, report);
-  report.iterations = solved.iterations;
-  report.residual = solved.residual;
+  report_divergence(flow, divergence_old, report);
+  report.interventions += shift(flow, dt);  // (F28)-(F32)
   return report;
 }
 
-template <int Dim>
-StepReport explicit_projection_step(Flow<Dim>& flow, double dt) {
-  StepReport report = project(flow, dt);
-  report.divergence_old = bulk_divergence(flow);  // (F18): what is left at the old positions
-  move(flow, dt, report.interventions);           // (F17)
-  locate(flow);
-  measure_after_move(flow, report);
-  shift(flow, dt, report.interventions);  // (F28)-(F32)
-  return report;
-}
-
-template StepReport project<2>(Flow<2>&, double);
-template StepReport project<3>(Flow<3>&, double);
-template StepReport explicit_projection_step<2>(Flow<2>&, double);
-template StepReport explicit_projection_step<3>(Flow<3>&, double);
+template StepReport explicit_projection_step<2>(Flow<2>&, const StepStart<2>&, double);
+template StepReport explicit_projection_step<3>(Flow<3>&, const StepStart<3>&, double);
 
 }  // namespace tailwater

@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "pressure/operators.h"
+#include "pressure/verbs.h"
+#include "schemes/project.h"
 #include "schemes/projection.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 namespace {
 
-/// Surface marks may still change in the second pass; later they would keep the iteration from settling (method.md 4).
+/// Surface marks may still change in the second pass; later they would keep the iteration from settling.
 constexpr int passes_with_new_marks = 2;
 
 /// x <- x_before + factor (x - x_before) on owned entries.
@@ -20,12 +22,9 @@ void relax(double factor, const std::vector<Value>& before, std::vector<Value>& 
 
 /// rms of the difference over the rms of `field`, owned entries of all ranks.
 double relative_change(const Communicator& ranks, const std::vector<double>& before, const std::vector<double>& field) {
-  double difference = 0.0;
-  double size = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    difference += (field[i] - before[i]) * (field[i] - before[i]);
-    size += field[i] * field[i];
-  }
+  double difference =
+      sum_over(before.size(), 0.0, [&](std::size_t i) { return (field[i] - before[i]) * (field[i] - before[i]); });
+  double size = sum_over(before.size(), 0.0, [&](std::size_t i) { return field[i] * field[i]; });
   ranks.sum_each(difference, size);
   return size > 0.0 ? std::sqrt(difference / size) : 0.0;
 }
@@ -35,69 +34,69 @@ std::vector<Value> owned_part(const std::vector<Value>& field, std::size_t owned
   return {field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned)};
 }
 
+}  // namespace
+
 template <int Dim>
-StepReport two_projections_step(Flow<Dim>& flow, double dt) {
-  StepReport report = project(flow, dt);
-  move(flow, dt, report.interventions);
+StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  StepReport report = project(flow, start, dt);
+  report.interventions.put_back += move(flow, start, dt);
   locate(flow);
-  drive_walls_to_end(flow, dt);
-  flow.walls.velocity = flow.wall_velocity_next;
-  report.iterations += reproject(flow, dt, report.interventions).iterations;
-  report.wall_work = wall_work(flow, dt);  // of the pressure of both
-  report.passes = 2;
-  report.divergence_new = report.divergence_old = bulk_divergence(flow);  // the solve was at the new positions
-  shift(flow, dt, report.interventions);
+  const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  flow.state.wall_velocity = drive.velocity;
+  const PressureReport second = reproject(flow, drive, dt);
+  ++report.passes;
+  report.iterations += second.iterations;  // the residual reported is that of the first, which is solved to tolerance
+  report.interventions += second.interventions;
+  report.work.walls = wall_work(flow, dt);  // of the pressure of both
+  report.divergence_old = bulk_rms(flow, find_divergence(flow));
+  report.divergence_new = report.divergence_old;  // the last solve was at the new positions
+  report.interventions += shift(flow, dt);
   return report;
 }
 
 template <int Dim>
-StepReport repeated_projection_step(Flow<Dim>& flow, double dt) {
+StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  const SchemeTable& scheme = flow.setup.scheme;
+  Particles<Dim>& particles = flow.state.particles;
   StepReport report;
-  report.dt = dt;
-  Particles<Dim>& particles = flow.particles;
-  remember(flow);
-  drive_walls(flow, dt);
-  flow.target_divergence.assign(particles.owned, 0.0);  // (F19)
-  for (bool settled = false; !settled && report.passes < flow.scheme.max_passes; ++report.passes) {
+  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
+  std::vector<double> divergence_old;
+  for (bool settled = false; !settled && report.passes < scheme.max_passes;) {
     const auto pressure_before = owned_part(particles.pressure, particles.owned);
     const auto velocity_before = owned_part(particles.velocity, particles.owned);
     const auto position_before = owned_part(particles.position, particles.owned);
 
-    locate(flow, report.passes >= passes_with_new_marks);  // derivatives at the positions of iterate k
-    predict(flow, dt);                                     // (F21)
-    assemble(flow, dt, report.interventions);              // (F22)
-    const SolveReport solved = solve(flow, report.interventions);
-    correct(flow, dt);  // (F24)
-    book_work(flow, dt, report);
-    report.divergence_old = bulk_divergence(flow);
+    locate(flow, report.passes >= passes_with_new_marks);               // derivatives at the positions of iterate k
+    const Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F21)
+    const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
+    report.add(solve(flow, drive, equation));
+    correct(flow, predicted, drive, dt);  // (F24)
+    report.work = book_works(flow, start, predicted, equation, dt);
+    divergence_old = find_divergence(flow);
+    report.divergence_old = bulk_rms(flow, divergence_old);
 
-    report.pressure_change = relative_change(flow.ranks, pressure_before, particles.pressure);
-    relax(flow.scheme.relax_pressure, pressure_before, particles.pressure);
-    relax(flow.scheme.relax_velocity, velocity_before, particles.velocity);
-    move(flow, dt, report.interventions);  // (F25)
-    relax(flow.scheme.relax_position, position_before, particles.position);
-    place_walls(flow, flow.time + dt);  // walls are not relaxed
+    report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);
+    relax(scheme.relax_pressure, pressure_before, particles.pressure);
+    relax(scheme.relax_velocity, velocity_before, particles.velocity);
+    report.interventions.put_back += move(flow, start, dt);  // (F25)
+    relax(scheme.relax_position, position_before, particles.position);
+    place_walls(flow, flow.state.time + dt);  // walls are not relaxed
 
-    report.iterations += solved.iterations;
-    report.residual = solved.residual;
     // The first pass comes from the step before, not from an iterate of this one.
-    settled = report.passes > 0 && report.pressure_change < flow.scheme.pass_tolerance;
+    settled = report.passes > 1 && report.pressure_change < scheme.pass_tolerance;
   }
   locate(flow);
-  measure_after_move(flow, report);       // (F19)
-  shift(flow, dt, report.interventions);  // (F28)-(F32)
+  report_divergence(flow, divergence_old, report);  // (F19)
+  report.interventions += shift(flow, dt);          // (F28)-(F32)
   return report;
 }
 
-}  // namespace
-
-template <int Dim>
-StepReport implicit_projection_step(Flow<Dim>& flow, double dt) {
-  return flow.scheme.implicit_form == ImplicitForm::residual ? two_projections_step(flow, dt)
-                                                             : repeated_projection_step(flow, dt);
-}
-
-template StepReport implicit_projection_step<2>(Flow<2>&, double);
-template StepReport implicit_projection_step<3>(Flow<3>&, double);
+#define TAILWATER_INSTANTIATE(Dim)                                                          \
+  template StepReport two_projections_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double); \
+  template StepReport repeated_projection_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

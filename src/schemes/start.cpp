@@ -3,7 +3,6 @@
 
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
-#include "schemes/verbs.h"
 
 namespace tailwater {
 
@@ -11,22 +10,19 @@ template <int Dim>
 void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
   hold_open_ends(flow, 0.0);
-  remember(flow);
+  const StepStart<Dim> start = remember(flow);
   locate(flow);
   if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either
-  Interventions ignored;
-  drive_walls_to_end(flow, dt);
-  if (flow.scheme.name == SchemeName::farmani2020) {
-    predict_pressure(flow, dt, ignored);
-    std::copy(flow.position_old.begin(), flow.position_old.end(), flow.particles.position.begin());
-    place_walls(flow, flow.time);
+  const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  if (flow.setup.scheme.name == SchemeName::farmani2020) {
+    predict_pressure(flow, start, drive, dt);
+    std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
+    place_walls(flow, flow.state.time);
     locate(flow);
     return;
   }
-  predict(flow, dt);
-  aim(flow, dt);
-  assemble(flow, dt, ignored);
-  solve(flow, ignored);
+  const Prediction<Dim> predicted = predict(flow, start, drive, dt);
+  solve(flow, drive, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt));
 }
 
 template void start<2>(Flow<2>&);

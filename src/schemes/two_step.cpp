@@ -1,43 +1,47 @@
 #include "schemes/two_step.h"
 
-#include "schemes/verbs.h"
+#include "pressure/operators.h"
+#include "schemes/project.h"
 
 namespace tailwater {
 
 template <int Dim>
-SolveReport predict_pressure(Flow<Dim>& flow, double dt, Interventions& interventions) {
-  remember(flow);
-  drive_walls(flow, dt);
-  locate(flow);       // rho (B6, B10)
-  predict(flow, dt);  // (B11), (B12)
-  drift(flow, dt);    // (B13)
-  locate(flow);       // rho_star (B14), surface (B21)
-  flow.target_divergence.assign(flow.particles.owned, 0.0);
-  assemble(flow, dt, interventions);  // (B17)
-  return solve(flow, interventions);
+PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive,
+                                        double dt) {
+  PredictedPressure<Dim> found;
+  locate(flow);                                       // rho (B6, B10)
+  found.predicted = predict(flow, start, drive, dt);  // (B11), (B12)
+  drift(flow, start, found.predicted, dt);            // (B13)
+  locate(flow);                                       // rho_star (B14), surface (B21)
+  const std::vector<double> no_target(flow.state.particles.owned, 0.0);
+  found.equation = assemble(flow, found.predicted, no_target, drive, dt);  // (B17)
+  found.solved = solve(flow, drive, found.equation);
+  return found;
 }
 
 template <int Dim>
-StepReport two_step(Flow<Dim>& flow, double dt) {
+StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
-  report.dt = dt;
-  report.passes = 1;
-  const SolveReport solved = predict_pressure(flow, dt, report.interventions);
-  report.iterations = solved.iterations;
-  report.residual = solved.residual;
-  correct(flow, dt);  // (B16), (B18)
-  book_work(flow, dt, report);
-  report.divergence_old = bulk_divergence(flow);
-  move(flow, dt, report.interventions);  // (B19)
+  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  const PredictedPressure<Dim> found = predict_pressure(flow, start, drive, dt);
+  report.add(found.solved);
+  correct(flow, found.predicted, drive, dt);  // (B16), (B18)
+  report.work = book_works(flow, start, found.predicted, found.equation, dt);
+  const std::vector<double> divergence_old = find_divergence(flow);
+  report.divergence_old = bulk_rms(flow, divergence_old);
+  report.interventions.put_back += move(flow, start, dt);  // (B19)
   locate(flow);
-  measure_after_move(flow, report);
-  shift(flow, dt, report.interventions);
+  report_divergence(flow, divergence_old, report);
+  report.interventions += shift(flow, dt);
   return report;
 }
 
-template SolveReport predict_pressure<2>(Flow<2>&, double, Interventions&);
-template SolveReport predict_pressure<3>(Flow<3>&, double, Interventions&);
-template StepReport two_step<2>(Flow<2>&, double);
-template StepReport two_step<3>(Flow<3>&, double);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                \
+  template PredictedPressure<Dim> predict_pressure<Dim>(Flow<Dim>&, const StepStart<Dim>&, const WallDrive<Dim>&, \
+                                                        double);                                                  \
+  template StepReport two_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -12,8 +12,8 @@
 #include <numbers>
 #include <vector>
 
-#include "linear/pressure_system.h"
 #include "support/dimensions.h"
+#include "support/pressure_system.h"
 #include "support/record.h"
 #include "support/tensors.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "case/choices.h"
-#include "linear/pressure_system.h"
+#include "support/pressure_system.h"
 
 namespace tailwater {
 namespace {

@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(FluidFieldsTest, Dimensions);
 TYPED_TEST(FluidFieldsTest, HoldsTheWaterInTheOrderOfItsIds) {
   constexpr int Dim = TypeParam::value;
   Flow<Dim> flow(pond_case<Dim>());
-  Particles<Dim>& particles = flow.particles;
+  Particles<Dim>& particles = flow.state.particles;
   const std::vector<Vec<Dim>> start(particles.position.begin(), particles.position.end());
   // As after sorting for the cache: particles swapped whole.
   std::reverse(particles.id.begin(), particles.id.end());
@@ -43,14 +43,15 @@ TYPED_TEST(FluidFieldsTest, GivesTheFieldsThatAreAskedFor) {
   constexpr int Dim = TypeParam::value;
   const Flow<Dim> flow(pond_case<Dim>());
   const std::vector<std::string> names(field_names.begin(), field_names.end());
-  const FluidFields<Dim> all(flow, flow.particles, names);
+  const FluidFields<Dim> all(flow, flow.state.particles, names);
   const auto view = all.view();
   ASSERT_EQ(view.fields.size(), names.size());
   for (std::size_t k = 0; k < names.size(); ++k) {
     EXPECT_EQ(view.fields[k].name, names[k]);
-    std::visit([&](const auto& values) { EXPECT_EQ(values.size(), flow.particles.owned); }, view.fields[k].values);
+    std::visit([&](const auto& values) { EXPECT_EQ(values.size(), flow.state.particles.owned); },
+               view.fields[k].values);
   }
-  EXPECT_TRUE((FluidFields<Dim>(flow, flow.particles, {}).view().fields.empty()));
+  EXPECT_TRUE((FluidFields<Dim>(flow, flow.state.particles, {}).view().fields.empty()));
 }
 
 }  // namespace

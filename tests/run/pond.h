@@ -1,7 +1,7 @@
 // Still water, four by two particles (by two in 3D), without walls: the smallest flow there is.
 #pragma once
 
-#include "schemes/flow.h"
+#include "flow/flow.h"
 
 namespace tailwater {
 

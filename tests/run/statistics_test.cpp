@@ -46,9 +46,9 @@ TEST(RunStatistics, AddUpSteps) {
 TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
   RunStatistics statistics(with_energy(0.0, 10.0));
   StepReport report = step_of(0.1, 1, 1);
-  report.density_work = 1.5;
+  report.work.density = 1.5;
   statistics.add(report, with_energy(0.0, 11.0), 0);  // 1 of the 1.5 arrives, the rest is dissipated
-  report.density_work = 0.25;
+  report.work.density = 0.25;
   statistics.add(report, with_energy(0.0, 12.0), 0);  // 0.75 more than the source explains
   const auto json = statistics.json(1, 1);
   EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 2.0);
@@ -59,12 +59,12 @@ TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
 TEST(RunStatistics, WhatMovingWallsBringIsNoRise) {
   RunStatistics statistics(with_energy(0.0, 10.0));
   StepReport report = step_of(0.1, 1, 1);
-  report.wall_work = 2.0;
-  report.viscous_work = -0.5;
+  report.work.walls = 2.0;
+  report.work.viscous = -0.5;
   report.density_share = 0.5;
   statistics.add(report, with_energy(0.0, 11.5), 0);
-  report.wall_work = 0.0;
-  report.viscous_work = 0.25;  // dragged along
+  report.work.walls = 0.0;
+  report.work.viscous = 0.25;  // dragged along
   report.density_share = 1.0;
   statistics.add(report, with_energy(0.0, 12.0), 0);
   const auto json = statistics.json(1, 1);

@@ -41,17 +41,18 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
   Flow<2> flow(spec);
   // Rows cut by the slope do not fit: nobody falls farther than a spacing to its place.
   const double settling = std::sqrt(2.0 * g * dx);
-  while (flow.time < 1.0) {
+  while (flow.state.time < 1.0) {
     EXPECT_EQ(step(flow).interventions.put_back, 0u);
-    ASSERT_LT(measure(flow).largest_speed, settling) << "t = " << flow.time;
+    ASSERT_LT(measure(flow).largest_speed, settling) << "t = " << flow.state.time;
   }
-  const double unit = flow.density * g * dx;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    const Vec<2>& x = flow.particles.position[i];
-    EXPECT_GT(flow.boundary.nearest(x, 1.0).signed_distance, 0.0);
+  const double unit = flow.setup.density * g * dx;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    const Vec<2>& x = flow.state.particles.position[i];
+    EXPECT_GT(flow.walls.boundary.nearest(x, 1.0).signed_distance, 0.0);
     // p = 0 is known to dx, the level to another: the polygon holds its area to a particle per row beside the slopes.
-    EXPECT_LT(std::abs(flow.particles.pressure[i] - flow.density * g * (depth - x[1])), 2.0 * unit) << x.transpose();
+    EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.density * g * (depth - x[1])), 2.0 * unit)
+        << x.transpose();
   }
 }
 
@@ -63,7 +64,7 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   water.max = {0.4, depth};
   spec.fluid = {water};
   Flow<2> flow(spec);
-  const double reservoir = flow.density * g * depth;
+  const double reservoir = flow.setup.density * g * depth;
   const double bore = 2.0 * std::sqrt(g * depth);  // at most
   std::size_t put_back = 0;
   std::size_t steps = 0;
@@ -73,16 +74,17 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   double impulse = 0.0;
   double since = 0.0;
   std::size_t beyond = 0;
-  for (; flow.time < 1.5; ++steps) {
+  for (; flow.state.time < 1.5; ++steps) {
     const StepReport report = step(flow);
     put_back += report.interventions.put_back;
     double highest_of_step = 0.0;
     beyond = 0;
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      if (!flow.particles.is_fluid(i)) continue;
-      const Vec<2>& x = flow.particles.position[i];
-      ASSERT_GT(flow.boundary.nearest(x, 1.0).signed_distance, 0.0) << x.transpose() << ", t = " << flow.time;
-      highest_of_step = std::max(highest_of_step, flow.particles.pressure[i]);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<2>& x = flow.state.particles.position[i];
+      ASSERT_GT(flow.walls.boundary.nearest(x, 1.0).signed_distance, 0.0)
+          << x.transpose() << ", t = " << flow.state.time;
+      highest_of_step = std::max(highest_of_step, flow.state.particles.pressure[i]);
       beyond += x[0] > toe + half_width_at(GetParam());
     }
     impulse += highest_of_step * report.dt;

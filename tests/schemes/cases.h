@@ -6,7 +6,7 @@
 
 #include "case/formulation.h"
 #include "schemes/advance.h"
-#include "schemes/verbs.h"
+#include "pressure/verbs.h"
 
 namespace tailwater {
 
@@ -68,7 +68,7 @@ inline CaseSpec zhou_case(double spacing, Integrator integrator) {
 template <int Dim>
 StepReport step(Flow<Dim>& flow) {
   constexpr int steps_between_sorts = 10;
-  if (flow.step % steps_between_sorts == 0) flow.neighbourhood.reorder(flow.particles);
+  if (flow.state.step % steps_between_sorts == 0) flow.neighbourhood.reorder(flow.state.particles);
   return advance(flow, next_time_step(flow));
 }
 

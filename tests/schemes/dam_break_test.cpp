@@ -32,21 +32,21 @@ class DamBreak : public testing::TestWithParam<Way> {};
 
 TEST_P(DamBreak, RunsSoundly) {
   Flow<2> flow(dam_break(GetParam()));
-  const std::size_t count = flow.particles.owned;
+  const std::size_t count = flow.state.particles.owned;
   const double energy_at_start = measure(flow).energy();
   double least_energy = energy_at_start;
   double front = 0.0;
-  while (flow.time < end) {
+  while (flow.state.time < end) {
     const StepReport report = step(flow);
     const double energy = measure(flow).energy();
     // Viscosity and impact only take energy; 1e-3 of the start is what two projections that are not exact may add.
-    ASSERT_LT(energy, least_energy + 1e-3 * energy_at_start) << "t = " << flow.time;
+    ASSERT_LT(energy, least_energy + 1e-3 * energy_at_start) << "t = " << flow.state.time;
     least_energy = std::min(least_energy, energy);
 
-    ASSERT_EQ(flow.particles.owned, count);
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      if (!flow.particles.is_fluid(i)) continue;
-      const Vec<2>& x = flow.particles.position[i];
+    ASSERT_EQ(flow.state.particles.owned, count);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<2>& x = flow.state.particles.position[i];
       ASSERT_TRUE(x[0] > 0.0 && x[0] < 3.22 && x[1] > 0.0) << "behind a wall: " << x.transpose();
       front = std::max(front, x[0]);
     }
@@ -58,9 +58,9 @@ TEST_P(DamBreak, RunsSoundly) {
       ASSERT_EQ(report.divergence_moved, 0.0);  // the second projection is made where the step ends
     } else {
       ASSERT_GE(report.passes, 2);  // the first pass cannot know that it has settled
-      ASSERT_LE(report.passes, flow.scheme.max_passes);
-      if (report.passes < flow.scheme.max_passes) {
-        ASSERT_LT(report.pressure_change, flow.scheme.pass_tolerance);
+      ASSERT_LE(report.passes, flow.setup.scheme.max_passes);
+      if (report.passes < flow.setup.scheme.max_passes) {
+        ASSERT_LT(report.pressure_change, flow.setup.scheme.pass_tolerance);
       }
     }
     ASSERT_GT(report.iterations, 0);
@@ -79,12 +79,12 @@ TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
     step(one);
     step(two);
   }
-  EXPECT_EQ(one.time, two.time);
-  for (std::size_t i = 0; i < one.particles.owned; ++i) {
-    ASSERT_EQ(one.particles.id[i], two.particles.id[i]);
-    ASSERT_EQ(one.particles.position[i], two.particles.position[i]);
-    ASSERT_EQ(one.particles.velocity[i], two.particles.velocity[i]);
-    ASSERT_EQ(one.particles.pressure[i], two.particles.pressure[i]);
+  EXPECT_EQ(one.state.time, two.state.time);
+  for (std::size_t i = 0; i < one.state.particles.owned; ++i) {
+    ASSERT_EQ(one.state.particles.id[i], two.state.particles.id[i]);
+    ASSERT_EQ(one.state.particles.position[i], two.state.particles.position[i]);
+    ASSERT_EQ(one.state.particles.velocity[i], two.state.particles.velocity[i]);
+    ASSERT_EQ(one.state.particles.pressure[i], two.state.particles.pressure[i]);
   }
 }
 

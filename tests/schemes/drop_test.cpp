@@ -72,22 +72,22 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
   double previous_error = 1.0;
   for (const double dx : {0.1, 0.05}) {
     Flow<2> flow(round_drop(dx, GetParam()));
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      const Vec<2>& x = flow.particles.position[i];
-      flow.particles.velocity[i] = {-x[0], x[1]};
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      const Vec<2>& x = flow.state.particles.position[i];
+      flow.state.particles.velocity[i] = {-x[0], x[1]};
     }
-    const Vec<2> momentum_before = momentum(flow.particles);
+    const Vec<2> momentum_before = momentum(flow.state.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
     double error = 0.0;
     double shape_error = 0.0;
-    while (flow.time < 1.0) {
+    while (flow.state.time < 1.0) {
       const double dt = step(flow).dt;
       // Nothing adds energy but the start, whose velocity belongs to t = 0 and not to half a step before it: dt grad p
       // = dt A u once, so (A dt)^2 of the energy, A = 1. Then the tolerance of the pressure solve in every step.
       ASSERT_LT(measure(flow).kinetic_energy,
-                energy_at_start * (1.0 + dt * dt + PressureSolverTable{}.tolerance * flow.step));
-      const Ellipse exact = exact_ellipse(flow.time);
-      const Vec<2> axes = semi_axes(flow.particles);
+                energy_at_start * (1.0 + dt * dt + PressureSolverTable{}.tolerance * flow.state.step));
+      const Ellipse exact = exact_ellipse(flow.state.time);
+      const Vec<2> axes = semi_axes(flow.state.particles);
       error = std::max(error, (axes - Vec<2>(exact.a, exact.b)).norm());
       shape_error = std::max(shape_error, std::abs(std::log(axes[0] / axes[1] * exact.b / exact.a)));
     }
@@ -97,8 +97,8 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
     previous_error = shape_error;
     // Forces act in pairs: round-off of some 30 terms of size <= 3 per particle and step.
     const double round_off = 100.0 * std::numeric_limits<double>::epsilon() *
-                             static_cast<double>(flow.particles.owned) * static_cast<double>(flow.step);
-    EXPECT_LT((momentum(flow.particles) - momentum_before).norm(), round_off);
+                             static_cast<double>(flow.state.particles.owned) * static_cast<double>(flow.state.step);
+    EXPECT_LT((momentum(flow.state.particles) - momentum_before).norm(), round_off);
   }
 }
 

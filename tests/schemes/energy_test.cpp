@@ -20,10 +20,10 @@ struct Books {
 Books run_to(Flow<2>& flow, double end) {
   Books books;
   int steps = 0;
-  for (; flow.time < end; ++steps) {
+  for (; flow.state.time < end; ++steps) {
     const StepReport report = step(flow);
-    books.wall_work += report.wall_work;
-    books.viscous_work += report.viscous_work;
+    books.wall_work += report.work.walls;
+    books.viscous_work += report.work.viscous;
     books.mean_share += report.density_share;
   }
   books.mean_share /= steps;
@@ -36,7 +36,7 @@ double rise_of_dam_break(const CaseSpec& spec, double T) {
   const double start = energy(flow);
   double least = start;
   double rise = 0.0;
-  while (flow.time < T * std::sqrt(0.6 / g)) {
+  while (flow.state.time < T * std::sqrt(0.6 / g)) {
     step(flow);
     least = std::min(least, energy(flow));
     rise = std::max(rise, energy(flow) - least);
@@ -57,14 +57,14 @@ TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
 TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
   Flow<2> flow(spec);
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.is_fluid(i)) flow.particles.position[i][1] *= 1.02;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][1] *= 1.02;
   }
   step(flow);
   const double start = measure(flow).density_error_mean;
   ASSERT_LT(start, -0.01);
-  while (flow.time < 1.0) {
-    flow.energy_rise = 1e9;  // J/m
+  while (flow.state.time < 1.0) {
+    flow.state.energy_rise = 1e9;  // J/m
     ASSERT_EQ(step(flow).density_share, 0.0);
   }
   EXPECT_GT(measure(flow).density_error_mean, 0.2 * start);
@@ -94,7 +94,7 @@ TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
   spec.fluid = {water};
   Flow<2> flow(spec);
   const double start = energy(flow);
-  while (flow.time < 0.06) {
+  while (flow.state.time < 0.06) {
     step(flow);
     ASSERT_LT(energy(flow), start);
   }
@@ -153,11 +153,11 @@ TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   spec.scheme.integrator = GetParam();
   spec.scheme.energy_slack = 1.0;  // all that the settling lattice does is small
   Flow<2> flow(spec);
-  const double mass = flow.density * 0.5 * 0.5;
-  flow.energy_rise = 0.8 * mass * g * flow.length / 2.0;
-  while (flow.time < 0.3) {
+  const double mass = flow.setup.density * 0.5 * 0.5;
+  flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;
+  while (flow.state.time < 0.3) {
     const double density_share = step(flow).density_share;
-    const double rise = 0.8 * std::exp(-1.4 * flow.time * std::sqrt(2.0 * g / flow.length));
+    const double rise = 0.8 * std::exp(-1.4 * flow.state.time * std::sqrt(2.0 * g / flow.setup.length));
     ASSERT_NEAR(density_share, (1.0 - rise) * (1.0 - rise), 0.01);
   }
 }

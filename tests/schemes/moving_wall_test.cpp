@@ -60,10 +60,11 @@ double kinetic_energy(const Flow<Dim>& flow) {
 /// Nobody is behind a wall.
 template <int Dim>
 void expect_all_in_front(const Flow<Dim>& flow) {
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    const Vec<Dim>& x = flow.particles.position[i];
-    ASSERT_GT(flow.boundary.nearest(x, 10.0).signed_distance, 0.0) << "at " << x.transpose() << ", t = " << flow.time;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = flow.state.particles.position[i];
+    ASSERT_GT(flow.walls.boundary.nearest(x, 10.0).signed_distance, 0.0)
+        << "at " << x.transpose() << ", t = " << flow.state.time;
   }
 }
 
@@ -81,15 +82,15 @@ TEST_P(MovingWall, WhatAPistonSweepsTheWaterRises) {
   spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
   Flow<2> flow(spec);
   std::size_t put_back = 0;
-  while (flow.time < duration) put_back += step(flow).interventions.put_back;
+  while (flow.state.time < duration) put_back += step(flow).interventions.put_back;
   EXPECT_EQ(put_back, 0u);
   expect_all_in_front(flow);
   double highest = 0.0;
   double nearest = 1.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    highest = std::max(highest, flow.particles.position[i][1]);
-    nearest = std::min(nearest, flow.particles.position[i][0]);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    highest = std::max(highest, flow.state.particles.position[i][1]);
+    nearest = std::min(nearest, flow.state.particles.position[i][0]);
   }
   // The water beside the piston has gone as far as the piston: first row and slosh within dx.
   EXPECT_NEAR(nearest, way + 0.5 * dx, 0.5 * dx);
@@ -113,30 +114,31 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {0.0, 0.55}};
   spec.fluid = {water};
   Flow<2> flow(spec);
-  flow.neighbourhood.reorder(flow.particles);
+  flow.neighbourhood.reorder(flow.state.particles);
   start(flow);
   const double felt = std::hypot(g, a);
   const double settling = std::sqrt(felt * dx / std::numbers::pi);  // as in a tank at rest
   const auto expect_hydrostatic = [&](double displacement) {
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      if (!flow.particles.is_fluid(i)) continue;
-      const Vec<2> x = flow.particles.position[i] - Vec<2>(displacement, 0.0);
-      const double exact = flow.density * (g * (0.55 - x[1]) - a * x[0]);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<2> x = flow.state.particles.position[i] - Vec<2>(displacement, 0.0);
+      const double exact = flow.setup.density * (g * (0.55 - x[1]) - a * x[0]);
       // The surface of a lattice of squares is known to half a diagonal more than a level one.
-      EXPECT_LT(std::abs(flow.particles.pressure[i] - exact), 1.7 * flow.density * felt * dx) << "at " << x.transpose();
+      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - exact), 1.7 * flow.setup.density * felt * dx)
+          << "at " << x.transpose();
     }
   };
   expect_hydrostatic(0.0);
   for (int n = 0; n < 50; ++n) {
     EXPECT_EQ(step(flow).interventions.put_back, 0u);
     // Velocities are those of the end of the step, or of its middle.
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      if (!flow.particles.is_fluid(i)) continue;
-      const Vec<2> relative = flow.particles.velocity[i] - Vec<2>(a * flow.time, 0.0);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<2> relative = flow.state.particles.velocity[i] - Vec<2>(a * flow.state.time, 0.0);
       ASSERT_LT(relative.norm(), settling) << "step " << n;
     }
   }
-  expect_hydrostatic(0.5 * a * flow.time * flow.time);
+  expect_hydrostatic(0.5 * a * flow.state.time * flow.state.time);
 }
 
 TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
@@ -150,13 +152,14 @@ TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
   spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
   Flow<2> flow(spec);
   const double settling = std::sqrt(g * dx / std::numbers::pi);
-  while (flow.time < 0.8) {  // more than a period of the domain
+  while (flow.state.time < 0.8) {  // more than a period of the domain
     EXPECT_EQ(step(flow).interventions.put_back, 0u);
     ASSERT_LT(measure(flow).largest_speed, settling);
   }
   double momentum = 0.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.is_fluid(i)) momentum += flow.particles.velocity[i][0] * flow.particles.volume[i];
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i))
+      momentum += flow.state.particles.velocity[i][0] * flow.state.particles.volume[i];
   }
   EXPECT_LT(std::abs(momentum / depth), 0.01 * 2.0);  // mean velocity against the bed's
 }
@@ -178,11 +181,11 @@ TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
   spec.walls = {bed, lid};
   spec.fluid = {water_box({0.0, 0.0}, {0.6, height})};
   Flow<2> flow(spec);
-  while (flow.time < height * height / spec.physics.viscosity) step(flow);
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
+  while (flow.state.time < height * height / spec.physics.viscosity) step(flow);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
     // The place of a wall is known to a small part of dx; the profile has the slope 1/H.
-    EXPECT_NEAR(flow.particles.velocity[i][0], flow.particles.position[i][1] / height, 0.2 * dx / height);
+    EXPECT_NEAR(flow.state.particles.velocity[i][0], flow.state.particles.position[i][1] / height, 0.2 * dx / height);
   }
 }
 
@@ -196,9 +199,9 @@ TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
   spec.fluid = {water_box({0.0, 0.0}, {0.5, depth}), water_box({0.65, 0.0}, {1.15, depth})};
   Flow<2> flow(spec);
   // What the water can win is the fall into the room of the gate.
-  const double won = flow.density * g * depth * thickness * 0.5 * depth;
+  const double won = flow.setup.density * g * depth * thickness * 0.5 * depth;
   std::size_t put_back = 0;
-  while (flow.time < 1.5) {
+  while (flow.state.time < 1.5) {
     put_back += step(flow).interventions.put_back;
     ASSERT_LT(kinetic_energy(flow), won);
     expect_all_in_front(flow);
@@ -229,15 +232,15 @@ void expect_clean_lock_gate(const Way& way) {
   std::size_t put_back = 0;
   std::size_t steps = 0;
   const double end = Dim == 2 ? 0.8 : 0.3;
-  for (; flow.time < end; ++steps) {
+  for (; flow.state.time < end; ++steps) {
     put_back += step(flow).interventions.put_back;
     expect_all_in_front(flow);
   }
   EXPECT_EQ(put_back, 0u);
   double front = 0.0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.particles.is_fluid(i) && flow.particles.position[i][Dim - 1] > 0.2) {
-      front = std::max(front, flow.particles.position[i][0]);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i) && flow.state.particles.position[i][Dim - 1] > 0.2) {
+      front = std::max(front, flow.state.particles.position[i][0]);
     }
   }
   EXPECT_GT(front, 0.65);  // the bore is on its way
@@ -256,9 +259,10 @@ TEST(MovingWallStep, NoWallMovesMoreThanTheCourantNumberInAStep) {
   spec.fluid = {water_box({0.0, 0.0}, {0.5, 0.1})};
   Flow<2> flow(spec);
   for (int n = 0; n < 20; ++n) {
-    const double before = flow.time;
+    const double before = flow.state.time;
     step(flow);
-    EXPECT_LE(50.0 * (std::max(0.0, flow.time - 0.001) - std::max(0.0, before - 0.001)), spec.scheme.courant * 0.05);
+    EXPECT_LE(50.0 * (std::max(0.0, flow.state.time - 0.001) - std::max(0.0, before - 0.001)),
+              spec.scheme.courant * 0.05);
   }
 }
 

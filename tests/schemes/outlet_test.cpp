@@ -57,20 +57,20 @@ TYPED_TEST(OutletTest, APlugLeavesUnchangedAndIsCounted) {
     spec.fluid[0].velocity.assign(Dim, 0.0);
     spec.fluid[0].velocity[0] = speed;
     Flow<Dim> flow(spec);
-    const auto ids_at_start = fluid_ids(flow.particles);
+    const auto ids_at_start = fluid_ids(flow.state.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
-    while (flow.time < 0.4 / speed + 2.0 * dx / speed) {
+    while (flow.state.time < 0.4 / speed + 2.0 * dx / speed) {
       let_go(flow);
-      const auto before = fluid_ids(flow.particles);
+      const auto before = fluid_ids(flow.state.particles);
       step(flow);
-      const Departed& departed = flow.open_ends[0].departed;
-      ASSERT_EQ(fluid_ids(flow.particles), before) << "a step takes nothing out";
+      const Departed& departed = flow.state.open_ends[0].departed;
+      ASSERT_EQ(fluid_ids(flow.state.particles), before) << "a step takes nothing out";
       ASSERT_EQ(before.size() + static_cast<std::size_t>(departed.particles), ids_at_start.size());
       ASSERT_TRUE(std::includes(ids_at_start.begin(), ids_at_start.end(), before.begin(), before.end()));
       ASSERT_NEAR(departed.volume, static_cast<double>(departed.particles) * power<Dim>(dx), 1e-12);
     }
-    EXPECT_EQ(fluid_ids(flow.particles).size(), 0u);
-    EXPECT_NEAR(flow.open_ends[0].departed.energy / energy_at_start, 1.0, 1e-9);
+    EXPECT_EQ(fluid_ids(flow.state.particles).size(), 0u);
+    EXPECT_NEAR(flow.state.open_ends[0].departed.energy / energy_at_start, 1.0, 1e-9);
     const FlowMeasures measures = measure(flow);
     EXPECT_EQ(measures.kinetic_energy, 0.0);
     EXPECT_EQ(measures.departed.particles, static_cast<std::int64_t>(ids_at_start.size()));
@@ -90,12 +90,12 @@ TYPED_TEST(OutletTest, StillWaterIsNotDrawnDown) {
     spec.scheme.integrator = integrator;
     Flow<Dim> flow(spec);
     start(flow);
-    while (flow.time < 2.0 * width / celerity) {
+    while (flow.state.time < 2.0 * width / celerity) {
       let_go(flow);
       step(flow);
     }
     const double speed = g / celerity * 0.5 * dx;
-    EXPECT_LE(flow.open_ends[0].departed.volume, (speed * flow.time + dx) * depth * breadth + 1e-12);
+    EXPECT_LE(flow.state.open_ends[0].departed.volume, (speed * flow.state.time + dx) * depth * breadth + 1e-12);
   }
 }
 
@@ -117,8 +117,8 @@ TEST(Outlet, LeftIsRightMirrored) {
       advance(*flow, 0.002);
     }
   }
-  EXPECT_GT(flow_right.open_ends[0].departed.particles, 0);
-  EXPECT_EQ(flow_right.open_ends[0].departed.particles, flow_left.open_ends[0].departed.particles);
+  EXPECT_GT(flow_right.state.open_ends[0].departed.particles, 0);
+  EXPECT_EQ(flow_right.state.open_ends[0].departed.particles, flow_left.state.open_ends[0].departed.particles);
   // As near as the solver's tolerance of 1e-4 leaves them.
   EXPECT_NEAR(measure(flow_right).kinetic_energy / measure(flow_left).kinetic_energy, 1.0, 1e-2);
 }
@@ -130,10 +130,11 @@ TEST(Outlet, EndStretchIsHydrostatic) {
   Flow<2> flow(spec);
   start(flow);
   int leaving = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.is_leaving(i)) continue;
     ++leaving;
-    EXPECT_NEAR(flow.particles.pressure[i], flow.density * g * (0.5 - flow.particles.position[i][1]), 1e-6);
+    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (0.5 - flow.state.particles.position[i][1]),
+                1e-6);
   }
   EXPECT_EQ(leaving, 4 * 10) << "the support and a spacing, in the whole depth";
 }
@@ -146,18 +147,19 @@ TEST(Outlet, HoleInTheFloor) {
   spec.outlets[0].to = {0.4, 0.0};
   spec.outlets[0].direction = {0.0, -1.0};
   Flow<2> flow(spec);
-  const std::size_t at_start = fluid_ids(flow.particles).size();
+  const std::size_t at_start = fluid_ids(flow.state.particles).size();
   start(flow);
-  while (flow.time < 0.2) {
+  while (flow.state.time < 0.2) {
     let_go(flow);
     step(flow);
   }
   // Nothing holds it: what stood below g t^2/2, less a spacing and half, has fallen out.
-  const double fallen = 0.5 * g * flow.time * flow.time;
-  EXPECT_GE(flow.open_ends[0].departed.volume, 0.5 * 0.4 * (fallen - 1.5 * dx));
-  EXPECT_LE(flow.open_ends[0].departed.volume, 0.4 * (fallen + 1.5 * dx));
-  EXPECT_EQ(fluid_ids(flow.particles).size() + static_cast<std::size_t>(flow.open_ends[0].departed.particles),
-            at_start);
+  const double fallen = 0.5 * g * flow.state.time * flow.state.time;
+  EXPECT_GE(flow.state.open_ends[0].departed.volume, 0.5 * 0.4 * (fallen - 1.5 * dx));
+  EXPECT_LE(flow.state.open_ends[0].departed.volume, 0.4 * (fallen + 1.5 * dx));
+  EXPECT_EQ(
+      fluid_ids(flow.state.particles).size() + static_cast<std::size_t>(flow.state.open_ends[0].departed.particles),
+      at_start);
 }
 
 }  // namespace

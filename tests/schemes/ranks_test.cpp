@@ -35,12 +35,12 @@ struct Particle {
 template <int Dim>
 std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
   std::vector<Particle<Dim>> own;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i)) continue;
-    own.push_back({flow.particles.id[i], flow.neighbourhood.wrapped(flow.particles.position[i]),
-                   flow.particles.velocity[i], flow.particles.pressure[i]});
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    own.push_back({flow.state.particles.id[i], flow.neighbourhood.wrapped(flow.state.particles.position[i]),
+                   flow.state.particles.velocity[i], flow.state.particles.pressure[i]});
   }
-  std::vector<Particle<Dim>> all = flow.ranks.gather(own);
+  std::vector<Particle<Dim>> all = flow.setup.ranks.gather(own);
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return all;
 }
@@ -48,7 +48,7 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
 /// As a run takes it.
 template <int Dim>
 void shared_step(Flow<Dim>& flow) {
-  if (flow.step % 5 == 0) share_out(flow);
+  if (flow.state.step % 5 == 0) share_out(flow);
   let_go(flow);
   advance(flow, next_time_step(flow));
 }
@@ -71,14 +71,15 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   run(alone, steps);
   run(shared, steps);
 
-  ASSERT_EQ(world.sum(shared.particles.owned), alone.particles.owned);
-  const double unknowns = static_cast<double>(alone.particles.owned);
-  const double dt = alone.time / steps;
+  ASSERT_EQ(world.sum(shared.state.particles.owned), alone.state.particles.owned);
+  const double unknowns = static_cast<double>(alone.state.particles.owned);
+  const double dt = alone.state.time / steps;
   const double speed_scale = std::sqrt(2.0 * g * depth) + 1.0;
   const double P = 1000.0 * (g * depth + speed_scale * speed_scale);
   const double dp = (granted * tau * std::sqrt(unknowns) + std::sqrt(tau)) * P;
   const double du = steps * 4.0 * dt / (1000.0 * spec.particles.spacing) * dp;
-  EXPECT_NEAR(shared.time, alone.time, alone.time * du);  // steps go with the largest speed, 1 m/s or more
+  EXPECT_NEAR(shared.state.time, alone.state.time,
+              alone.state.time * du);  // steps go with the largest speed, 1 m/s or more
   const std::vector<Particle<Dim>> expected = fluid_of(alone);
   const std::vector<Particle<Dim>> found = fluid_of(shared);
   if (!world.is_root()) return;
@@ -86,7 +87,7 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     ASSERT_EQ(found[k].id, expected[k].id);
     EXPECT_LT((found[k].velocity - expected[k].velocity).norm(), du) << "particle " << found[k].id;
-    EXPECT_LT((found[k].position - expected[k].position).norm(), alone.time * du) << "particle " << found[k].id;
+    EXPECT_LT((found[k].position - expected[k].position).norm(), alone.state.time * du) << "particle " << found[k].id;
     EXPECT_LT(std::abs(found[k].pressure - expected[k].pressure), dp + P * du / speed_scale);
   }
 }
@@ -150,10 +151,10 @@ TYPED_TEST(RanksTest, PeriodicVortex) {
   water.max = Coordinates(Dim, 1.0);
   spec.fluid = {water};
   expect_same<Dim>(spec, 0.0, [](Flow<Dim>& flow) {
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-      const Vec<Dim>& x = flow.particles.position[i];
-      flow.particles.velocity[i][0] = std::sin(k * x[0]) * std::cos(k * x[1]);
-      flow.particles.velocity[i][1] = -std::cos(k * x[0]) * std::sin(k * x[1]);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      const Vec<Dim>& x = flow.state.particles.position[i];
+      flow.state.particles.velocity[i][0] = std::sin(k * x[0]) * std::cos(k * x[1]);
+      flow.state.particles.velocity[i][1] = -std::cos(k * x[0]) * std::sin(k * x[1]);
     }
   });
 }
@@ -183,14 +184,14 @@ TEST(RanksTest, WaterThatLeavesIsBookedOnAllRanks) {
   spec.fluid[0].velocity = {2.0, 0.0};
   const auto water_in = [](const Flow<2>& flow) {
     std::int64_t count = 0;
-    for (std::size_t i = 0; i < flow.particles.owned; ++i) count += flow.particles.is_fluid(i);
-    return flow.ranks.sum(count);
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) count += flow.state.particles.is_fluid(i);
+    return flow.setup.ranks.sum(count);
   };
   Flow<2> flow(spec, Communicator::world());
   const std::int64_t at_start = water_in(flow);
   run(flow, 40);
-  EXPECT_GT(flow.open_ends[0].departed.particles, 0);
-  EXPECT_EQ(water_in(flow) + flow.open_ends[0].departed.particles, at_start);
+  EXPECT_GT(flow.state.open_ends[0].departed.particles, 0);
+  EXPECT_EQ(water_in(flow) + flow.state.open_ends[0].departed.particles, at_start);
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
@@ -215,7 +216,7 @@ TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
   const double end = 2.0 * std::sqrt(0.6 / g);
   const auto energy_at_end = [&](Flow<2>& flow) {
     start(flow);
-    while (flow.time < end) shared_step(flow);
+    while (flow.state.time < end) shared_step(flow);
     return measure(flow).energy();
   };
   Flow<2> alone(spec);
@@ -254,7 +255,7 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
       const Sharing sharing = share_out(flow);
       // Less than a column of the lattice's 60 x 30 can be cut no finer than the column: 1 in 60 of all the work.
       if (n > 5) {
-        EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.ranks.size() / 60.0);
+        EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.setup.ranks.size() / 60.0);
       }
     }
     advance(flow, next_time_step(flow));

@@ -47,9 +47,9 @@ TYPED_TEST(TwoStepTest, LeavesAMovingLatticeAlone) {
   const double density_error = 100.0 * eps * length / dx;
   double time_per_step = 1.0;
   for (int n = 0; n < 5; ++n) time_per_step = std::min(time_per_step, step(flow).dt);
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    EXPECT_NEAR(flow.concentration[i], 1.0, density_error);
-    EXPECT_LT((flow.particles.velocity[i] - Vec<Dim>::Constant(0.7)).norm(),
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    EXPECT_NEAR(flow.here.concentration[i], 1.0, density_error);
+    EXPECT_LT((flow.state.particles.velocity[i] - Vec<Dim>::Constant(0.7)).norm(),
               5.0 * density_error * length / time_per_step);
   }
 }
@@ -64,21 +64,21 @@ TEST(TwoStep, PressesApartWhatIsTooDense) {
   spec.fluid = {water};
   make_published(spec.scheme);
   Flow<2> flow(spec);
-  for (Vec<2>& x : flow.particles.position) x *= 0.98;
-  Interventions ignored;
-  predict_pressure(flow, 1e-3, ignored);
+  for (Vec<2>& x : flow.state.particles.position) x *= 0.98;
+  const StepStart<2> start = remember(flow);
+  predict_pressure(flow, start, drive_walls(flow, start, 1e-3), 1e-3);
   double highest = 0.0;
   Vec<2> place = Vec<2>::Zero();
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (flow.is_surface[i]) {
-      EXPECT_EQ(flow.particles.pressure[i], 0.0);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.here.is_surface[i]) {
+      EXPECT_EQ(flow.state.particles.pressure[i], 0.0);
     } else {
-      EXPECT_GT(flow.particles.pressure[i], 0.0);
-      EXPECT_GT(flow.concentration[i], 1.0);
+      EXPECT_GT(flow.state.particles.pressure[i], 0.0);
+      EXPECT_GT(flow.here.concentration[i], 1.0);
     }
-    if (flow.particles.pressure[i] > highest) {
-      highest = flow.particles.pressure[i];
-      place = flow.particles.position[i];
+    if (flow.state.particles.pressure[i] > highest) {
+      highest = flow.state.particles.pressure[i];
+      place = flow.state.particles.position[i];
     }
   }
   EXPECT_LT((place - Vec<2>::Constant(0.49)).norm(), 0.1);
@@ -99,7 +99,7 @@ TEST(TwoStep, ConservesMomentum) {
   const auto momentum = [&] {
     Vec<2> sum = Vec<2>::Zero();
     double size = 0.0;
-    for (const Vec<2>& u : flow.particles.velocity) {
+    for (const Vec<2>& u : flow.state.particles.velocity) {
       sum += u;
       size += u.norm();
     }
@@ -130,11 +130,12 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   Flow<Dim> flow(spec);
   start(flow);
   int tested = 0;
-  for (std::size_t i = 0; i < flow.particles.owned; ++i) {
-    if (!flow.particles.is_fluid(i) || flow.is_surface[i]) continue;
-    const double height = flow.particles.position[i][Dim - 1];
-    EXPECT_NEAR(flow.particles.pressure[i], flow.density * g * (depth - height), flow.density * g * dx)
-        << flow.particles.position[i].transpose();
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i) || flow.here.is_surface[i]) continue;
+    const double height = flow.state.particles.position[i][Dim - 1];
+    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (depth - height),
+                flow.setup.density * g * dx)
+        << flow.state.particles.position[i].transpose();
     ++tested;
   }
   EXPECT_GT(tested, 0);
@@ -147,16 +148,16 @@ TEST(TwoStep, RunsTheDamBreakAsPublished) {
   CaseSpec spec = zhou_case(dx, Integrator::explicit_projection);
   make_published(spec.scheme);
   Flow<2> flow(spec);
-  const std::size_t count = flow.particles.owned;
+  const std::size_t count = flow.state.particles.owned;
   double front = 0.0;
-  while (flow.time < 3.0 * std::sqrt(0.6 / g)) {
+  while (flow.state.time < 3.0 * std::sqrt(0.6 / g)) {
     const StepReport report = step(flow);
     ASSERT_EQ(report.passes, 1);
     ASSERT_LE(report.residual, PressureSolverTable{}.tolerance);
-    ASSERT_EQ(flow.particles.owned, count);
+    ASSERT_EQ(flow.state.particles.owned, count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!flow.particles.is_fluid(i)) continue;
-      const Vec<2>& x = flow.particles.position[i];
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<2>& x = flow.state.particles.position[i];
       ASSERT_TRUE(x[0] > 0.0 && x[0] < 3.22 && x[1] > 0.0) << "behind a wall: " << x.transpose();
       front = std::max(front, x[0]);
     }

@@ -1,0 +1,36 @@
+// What every particle sees around it at the present positions: where it is missing neighbours, where the surface is,
+// which walls are wet. `locate` fills it; all of it follows from the positions, so none of it is state.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "operators/renormalisation.h"
+
+namespace tailwater {
+
+/// One entry per particle, ghosts included; entries of ghosts are up to date where the comment says so.
+template <int Dim>
+struct Surroundings {
+  std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
+  std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m
+  std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
+  std::vector<std::uint8_t> is_wet;              ///< wall particles that have fluid in reach; ghosts too
+  std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too
+  std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
+  std::vector<std::uint8_t> is_surface;          ///< ghosts too
+  std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h)
+
+  void resize(std::size_t count, bool with_tensors) {
+    concentration.resize(count);
+    concentration_gradient.resize(count);
+    wall_fluid_weight.resize(count);
+    is_wet.resize(count);
+    takes_part.resize(count);
+    if (with_tensors) tensors.resize(count);
+    is_surface.resize(count);
+    interior.resize(count);
+  }
+};
+
+}  // namespace tailwater

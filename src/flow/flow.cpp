@@ -1,0 +1,85 @@
+#include "flow/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/for_each.h"
+#include "flow/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// Lists reach this far beyond the support [dx]: half of it is what the fastest particle moves in a step, so that a
+/// list lasts for about one and every pass of the implicit iteration. Wider lists cost more at each evaluation than
+/// they save searches (docs/theory/neighbours.md).
+constexpr double skin_over_spacing = 0.6;
+
+/// Fluid first, then walls; ids in that order.
+template <int Dim>
+Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, double volume) {
+  Particles<Dim> particles;
+  const std::size_t fluid_count = fluid.position.size();
+  particles.resize(fluid_count + walls.size());
+  particles.owned = particles.size();
+  for_each(particles.owned, [&](std::size_t i) {
+    const bool is_fluid = i < fluid_count;
+    particles.position[i] = is_fluid ? fluid.position[i] : walls.position[i - fluid_count];
+    particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
+    particles.pressure[i] = 0.0;
+    particles.volume[i] = volume;
+    particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
+    particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(i - fluid_count);
+    particles.id[i] = static_cast<std::int64_t>(i);
+  });
+  return particles;
+}
+
+/// Leaves each rank an equal number of the particles that all have made.
+template <int Dim>
+void keep_any_share(const Communicator& ranks, Neighbourhood<Dim>& neighbourhood, Particles<Dim>& particles) {
+  if (ranks.is_alone()) return;
+  const auto begin_of = [&](int rank) { return static_cast<std::int32_t>(particles.owned * rank / ranks.size()); };
+  std::vector<std::int32_t> kept(begin_of(ranks.rank() + 1) - begin_of(ranks.rank()));
+  std::iota(kept.begin(), kept.end(), begin_of(ranks.rank()));
+  neighbourhood.keep(particles, kept);
+}
+
+}  // namespace
+
+template <int Dim>
+Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks) : Flow(spec, ranks, Drawing<Dim>(spec)) {}
+
+template <int Dim>
+Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing)
+    : setup(spec, ranks, drawing),
+      decomposition(ranks, spec.parallel),
+      neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
+                    setup.domain, ranks),
+      pressure_rows(ranks),
+      pressure_solver(spec.pressure_solver),
+      walls(std::move(drawing.walls)) {
+  Particles<Dim>& particles = state.particles;
+  particles = make_particles(drawing.fluid, walls.particles, power<Dim>(setup.spacing));
+  keep_any_share(ranks, neighbourhood, particles);
+  decomposition.share_out(particles, neighbourhood.work(particles));
+  end_of.assign(particles.owned, -1);
+  state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
+  setup.wall_motion.get_velocity(0.0, state.wall_velocity);
+  state.open_ends.resize(setup.open_ends.size());
+  pressure_rows.set_constant_is_free(setup.is_closed);
+}
+
+template <int Dim>
+void Flow<Dim>::restore(State<Dim> saved) {
+  state = std::move(saved);
+  neighbourhood.forget(state.particles);
+  end_of.assign(state.particles.owned, -1);
+  here = {};
+  place_walls(*this, state.time);
+}
+
+template struct Flow<2>;
+template struct Flow<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,73 @@
+// A flow by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools that keep memory
+// between steps and can be made anew; and what is known of the present positions. Work fields of one step are values
+// that its verbs hand to each other (verbs.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "closures/surroundings.h"
+#include "flow/setup.h"
+#include "flow/state.h"
+#include "linear/krylov_solver.h"
+#include "linear/linear_system.h"
+#include "neighbours/decomposition.h"
+#include "neighbours/neighbourhood.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct Flow {
+  /// Builds the particles of a case and its walls; of several ranks each keeps its share of the particles, and all have
+  /// all walls' faces. Collective. Throws InputError for an impossible geometry.
+  explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
+
+  Setup<Dim> setup;
+  State<Dim> state;
+
+  // Tools.
+  Decomposition<Dim> decomposition;
+  Neighbourhood<Dim> neighbourhood;
+  LinearSystem pressure_rows;
+  KrylovSolver pressure_solver;
+
+  // Now.
+  Walls<Dim> walls;                  ///< where they are at the present positions
+  Surroundings<Dim> here;            ///< as `locate` found them
+  std::vector<std::int16_t> end_of;  ///< the open end in whose stretch an owned particle is in this step, or -1
+
+  /// Of a case already drawn.
+  Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
+
+  /// Goes on from `saved`, a state of the same case on as many ranks.
+  void restore(State<Dim> saved);
+
+  const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
+  const Halo<Dim>& halo() const { return neighbourhood.halo(); }
+  WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, here}; }
+
+  WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {
+    return {setup.density, setup.gravity, acceleration};
+  }
+
+  /// Is owned particle i in the end stretch of an outlet, where nothing is solved for?
+  bool is_leaving(std::size_t i) const { return end_of[i] >= 0; }
+  bool is_solved_for(std::size_t i) const { return state.particles.is_fluid(i) && !is_leaving(i); }
+  /// Whether statistics of the bulk count particle i.
+  bool is_inside(std::size_t i) const { return is_solved_for(i) && here.interior[i] > 0.5; }
+  /// Whether particle i has the fluid's pressure equation for its row.
+  bool has_equation(std::size_t i) const {
+    const Particles<Dim>& particles = state.particles;
+    return particles.is_fluid(i) ||
+           (setup.wall_traits.solves_on_wall && walls.particles.is_on_wall(particles.wall_row[i]));
+  }
+  double kinetic_energy_of(std::size_t i) const {
+    return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
+  }
+  /// Relative to the origin.
+  double potential_energy_of(std::size_t i) const {
+    return -setup.density * state.particles.volume[i] * setup.gravity.dot(state.particles.position[i]);
+  }
+};
+
+}  // namespace tailwater

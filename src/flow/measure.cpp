@@ -1,0 +1,104 @@
+#include "flow/measure.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+struct EnergyAndDensity {
+  double kinetic_energy = 0.0;
+  double potential_energy = 0.0;
+  double density_error = 0.0;
+  double density_error_squared = 0.0;
+  std::int64_t bulk_particles = 0;
+
+  EnergyAndDensity& operator+=(const EnergyAndDensity& other) {
+    kinetic_energy += other.kinetic_energy;
+    potential_energy += other.potential_energy;
+    density_error += other.density_error;
+    density_error_squared += other.density_error_squared;
+    bulk_particles += other.bulk_particles;
+    return *this;
+  }
+};
+
+/// Is particle i of the bulk? Nobody is before `locate`.
+template <int Dim>
+bool is_bulk(const Flow<Dim>& flow, std::size_t i) {
+  return i < flow.here.interior.size() && flow.is_inside(i);
+}
+
+template <int Dim>
+double largest_speed_of_rank(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  return std::sqrt(largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    return particles.is_fluid(i) ? particles.velocity[i].squaredNorm() : 0.0;
+  }));
+}
+
+}  // namespace
+
+FluidSums& FluidSums::operator+=(const FluidSums& other) {
+  mass += other.mass;
+  kinetic_energy += other.kinetic_energy;
+  energy += other.energy;
+  return *this;
+}
+
+template <int Dim>
+FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  return sum_over(particles.owned, FluidSums{}, [&](std::size_t i) -> FluidSums {
+    if (!particles.is_fluid(i)) return {};
+    const double kinetic_energy = flow.kinetic_energy_of(i);
+    return {flow.setup.density * particles.volume[i], kinetic_energy, kinetic_energy + flow.potential_energy_of(i)};
+  });
+}
+
+template <int Dim>
+double largest_speed(const Flow<Dim>& flow) {
+  return flow.setup.ranks.largest(largest_speed_of_rank(flow));
+}
+
+template <int Dim>
+FlowMeasures measure(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  EnergyAndDensity sums = sum_over(particles.owned, EnergyAndDensity{}, [&](std::size_t i) -> EnergyAndDensity {
+    if (!particles.is_fluid(i)) return {};
+    EnergyAndDensity own{flow.kinetic_energy_of(i), flow.potential_energy_of(i)};
+    if (!is_bulk(flow, i)) return own;
+    own.density_error = flow.here.concentration[i] - 1.0;
+    own.density_error_squared = own.density_error * own.density_error;
+    own.bulk_particles = 1;
+    return own;
+  });
+  FlowMeasures measures;
+  measures.largest_speed = largest_speed_of_rank(flow);
+  measures.density_error_largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    return is_bulk(flow, i) ? std::abs(flow.here.concentration[i] - 1.0) : 0.0;
+  });
+  const Communicator& ranks = flow.setup.ranks;
+  ranks.sum_each(sums.kinetic_energy, sums.potential_energy, sums.density_error, sums.density_error_squared,
+                 sums.bulk_particles);
+  ranks.largest_each(measures.largest_speed, measures.density_error_largest);
+  measures.kinetic_energy = sums.kinetic_energy;
+  measures.potential_energy = sums.potential_energy;
+  if (sums.bulk_particles > 0) {
+    const auto count = static_cast<double>(sums.bulk_particles);
+    measures.density_error_mean = sums.density_error / count;
+    measures.density_error_rms = std::sqrt(sums.density_error_squared / count);
+  }
+  for (const OpenEndState& end : flow.state.open_ends) measures.departed += end.departed;
+  return measures;
+}
+
+template FluidSums fluid_sums_of_rank<2>(const Flow<2>&);
+template FluidSums fluid_sums_of_rank<3>(const Flow<3>&);
+template double largest_speed<2>(const Flow<2>&);
+template double largest_speed<3>(const Flow<3>&);
+template FlowMeasures measure<2>(const Flow<2>&);
+template FlowMeasures measure<3>(const Flow<3>&);
+
+}  // namespace tailwater

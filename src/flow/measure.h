@@ -1,0 +1,43 @@
+// What is measured of the whole flow.
+#pragma once
+
+#include <algorithm>
+
+#include "flow/flow.h"
+
+namespace tailwater {
+
+/// Sums over this rank's fluid.
+struct FluidSums {
+  double mass = 0.0;            ///< kg (per metre of width in 2D)
+  double kinetic_energy = 0.0;  ///< J
+  double energy = 0.0;          ///< J; kinetic and potential
+
+  FluidSums& operator+=(const FluidSums& other);
+};
+
+template <int Dim>
+FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
+
+/// The fluid's largest speed [m/s]. Collective.
+template <int Dim>
+double largest_speed(const Flow<Dim>& flow);
+
+/// What is measured at the end of a step.
+struct FlowMeasures {
+  double largest_speed = 0.0;       ///< m/s
+  double kinetic_energy = 0.0;      ///< J (per metre of width in 2D)
+  double potential_energy = 0.0;    ///< J, relative to the origin
+  double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
+  double density_error_rms = 0.0;
+  double density_error_largest = 0.0;
+  Departed departed;  ///< through all outlets since the start
+
+  double energy() const { return kinetic_energy + potential_energy; }
+};
+
+/// Collective.
+template <int Dim>
+FlowMeasures measure(const Flow<Dim>& flow);
+
+}  // namespace tailwater

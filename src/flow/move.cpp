@@ -1,0 +1,49 @@
+#include "base/for_each.h"
+#include "flow/verbs.h"
+
+namespace tailwater {
+
+template <int Dim>
+StepStart<Dim> remember(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  flow.neighbourhood.wrap(particles);
+  const auto owned = static_cast<std::ptrdiff_t>(particles.owned);
+  return {{particles.position.begin(), particles.position.begin() + owned},
+          {particles.velocity.begin(), particles.velocity.begin() + owned},
+          flow.state.wall_velocity,
+          fluid_sums_of_rank(flow).energy};
+}
+
+template <int Dim>
+void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) particles.position[i] = start.position[i] + dt * predicted.velocity[i];
+  });
+  place_walls(flow, flow.state.time + dt);
+}
+
+template <int Dim>
+std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  Particles<Dim>& particles = flow.state.particles;
+  const bool with_mean = flow.setup.scheme.displacement == Displacement::mean_velocity;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    const Vec<Dim> velocity =
+        with_mean ? Vec<Dim>(0.5 * (start.velocity[i] + particles.velocity[i])) : particles.velocity[i];
+    particles.position[i] = start.position[i] + dt * velocity;
+  });
+  place_walls(flow, flow.state.time + dt);
+  return keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.spacing, ways_of_walls(flow, dt),
+                             start.position, particles, particles.velocity);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                             \
+  template StepStart<Dim> remember<Dim>(Flow<Dim>&);                                           \
+  template void drift<Dim>(Flow<Dim>&, const StepStart<Dim>&, const Prediction<Dim>&, double); \
+  template std::size_t move<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,112 @@
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "closures/smagorinsky.h"
+#include "flow/verbs.h"
+#include "operators/gradient_corrected.h"
+#include "walls/wall_friction.h"
+
+namespace tailwater {
+namespace {
+
+/// Adds nu lap u by the scheme's operator.
+template <int Dim>
+void add_viscosity(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> viscosity(particles.size());
+  effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
+  switch (setup.scheme.laplacian) {
+    case LaplacianKind::consistent:
+      add_consistent_viscosity<Dim>(flow.pairs(), particles, flow.here.tensors, flow.here.takes_part, setup.spacing,
+                                    viscosity, particles.velocity, acceleration);
+      break;
+    case LaplacianKind::shao_lo:
+      add_shao_lo_viscosity<Dim>(flow.pairs(), particles, setup.eta_squared, flow.here.concentration, viscosity,
+                                 particles.velocity, acceleration);
+      break;
+    case LaplacianKind::morris:
+      add_morris_viscosity<Dim>(flow.pairs(), particles, setup.spacing, viscosity, particles.velocity, acceleration);
+      break;
+  }
+}
+
+/// Adds the friction of walls, beside the water and on its sides.
+template <int Dim>
+void add_friction(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const bool is_in_laplacian = setup.scheme.laplacian == LaplacianKind::consistent && setup.wall_traits.shows_friction;
+  const bool is_slippery = std::ranges::all_of(flow.walls.friction, [](double lambda) { return lambda == 0.0; });
+  if (!is_in_laplacian && !is_slippery) {
+    const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
+    std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
+    setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
+    flow.halo().exchange(no_slip);
+    add_wall_friction<Dim>(flow.wall_scene(), setup.viscosity_law, setup.spacing, V, no_slip, particles.velocity,
+                           acceleration);
+  }
+  add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
+}
+
+/// grad u of fluid particles, ghosts too.
+template <int Dim>
+std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, particles.volume, flow.here.takes_part,
+                                          std::span<const Vec<Dim>>(particles.velocity));
+  });
+  flow.halo().exchange(gradient);
+  return gradient;
+}
+
+/// Adds div tau/rho of the sub-particle stress.
+template <int Dim>
+void add_sub_particle_stress(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<Mat<Dim>> stress(particles.size());
+  sub_particle_stress<Dim>(flow.pairs(), particles, flow.setup.scheme.smagorinsky, flow.setup.spacing,
+                           particles.velocity, stress);
+  flow.halo().exchange(stress);
+  add_stress_divergence<Dim>(flow.pairs(), particles, stress, acceleration);
+}
+
+}  // namespace
+
+template <int Dim>
+Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive, double dt) {
+  const Setup<Dim>& setup = flow.setup;
+  Particles<Dim>& particles = flow.state.particles;
+  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+
+  Prediction<Dim> predicted;
+  std::vector<Vec<Dim>>& acceleration = predicted.acceleration;
+  acceleration.assign(particles.owned, Vec<Dim>::Zero());
+  add_viscosity(flow, acceleration);
+  add_friction(flow, acceleration);
+  if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
+  if (setup.scheme.noise_viscosity > 0.0) {
+    add_noise_viscosity<Dim>(flow.pairs(), particles, setup.spacing, setup.noise_viscosity(largest_speed(flow)),
+                             particles.velocity, predicted.velocity_gradient, acceleration);
+  }
+  if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
+
+  const bool with_gravity = setup.wall_traits.gravity_in_prediction;
+  const Vec<Dim> gravity = with_gravity ? setup.gravity : Vec<Dim>(Vec<Dim>::Zero());
+  predicted.velocity.assign(particles.size(), Vec<Dim>::Zero());
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    if (flow.is_leaving(i)) acceleration[i].setZero();  // nothing but gravity, which the end's pressure holds
+    predicted.velocity[i] = start.velocity[i] + dt * (acceleration[i] + gravity);
+  });
+  show_walls<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);
+  return predicted;
+}
+
+template Prediction<2> predict<2>(Flow<2>&, const StepStart<2>&, const WallDrive<2>&, double);
+template Prediction<3> predict<3>(Flow<3>&, const StepStart<3>&, const WallDrive<3>&, double);
+
+}  // namespace tailwater

@@ -1,0 +1,139 @@
+#include "flow/setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+#include "operators/laplacian_shao_lo.h"
+
+namespace tailwater {
+namespace {
+
+/// With the density source: speeds beyond this multiple of sqrt(2 g L) are those of particles thrown out.
+constexpr double fastest_counted_over_reference = 2.0;
+
+/// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
+constexpr double wall_law_distance_over_spacing = 0.6;
+
+/// dx; what looks for a wall near a particle looks no farther.
+constexpr double near_walls = 3.0;
+
+template <int Dim>
+PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
+  PeriodicDomain<Dim> periodic;
+  for (int d = 0; d < Dim; ++d) {
+    const std::vector<double>& range = periodic_range(domain, d);
+    if (!range.empty()) periodic[d] = std::pair{range[0], range[1]};
+  }
+  return periodic;
+}
+
+template <int Dim>
+Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model) {
+  Walls<Dim> walls;
+  walls.boundary = make_boundary<Dim>(spec);
+  walls.boundary.file_faces(near_walls * spec.particles.spacing);
+  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec));
+  for (const int wall : walls.particles.wall) walls.friction.push_back(walls.boundary.walls[wall].friction);
+  return walls;
+}
+
+/// Height of the fluid along gravity [m]; its largest extent where there is no gravity.
+template <int Dim>
+double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
+  if (fluid.position.empty()) return 0.0;
+  Vec<Dim> low = fluid.position[0];
+  Vec<Dim> high = fluid.position[0];
+  for (const Vec<Dim>& position : fluid.position) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  if (gravity.norm() == 0.0) return (high - low).maxCoeff() + spacing;
+  const Vec<Dim> down = gravity.normalized();
+  double lowest = down.dot(fluid.position[0]);
+  double highest = lowest;
+  for (const Vec<Dim>& position : fluid.position) {
+    lowest = std::max(lowest, down.dot(position));
+    highest = std::min(highest, down.dot(position));
+  }
+  return lowest - highest + spacing;
+}
+
+template <int Dim>
+std::vector<OpenEnd<Dim>> make_open_ends(const CaseSpec& spec, const Vec<Dim>& gravity) {
+  std::vector<OpenEnd<Dim>> ends;
+  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+    ends.emplace_back(outlet, gravity, spec.particles.spacing, spec.scheme.support * spec.particles.spacing);
+  }
+  return ends;
+}
+
+}  // namespace
+
+template <int Dim>
+Drawing<Dim>::Drawing(const CaseSpec& spec)
+    : wall_model(make_wall_model<Dim>(spec.scheme.walls)),
+      walls(make_walls(spec, *wall_model)),
+      wall_motion(spec, walls.boundary, walls.particles),
+      fluid(make_fluid_particles(spec, walls.boundary)) {}
+
+template <int Dim>
+Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<Dim>& drawing)
+    : ranks(all_ranks),
+      scheme(spec.scheme),
+      density(spec.physics.density),
+      spacing(spec.particles.spacing),
+      gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
+      length(scheme.length > 0.0 ? scheme.length : fluid_height(drawing.fluid, gravity, spacing)),
+      domain(periodic_domain<Dim>(spec.domain)),
+      is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
+      wall_model(drawing.wall_model),
+      wall_traits(wall_model->traits()),
+      wall_motion(std::move(drawing.wall_motion)),
+      open_ends(make_open_ends(spec, gravity)),
+      kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),
+      lattice(lattice_sums(kernel, spacing)),
+      W_0(kernel_value(kernel, 0.0)),
+      eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
+      air_law(kernel, spacing) {
+  const double g = gravity.norm();
+  viscosity_law = {.molecular = spec.physics.viscosity,
+                   .artificial = scheme.artificial_viscosity * spacing,
+                   .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length),
+                   .wall_distance = wall_law_distance_over_spacing * spacing,
+                   .channel_width = spec.physics.channel_width};
+  shifting_law = {.kind = scheme.shifting,
+                  .strength = scheme.shifting_strength,
+                  .cap = scheme.shifting_cap * spacing,
+                  .spacing = spacing,
+                  .W_spacing = kernel_value(kernel, spacing)};
+  const double reference_speed = std::sqrt(2.0 * g * length);
+  time_step_rule = {.courant = scheme.courant,
+                    .spacing = spacing,
+                    .reference_speed = reference_speed,
+                    .viscous_share = scheme.name == SchemeName::farmani2020 ? 0.1 : 0.25 / Dim};
+  if (scheme.source == SourceKind::density && reference_speed > 0.0) {
+    time_step_rule.fastest = fastest_counted_over_reference * reference_speed;
+  }
+}
+
+template <int Dim>
+bool Setup<Dim>::uses_tensors() const {
+  return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
+         scheme.divergence == DivergenceKind::consistent || scheme.surface == SurfaceTreatment::cone ||
+         scheme.surface == SurfaceTreatment::farzin || wall_traits.needs_tensors ||
+         scheme.shifting == ShiftingKind::farzin;
+}
+
+template <int Dim>
+bool Setup<Dim>::uses_velocity_gradient() const {
+  return scheme.noise_viscosity > 0.0 ||
+         (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
+}
+
+template struct Drawing<2>;
+template struct Drawing<3>;
+template struct Setup<2>;
+template struct Setup<3>;
+
+}  // namespace tailwater

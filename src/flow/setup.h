@@ -1,0 +1,68 @@
+// What does not change during a run: the case as the steps need it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "closures/air.h"
+#include "closures/shifting.h"
+#include "closures/time_step.h"
+#include "closures/viscosity.h"
+#include "flow/open_end.h"
+#include "geometry/wall_motion.h"
+#include "neighbours/halo.h"
+#include "operators/lattice.h"
+#include "parallel/communicator.h"
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+/// The walls and the water of a case at its start. All ranks draw the whole case.
+template <int Dim>
+struct Drawing {
+  /// Throws InputError for an impossible geometry.
+  explicit Drawing(const CaseSpec& spec);
+
+  std::shared_ptr<const WallModel<Dim>> wall_model;
+  Walls<Dim> walls;
+  WallMotion<Dim> wall_motion;
+  FluidParticles<Dim> fluid;
+};
+
+template <int Dim>
+struct Setup {
+  /// Takes the motion of the walls out of `drawing`.
+  Setup(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim>& drawing);
+
+  Communicator ranks;
+  SchemeTable scheme;
+  double density;    ///< kg/m^3
+  double spacing;    ///< m
+  Vec<Dim> gravity;  ///< m/s^2
+  double length;     ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
+  PeriodicDomain<Dim> domain;
+  bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
+  std::shared_ptr<const WallModel<Dim>> wall_model;
+  WallTraits wall_traits;
+  WallMotion<Dim> wall_motion;
+  std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
+  Kernel<Dim> kernel;
+  LatticeSums lattice;
+  double W_0;          ///< 1/m^Dim; W(0)
+  double eta_squared;  ///< m^2; eta^2 of (B8)
+  AirLaw air_law;
+  ViscosityLaw viscosity_law;
+  ShiftingLaw shifting_law;
+  TimeStepRule time_step_rule;
+
+  /// Whether there is a surface where missing neighbours are air: then nothing pulls near it.
+  bool has_air() const { return scheme.surface == SurfaceTreatment::air && !is_closed; }
+  /// Viscosity [m^2/s] with which noise is dissipated while this is the largest speed.
+  double noise_viscosity(double speed) const {
+    return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
+  }
+  bool uses_tensors() const;
+  bool uses_velocity_gradient() const;
+};
+
+}  // namespace tailwater

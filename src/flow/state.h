@@ -1,0 +1,26 @@
+// What must be saved to go on with a run, and nothing that can be recomputed. A checkpoint is this; a Flow made of the
+// case and of a state goes on bit for bit (tests/schemes/state_test.cpp), from a moment at which lists were forgotten.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "flow/open_end.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct State {
+  double time = 0.0;  ///< s
+  std::int64_t step = 0;
+  /// The owned ones with their order; ghosts are recomputed. Walls that move are where `time` says.
+  Particles<Dim> particles;
+  std::vector<Vec<Dim>>
+      wall_velocity;  ///< m/s; of each row of the table of wall particles, at the end of the last step
+  std::vector<OpenEndState> open_ends;  ///< one per outlet
+  double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
+  double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
+};
+
+}  // namespace tailwater

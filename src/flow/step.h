@@ -1,0 +1,83 @@
+// What the verbs of one step hand to each other, and what a step reports.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+/// Where a step started; owned particles.
+template <int Dim>
+struct StepStart {
+  std::vector<Vec<Dim>> position;       ///< m; r^n
+  std::vector<Vec<Dim>> velocity;       ///< m/s; u^n
+  std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of the table of wall particles
+  double energy = 0.0;                  ///< J; of this rank's fluid
+};
+
+/// Where the walls are driven in a step, by row of the table of wall particles.
+template <int Dim>
+struct WallDrive {
+  std::vector<Vec<Dim>> velocity;      ///< m/s; that the projection gives the fluid beside them
+  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; that leads there, in the directions that the wall blocks
+};
+
+/// What `predict` finds.
+template <int Dim>
+struct Prediction {
+  std::vector<Vec<Dim>> velocity;           ///< m/s; u_star, walls and ghosts too
+  std::vector<Vec<Dim>> acceleration;       ///< m/s^2; of viscosity and friction, owned
+  std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; of u^n; empty where no term needs it
+};
+
+/// Things a step did that the equations do not ask for. A sound run needs few.
+struct Interventions {
+  std::size_t put_back = 0;           ///< moves that would have ended behind a wall
+  std::size_t capped_shifts = 0;      ///< shifts that would have been longer than their bound
+  std::size_t clamped_pressures = 0;  ///< suction near the surface cut after the solve
+  std::size_t fallback_rows = 0;      ///< consistent rows replaced where B2 is unsound
+  std::size_t restarted_solves = 0;   ///< after a breakdown of the Krylov method; all ranks count the same
+
+  Interventions& operator+=(const Interventions& other);
+};
+
+/// Of the pressure in one pass.
+struct PressureReport {
+  int iterations = 0;
+  double residual = 0.0;  ///< of the last solve
+  Interventions interventions;
+};
+
+/// Works [J] of one step on the water: of the pressure on what the density source expands, of the pressure of moving
+/// walls, and of viscosity and friction.
+struct Works {
+  double density = 0.0;
+  double walls = 0.0;
+  double viscous = 0.0;
+};
+
+/// What one step reports.
+struct StepReport {
+  double dt = 0.0;
+  int passes = 0;                 ///< of the implicit iteration; 1 for the explicit projection
+  int iterations = 0;             ///< of the pressure solves, all passes
+  double residual = 0.0;          ///< of the last solve
+  double pressure_change = 0.0;   ///< rms change of p in the last pass over rms p; 0 for one pass
+  double divergence_old = 0.0;    ///< 1/s; rms of div u in the bulk at the positions of the last solve
+  double divergence_new = 0.0;    ///< 1/s; the same at the new positions
+  double divergence_moved = 0.0;  ///< 1/s; rms of the difference: the part that comes from the old positions
+  Works work;
+  double density_share = 1.0;  ///< share of the density source that lifts which the energy left to the next step
+  Interventions interventions;
+
+  void add(const PressureReport& pressure);
+  /// J; what viscosity and friction brought: moving walls drag the water by more than is dissipated.
+  double dragged() const { return std::max(0.0, work.viscous); }
+  /// J; what moving walls gave the water.
+  double brought_by_walls() const { return work.walls + dragged(); }
+};
+
+}  // namespace tailwater

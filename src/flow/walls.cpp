@@ -1,0 +1,80 @@
+#include "base/for_each.h"
+#include "flow/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// With the acceleration that leads from the velocity at the start of the step to `velocity` at its end.
+template <int Dim>
+WallDrive<Dim> drive_to(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>> velocity, double dt) {
+  WallDrive<Dim> drive{std::move(velocity), {}};
+  drive.acceleration.resize(drive.velocity.size());
+  for_each(drive.velocity.size(), [&](std::size_t row) {
+    drive.acceleration[row] = flow.walls.particles.blocked[row] * (drive.velocity[row] - start.wall_velocity[row]) / dt;
+  });
+  return drive;
+}
+
+}  // namespace
+
+template <int Dim>
+WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  if (flow.setup.scheme.displacement == Displacement::mean_velocity) return drive_walls_to_end(flow, start, dt);
+  std::vector<Vec<Dim>> velocity = start.wall_velocity;
+  const double time = flow.state.time;
+  flow.setup.wall_motion.get_mean_velocity(time, time + dt, velocity);
+  return drive_to(flow, start, std::move(velocity), dt);
+}
+
+template <int Dim>
+WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  std::vector<Vec<Dim>> velocity = start.wall_velocity;
+  flow.setup.wall_motion.get_velocity(flow.state.time + dt, velocity);
+  return drive_to(flow, start, std::move(velocity), dt);
+}
+
+template <int Dim>
+void place_walls(Flow<Dim>& flow, double time) {
+  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  if (motion.moving().empty()) return;
+  motion.place(time, flow.walls.boundary, flow.walls.particles);
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) return;
+    const auto row = particles.wall_row[i];
+    if (!flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) return;
+    particles.position[i] = flow.neighbourhood.wrapped(flow.walls.particles.position[row]);
+  });
+}
+
+template <int Dim>
+WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt) {
+  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  WallWays<Dim> ways;
+  if (motion.moving().empty()) return ways;
+  ways.dt = dt;
+  ways.way.resize(flow.walls.boundary.walls.size());
+  for (const auto& moving : motion.moving()) {
+    ways.way[moving.wall] = way_between(moving.path.at(flow.state.time), moving.path.at(flow.state.time + dt));
+  }
+  return ways;
+}
+
+template <int Dim>
+void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity) {
+  flow.halo().exchange(velocity);
+  flow.setup.wall_model->show_velocity(flow.wall_scene(), V, velocity);
+  flow.halo().exchange(velocity);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                  \
+  template WallDrive<Dim> drive_walls<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);        \
+  template WallDrive<Dim> drive_walls_to_end<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double); \
+  template void place_walls<Dim>(Flow<Dim>&, double);                                               \
+  template WallWays<Dim> ways_of_walls<Dim>(const Flow<Dim>&, double);                              \
+  template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,219 @@
+#include "linear/krylov_solver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/fp_traps.h"
+#include "linear/petsc_solver.h"
+
+namespace tailwater {
+namespace {
+
+/// Norm of the right-hand side below which the answer is zero pressure: nothing drives it, and squares underflow soon.
+constexpr double vanishing_rhs = 1e-100;
+
+/// PETSc gives up on a guess whose residual is 1e5 of the source. Below that a guess helps even where its residual is
+/// larger than that of 0: what is left is rough, and smoothed away first.
+constexpr double hopeless_guess = 1e4;
+
+static_assert(sizeof(PetscInt) == sizeof(int), "the CSR arrays are shared with PETSc");
+static_assert(sizeof(PetscScalar) == sizeof(double), "the values are shared with PETSc");
+
+/// Numbers divided by one that happens to vanish, not slow progress.
+bool is_breakdown(KSPConvergedReason reason) {
+  return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
+         reason == KSP_DIVERGED_NANORINF;
+}
+
+/// y = D x, D the diagonal, which is 1.
+PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
+
+/// A vector of PETSc's that shares `values`.
+void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vector) {
+  const auto rows = static_cast<PetscInt>(values.size());
+  check_petsc(ranks.is_alone()
+                  ? VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, values.data(), vector.create())
+                  : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
+}
+
+/// About twelve of the residuals on the way, the first of which was `first`.
+std::vector<double> shown_residuals(KSP solver, double first) {
+  const PetscReal* history = nullptr;
+  PetscInt length = 0;
+  check_petsc(KSPGetResidualHistory(solver, &history, &length));
+  std::vector<double> shown;
+  const PetscInt stride = std::max<PetscInt>(1, length / 12);
+  for (PetscInt k = 0; k < length; k += stride) shown.push_back(first * history[k] / history[0]);
+  return shown;
+}
+
+}  // namespace
+
+/// PETSc's objects, and for which system they are.
+struct KrylovSolver::Petsc {
+  PetscMatrix matrix;
+  std::vector<int> column_of_others;  ///< PETSc's own, which it renumbers
+  PetscVector rhs;
+  PetscVector solution;
+  PetscVector residual;
+  PetscKrylovSolver solver;
+  PetscNullSpace constants;
+  std::uint64_t pattern_number = 0;        ///< of the matrix
+  std::optional<std::size_t> solver_size;  ///< rows of this rank; none: it is not the settings' method
+
+  /// Returns whether the pattern is new.
+  bool take_matrix(LinearSystem& system) {
+    const bool is_new = pattern_number != system.pattern_number();
+    if (is_new) {
+      make_matrix(system);
+      pattern_number = system.pattern_number();
+    }
+    // The values in the arrays it shares were changed; and operations are chosen at an assembly.
+    check_petsc(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+    check_petsc(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    if (!system.ranks().is_alone()) provide_diagonal();
+    return is_new;
+  }
+
+  void make_matrix(LinearSystem& system) {
+    const auto rows = static_cast<PetscInt>(system.size());
+    const LinearSystem::Block& own = system.own();
+    const LinearSystem::Block& others = system.others();
+    if (system.ranks().is_alone()) {
+      check_petsc(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows, rows, const_cast<int*>(own.begin.data()),
+                                            const_cast<int*>(own.column.data()), system.values_of_own().data(),
+                                            matrix.create()));
+    } else {
+      column_of_others = others.column;
+      check_petsc(MatCreateMPIAIJWithSplitArrays(
+          system.ranks().handle(), rows, rows, PETSC_DETERMINE, PETSC_DETERMINE, const_cast<int*>(own.begin.data()),
+          const_cast<int*>(own.column.data()), system.values_of_own().data(), const_cast<int*>(others.begin.data()),
+          column_of_others.data(), system.values_of_others().data(), matrix.create()));
+    }
+    check_petsc(MatSetOption(matrix.get(), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
+    check_petsc(MatCreateVecs(matrix.get(), nullptr, residual.create()));
+    if (system.constant_is_free()) {
+      check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants.create()));
+      check_petsc(MatSetNullSpace(matrix.get(), constants.get()));
+    }
+  }
+
+  /// SSOR of several ranks in Eisenstat's form asks for an operation that PETSc 3.18 lacks, and drops at each assembly.
+  void provide_diagonal() const {
+    Mat own = nullptr;
+    check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
+    check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
+  }
+
+  void take_solver(const LinearSystem& system, const PressureSolverTable& settings) {
+    const Communicator& ranks = system.ranks();
+    if (ranks.any(solver_size != system.size())) {
+      check_petsc(KSPCreate(ranks.handle(), solver.create()));
+      solver_size = system.size();
+      configure(solver.get(), settings,
+                {.unknowns = system.size_of_all(), .constant_is_free = system.constant_is_free()}, ranks.is_alone());
+    }
+    check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
+  }
+
+  /// From 0 with GMRES; the next solve has the method of the settings again.
+  void begin_again() {
+    check_petsc(VecZeroEntries(solution.get()));
+    check_petsc(KSPSetType(solver.get(), KSPGMRES));
+    solver_size.reset();
+  }
+
+  double residual_norm() const {
+    PetscReal norm = 0.0;
+    check_petsc(MatMult(matrix.get(), solution.get(), residual.get()));
+    check_petsc(VecAYPX(residual.get(), -1.0, rhs.get()));
+    check_petsc(VecNorm(residual.get(), NORM_2, &norm));
+    return norm;
+  }
+};
+
+KrylovSolver::KrylovSolver(const PressureSolverTable& settings)
+    : settings_(settings), petsc_(std::make_unique<Petsc>()) {
+  take_petsc_options(settings_);
+}
+
+KrylovSolver::~KrylovSolver() = default;
+
+SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution,
+                                std::optional<double> tolerance_asked) {
+  const double tolerance_wanted = tolerance_asked.value_or(settings_.tolerance);
+  const SuspendFpTraps suspended;
+  const Communicator& ranks = system.ranks();
+  TAILWATER_ASSERT(solution.size() == system.size(), "the solution must have one entry per row");
+  if (system.constant_is_free()) system.make_rhs_consistent();
+  const std::span<double> rhs = system.rhs();
+  const double rhs_norm = std::sqrt(ranks.sum(std::inner_product(rhs.begin(), rhs.end(), rhs.begin(), 0.0)));
+  if (!std::isfinite(rhs_norm)) {
+    throw SolverError("the source of the pressure equation is not finite");
+  }
+  if (rhs_norm < vanishing_rhs) {
+    std::fill(solution.begin(), solution.end(), 0.0);
+    return {};
+  }
+
+  Petsc& petsc = *petsc_;
+  const bool pattern_is_new = petsc.take_matrix(system);
+  wrap(ranks, rhs, petsc.rhs);
+  wrap(ranks, solution, petsc.solution);
+
+  SolveReport report;
+  report.residual = petsc.residual_norm() / rhs_norm;
+  if (report.residual > hopeless_guess) {
+    check_petsc(VecZeroEntries(petsc.solution.get()));
+    report.residual = 1.0;
+  }
+  if (report.residual <= tolerance_wanted) return report;
+
+  petsc.take_solver(system, settings_);
+  KSP solver = petsc.solver.get();
+  // Later solves with one pattern are of rows little changed: the set-up of multigrid costs as much as a solve.
+  check_petsc(KSPSetReusePreconditioner(solver, pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
+  double tolerance = tolerance_wanted;
+  while (report.residual > tolerance_wanted) {
+    const double residual_before = report.residual;
+    check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
+    PetscInt iterations = 0;
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check_petsc(KSPGetIterationNumber(solver, &iterations));
+    check_petsc(KSPGetConvergedReason(solver, &reason));
+    report.iterations += static_cast<int>(iterations);
+    report.residual = petsc.residual_norm() / rhs_norm;
+    if (reason > 0) {
+      // The solver measures the preconditioned residual; where that ends too early it goes on from there.
+      tolerance *= 0.5 * tolerance_wanted / report.residual;
+      continue;
+    }
+    if (is_breakdown(reason) && report.restarts == 0) {
+      petsc.begin_again();
+      ++report.restarts;
+      report.residual = 1.0;
+      continue;
+    }
+    throw SolverError(fmt::format(
+        "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
+        "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
+        "another pressure_solver.method or preconditioner",
+        KSPConvergedReasons[reason], report.iterations, report.residual, tolerance_wanted, system.size_of_all(),
+        fmt::join(shown_residuals(solver, residual_before), ", ")));
+  }
+  if (system.constant_is_free()) {
+    const double mean =
+        ranks.sum(std::accumulate(solution.begin(), solution.end(), 0.0)) / static_cast<double>(system.size_of_all());
+    for (double& value : solution) value -= mean;
+  }
+  return report;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,131 @@
+#include "linear/petsc_solver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/fp_traps.h"
+
+namespace tailwater {
+namespace {
+
+/// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
+constexpr double ssor_factor = 1.35;
+
+/// PETSc's own absolute tolerance would call any residual below it converged, however large relative to the source.
+constexpr double no_absolute_tolerance = 0.0;
+
+constexpr int longest_history = 2000;
+
+KSPType krylov_type(KrylovMethod method) {
+  switch (method) {
+    case KrylovMethod::gmres:
+      return KSPGMRES;
+    case KrylovMethod::fgmres:
+      return KSPFGMRES;
+    case KrylovMethod::bicgstab:
+    case KrylovMethod::automatic:
+      break;
+  }
+  return KSPBCGS;
+}
+
+PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant_is_free) {
+  switch (name) {
+    case PreconditionerName::ilu:
+      return is_alone ? PCILU : PCBJACOBI;  // whose blocks, one per rank, get ILU
+    case PreconditionerName::boomeramg:
+      return PCHYPRE;
+    case PreconditionerName::gamg:
+      return PCGAMG;
+    case PreconditionerName::jacobi:
+      return PCJACOBI;
+    case PreconditionerName::ssor:
+    case PreconditionerName::automatic:
+      break;
+  }
+  // Eisenstat's form solves for another unknown, whose null space is not the constants: then plain SSOR.
+  return constant_is_free ? PCSOR : PCEISENSTAT;
+}
+
+/// BoomerAMG eliminates on its coarsest level, which with a free constant is singular: noise of any size comes back.
+/// Only the options' database can tell it otherwise; the user's own word stands.
+void relax_coarsest_level() {
+  constexpr const char* option = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  PetscBool is_set = PETSC_FALSE;
+  check_petsc(PetscOptionsHasName(nullptr, nullptr, option, &is_set));
+  if (!is_set) check_petsc(PetscOptionsSetValue(nullptr, option, "symmetric-SOR/Jacobi"));
+}
+
+/// Sets up a solver for each kind of system, so that PETSc asks for every option that a run can ask for.
+void ask_for_all_options(const PressureSolverTable& settings) {
+  PetscMatrix identity;
+  check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, 2, 2, 1, nullptr, identity.create()));
+  for (PetscInt i = 0; i < 2; ++i) check_petsc(MatSetValue(identity.get(), i, i, 1.0, INSERT_VALUES));
+  check_petsc(MatAssemblyBegin(identity.get(), MAT_FINAL_ASSEMBLY));
+  check_petsc(MatAssemblyEnd(identity.get(), MAT_FINAL_ASSEMBLY));
+  for (const std::int64_t unknowns : {small_system, large_system}) {
+    PetscKrylovSolver solver;
+    check_petsc(KSPCreate(PETSC_COMM_SELF, solver.create()));
+    check_petsc(KSPSetOperators(solver.get(), identity.get(), identity.get()));
+    configure(solver.get(), settings, {.unknowns = unknowns}, true);
+    check_petsc(KSPSetUp(solver.get()));
+  }
+}
+
+/// Of the user's options those that nobody asked for.
+std::vector<std::string> unused_options(const PressureSolverTable& settings) {
+  PetscInt count = 0;
+  char** names = nullptr;
+  char** values = nullptr;
+  check_petsc(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> unused;
+  for (PetscInt k = 0; k < count; ++k) {
+    if (settings.petsc_options.find(names[k]) != std::string::npos) unused.push_back(fmt::format("-{}", names[k]));
+  }
+  check_petsc(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  return unused;
+}
+
+}  // namespace
+
+void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone) {
+  const SolverChoice choice = choose_solver(settings, system);
+  check_petsc(KSPSetOptionsPrefix(solver, "pressure_"));
+  check_petsc(KSPSetType(solver, krylov_type(choice.method)));
+  PC preconditioner = nullptr;
+  check_petsc(KSPGetPC(solver, &preconditioner));
+  check_petsc(PCSetType(preconditioner, preconditioner_type(choice.preconditioner, is_alone, system.constant_is_free)));
+  check_petsc(PCEisenstatSetOmega(preconditioner, ssor_factor));
+  check_petsc(PCEisenstatSetNoDiagonalScaling(preconditioner, PETSC_TRUE));  // it is 1 already
+  check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
+  check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
+  // From the right PETSc does not take the free constant out of what multigrid returns, and it grows without bound.
+  const bool is_singular_multigrid = system.constant_is_free && choice.preconditioner == PreconditionerName::boomeramg;
+  const bool can_be_left = choice.method != KrylovMethod::fgmres;
+  check_petsc(KSPSetPCSide(solver, is_singular_multigrid && can_be_left ? PC_LEFT : PC_RIGHT));
+  check_petsc(
+      KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
+  check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
+  check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
+  if (is_singular_multigrid) relax_coarsest_level();
+  check_petsc(KSPSetFromOptions(solver));
+}
+
+void take_petsc_options(const PressureSolverTable& settings) {
+  if (settings.petsc_options.empty()) return;
+  const SuspendFpTraps suspended;
+  check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
+  ask_for_all_options(settings);
+  const std::vector<std::string> unused = unused_options(settings);
+  if (unused.empty()) return;
+  throw InputError(fmt::format(
+      "pressure_solver.petsc_options = \"{}\": PETSc's solver asks for no option {}; give options of its KSP "
+      "and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\"",
+      settings.petsc_options, fmt::join(unused, ", ")));
+}
+
+}  // namespace tailwater

@@ -1,0 +1,104 @@
+// The books of the energy, and what they leave to the density source.
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "closures/fluid_pairs.h"
+#include "pressure/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// Share of what walls bring that is not counted as a rise if it was more: the force on a wall, summed over the kernel,
+/// is known to some (dx/depth)^2, 4 % at 12 rows of particles.
+constexpr double in_doubt = 0.25;
+
+/// [speed/L]; at which a rise is forgotten. Water at rest dissipates nothing that could pay for lifting a lattice that
+/// was placed too close: it rises slowly.
+constexpr double fading_rate = 1.4;
+
+/// Work [J] of a moving wall's particle: the conservative gradient's force on each fluid neighbour, times its velocity.
+template <int Dim>
+double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
+    return Vec<Dim>((particles.volume[j] * pairs.dW[k] * (particles.pressure[i] + particles.pressure[j])) * pairs.e[k]);
+  });
+  return dt * particles.volume[i] * recoil.dot(flow.state.wall_velocity[particles.wall_row[i]]);
+}
+
+template <int Dim>
+double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
+  const Particles<Dim>& particles = flow.state.particles;
+  return sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    const Vec<Dim>& acceleration = predicted.acceleration[i];
+    const Vec<Dim> way = dt * (start.velocity[i] + 0.5 * dt * acceleration);
+    return flow.setup.density * particles.volume[i] * acceleration.dot(way);
+  });
+}
+
+/// Work [J] of the pressure on the expansion that the density source asks for: the energy it takes to lift water that
+/// had come too close. The source of (B17) is all density error: it has no such share.
+template <int Dim>
+double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double dt) {
+  if (flow.setup.scheme.source != SourceKind::mixed) return 0.0;
+  const Particles<Dim>& particles = flow.state.particles;
+  return sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!flow.is_solved_for(i)) return 0.0;
+    const double expansion = equation.density_source[i] * dt * dt / flow.setup.density;  // dt div u
+    return particles.pressure[i] * particles.volume[i] * expansion;
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+double wall_work(const Flow<Dim>& flow, double dt) {
+  if (flow.setup.wall_motion.moving().empty()) return 0.0;
+  const Particles<Dim>& particles = flow.state.particles;
+  return sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    return !particles.is_fluid(i) && flow.here.is_wet[i] ? work_of_wall_particle(flow, i, dt) : 0.0;
+  });
+}
+
+template <int Dim>
+Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
+                 const PosedEquation& equation, double dt) {
+  return {density_work(flow, equation, dt), wall_work(flow, dt), viscous_work(flow, start, predicted, dt)};
+}
+
+template <int Dim>
+void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& report) {
+  const Setup<Dim>& setup = flow.setup;
+  State<Dim>& state = flow.state;
+  FluidSums sums = fluid_sums_of_rank(flow);
+  double change = sums.energy - start.energy;
+  Works& work = report.work;
+  setup.ranks.sum_each(work.density, work.walls, work.viscous, change, sums.mass, sums.kinetic_energy);
+
+  const double doubt = in_doubt * (std::abs(work.walls) + report.dragged());
+  const double g = setup.gravity.norm();
+  const double speed = g > 0.0 ? setup.time_step_rule.reference_speed : largest_speed(flow);
+  const double faded = std::exp(-fading_rate * speed * report.dt / setup.length);
+  state.energy_rise = std::max(0.0, faded * state.energy_rise + change - report.brought_by_walls() - doubt);
+
+  const double at_hand = 0.5 * sums.mass * g * setup.length + sums.kinetic_energy;
+  if (at_hand > 0.0) {
+    const double left = std::max(0.0, 1.0 - state.energy_rise / (setup.scheme.energy_slack * at_hand));
+    state.density_share = left * left;
+  }
+  report.density_share = state.density_share;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                \
+  template double wall_work<Dim>(const Flow<Dim>&, double);                                       \
+  template Works book_works<Dim>(const Flow<Dim>&, const StepStart<Dim>&, const Prediction<Dim>&, \
+                                 const PosedEquation&, double);                                   \
+  template void balance_energy<Dim>(Flow<Dim>&, const StepStart<Dim>&, StepReport&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

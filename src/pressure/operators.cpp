@@ -1,0 +1,71 @@
+#include "pressure/operators.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+#include "flow/verbs.h"
+#include "operators/divergence.h"
+#include "operators/gradient_conservative.h"
+#include "operators/gradient_consistent.h"
+#include "operators/gradient_density_weighted.h"
+
+namespace tailwater {
+
+template <int Dim>
+Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
+  const std::vector<double>& volume = flow.state.particles.volume;
+  if (flow.setup.scheme.gradient == GradientKind::conservative) {
+    return conservative_gradient<Dim>(flow.pairs(), i, volume, pressure);
+  }
+  if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
+    return density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.here.concentration, pressure);
+  }
+  const Renormalisation<Dim>& tensors = flow.here.tensors[i];
+  if (!tensors.gradient_is_sound()) return Vec<Dim>::Zero();
+  return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, volume, flow.here.takes_part,
+                                  std::span<const double>(pressure));
+}
+
+template <int Dim>
+double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity) {
+  const std::vector<double>& volume = flow.state.particles.volume;
+  if (flow.setup.scheme.divergence == DivergenceKind::standard) {
+    return standard_divergence<Dim>(flow.pairs(), i, volume, velocity);
+  }
+  const Renormalisation<Dim>& tensors = flow.here.tensors[i];
+  if (!tensors.gradient_is_sound()) return 0.0;
+  return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, volume, flow.here.takes_part,
+                                  std::span<const Vec<Dim>>(velocity))
+      .trace();
+}
+
+template <int Dim>
+std::vector<double> find_divergence(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  std::vector<double> divergence(particles.owned, 0.0);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) divergence[i] = divergence_at(flow, i, particles.velocity);
+  });
+  return divergence;
+}
+
+template <int Dim>
+double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
+  double squares =
+      sum_over(field.size(), 0.0, [&](std::size_t i) { return flow.is_inside(i) ? field[i] * field[i] : 0.0; });
+  std::size_t count = count_each(field.size(), [&](std::size_t i) { return flow.is_inside(i); });
+  flow.setup.ranks.sum_each(squares, count);
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                 \
+  template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);   \
+  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&); \
+  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                   \
+  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

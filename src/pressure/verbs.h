@@ -1,0 +1,71 @@
+// The verbs of the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). As in flow/verbs.h the
+// signatures tell the order: aim, assemble, solve, correct, book; and a second projection where the particles arrived.
+#pragma once
+
+#include "flow/verbs.h"
+
+namespace tailwater {
+
+/// Target of div u [1/s], owned: what the pressure equation shall leave of it at its positions. Nothing as published
+/// (F18); with `divergence_free = "midway"` the divergence dt/2 tr(grad u . grad u) that the same motion loses on the
+/// first half of its way, so that the velocity is divergence-free there: second order in time, where (F18) loses the
+/// energy dt |grad p|^2/rho per unit volume and time (docs/theory/robustness.md).
+template <int Dim>
+std::vector<double> aim(const Flow<Dim>& flow, const Prediction<Dim>& predicted, double dt);
+
+/// Writes the matrix of the pressure equation, one row per particle: fluid, surface, wall; of the right-hand sides only
+/// those that no source decides. Returns how many rows fell back to two-point weights.
+template <int Dim>
+std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
+
+/// What is known of an equation that stands in the flow's rows.
+struct PosedEquation {
+  std::size_t fallback_rows = 0;
+  std::vector<double> density_source;  ///< Pa/m^2; the part of owned rows' sources that answers the density error
+};
+
+/// (F15), (F22): lap p = rho/dt (div u_star - target), or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources.
+template <int Dim>
+PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,
+                       const WallDrive<Dim>& drive, double dt);
+
+/// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
+/// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
+/// (0 in the outermost rows, 1 inside; that of a wall that cannot pull by 0), and the system is solved again. With an
+/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md); what does all the
+/// same is cut and counted.
+template <int Dim>
+PressureReport solve(Flow<Dim>& flow, const WallDrive<Dim>& drive, const PosedEquation& equation);
+
+/// After a change of the fluid's pressure: brings walls and ghosts up to date.
+template <int Dim>
+void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive);
+
+/// (F16), (F24), (B16), (B18): u = u_star + dt (g - grad p/rho). The walls move as they are driven.
+template <int Dim>
+void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<Dim>& drive, double dt);
+
+/// Projects the velocity a second time, at the present positions: takes div u out of it as far as `corrections` reach,
+/// and adds what does it to the pressure, without suction near the surface (but for what lengths and mixing of
+/// corrections bring back). The particles stay. Reports its one solve.
+template <int Dim>
+PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt);
+
+/// Works of a step on this rank's water. Call after `correct`, before anything moves.
+template <int Dim>
+Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
+                 const PosedEquation& equation, double dt);
+
+/// Work [J] of the pressure of moving walls on this rank's water in a step of dt. Needs the pressure of this step and
+/// the walls' velocity that `correct` left.
+template <int Dim>
+double wall_work(const Flow<Dim>& flow, double dt);
+
+/// Adds up the works of all ranks in `report`, books the energy of the step, and sets which share of the density source
+/// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
+/// before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the work of walls
+/// apart; rises are slowly forgotten (docs/theory/robustness.md).
+template <int Dim>
+void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& report);
+
+}  // namespace tailwater

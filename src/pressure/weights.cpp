@@ -1,0 +1,132 @@
+// The matrix of the pressure equation. For fluid particle i
+//
+//   sum_j c_ij (p_i - p_j) + a_i p_i = source_i        (source.cpp)
+//
+// c_ij   weights of the Laplacian: Morris, consistent (F23), or (B8)
+// a_i    closes the row where neighbours are missing. Near the surface the weight of the air (air.h): what is missing
+//        of A_0, sum_j c_ij on a full lattice, counts as p = 0 on the surface (the idea of Nair & Tomar 2014), so the
+//        equation needs no surface detection. Inside 4 |grad C_i|^2, by `interior`: the force of a uniform pressure p
+//        on disordered particles is -2 p grad C_i, so div grad p has the part -4 |grad C|^2 p, and without it in the
+//        matrix pressures of deep disordered water overshoot from step to step (docs/theory/robustness.md); and a
+//        little softness. 0 where the surface is marked, whose rows are p = 0
+//
+// Rows of wall particles are the wall model's (walls/wall_model.h). Dry walls: p = 0.
+#include <cmath>
+
+#include "base/for_each.h"
+#include "operators/laplacian_consistent.h"
+#include "operators/laplacian_morris.h"
+#include "operators/laplacian_shao_lo.h"
+#include "pressure/verbs.h"
+
+namespace tailwater {
+namespace {
+
+/// [1/dx^2]; weight of every row inside, as if sound went 100 dx per step. Nothing else holds the mean pressure of
+/// ordered water that fills its box; under a surface it compresses the bottom by 0.03 % (0.1 % at the implicit step).
+constexpr double softness = 1e-4;
+
+/// Sets the weights of row i and returns their sum.
+template <int Dim>
+double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem::Row& row, bool& fell_back) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Surroundings<Dim>& here = flow.here;
+  const std::vector<double>& volume = flow.state.particles.volume;
+  const double spacing = flow.setup.spacing;
+  if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
+    return row.set_weights([&](std::size_t k) {
+      return here.takes_part[pairs.j[k]] ? morris_laplacian_weight(volume[pairs.j[k]], pairs.r[k], pairs.dW[k], spacing)
+                                         : 0.0;
+    });
+  }
+  if (flow.setup.scheme.laplacian == LaplacianKind::shao_lo) {
+    const std::vector<double>& density = here.concentration;
+    return row.set_weights([&](std::size_t k) {
+      const auto j = pairs.j[k];
+      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r[k], pairs.dW[k],
+                                                           flow.setup.eta_squared)
+                                : 0.0;
+    });
+  }
+  const Renormalisation<Dim>& tensors = here.tensors[i];
+  if (tensors.laplacian_is_sound()) {
+    const double sum = row.set_weights([&](std::size_t k) {
+      return here.takes_part[pairs.j[k]]
+                 ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e[k], pairs.r[k], pairs.W[k])
+                 : 0.0;
+    });
+    if (sum > 0.0) return sum;
+  }
+  fell_back = true;
+  return row.set_weights([&](std::size_t k) {
+    return here.takes_part[pairs.j[k]]
+               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r[k], pairs.W[k], spacing)
+               : 0.0;
+  });
+}
+
+/// Sum of the weights on a full lattice.
+template <int Dim>
+double full_sum(const Setup<Dim>& setup) {
+  switch (setup.scheme.laplacian) {
+    case LaplacianKind::consistent:
+      return setup.lattice.consistent;
+    case LaplacianKind::shao_lo:
+      return setup.lattice.shao_lo;
+    case LaplacianKind::morris:
+      break;
+  }
+  return setup.lattice.morris;
+}
+
+/// a_i of a row whose weights sum to `sum`: air near the surface (and on walls), disorder inside.
+template <int Dim>
+double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
+  const double air = flow.setup.air_law.weight(sum, full_sum(flow.setup));
+  const double disorder = 4.0 * flow.here.concentration_gradient[i].squaredNorm();
+  const double spacing = flow.setup.spacing;
+  return std::lerp(air, disorder + softness / (spacing * spacing), flow.here.interior[i]);
+}
+
+/// The pressure equation without its source. Returns whether the row had to fall back to two-point weights.
+template <int Dim>
+bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
+  const Setup<Dim>& setup = flow.setup;
+  LinearSystem::Row row = flow.pressure_rows.row(i);
+  if (flow.is_leaving(i)) {
+    const auto e = flow.end_of[i];
+    row.set_weights([](std::size_t) { return 0.0; });
+    row.finish(
+        1.0, setup.open_ends[e].pressure_at(flow.state.open_ends[e], flow.state.particles.position[i], setup.density));
+    return false;
+  }
+  const bool is_dry = !flow.here.takes_part[i];  // a wall
+  if (is_dry || (!setup.has_air() && flow.here.is_surface[i] && !setup.is_closed)) {
+    row.finish_as_zero();
+    return false;
+  }
+  bool fell_back = false;
+  const double sum = set_laplacian_weights(flow, i, row, fell_back);
+  const double own = setup.has_air() ? closing_weight(flow, i, sum) : 0.0;
+  if (sum + own <= 0.0) {
+    row.finish_as_zero();  // a lone particle: nothing around it, no pressure
+    return fell_back;
+  }
+  row.finish(sum + own, 0.0);
+  return fell_back;
+}
+
+}  // namespace
+
+template <int Dim>
+std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
+  flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
+  flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
+  return count_each(flow.state.particles.owned,
+                    [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, i); });
+}
+
+template std::size_t assemble_weights<2>(Flow<2>&, const WallDrive<2>&);
+template std::size_t assemble_weights<3>(Flow<3>&, const WallDrive<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,37 @@
+#include "schemes/project.h"
+
+#include "base/for_each.h"
+#include "pressure/operators.h"
+#include "pressure/verbs.h"
+
+namespace tailwater {
+
+template <int Dim>
+StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  StepReport report;
+  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  locate(flow);
+  const Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
+  const std::vector<double> target = aim(flow, predicted, dt);
+  const PosedEquation equation = assemble(flow, predicted, target, drive, dt);  // (F15)
+  report.add(solve(flow, drive, equation));
+  correct(flow, predicted, drive, dt);  // (F16)
+  report.work = book_works(flow, start, predicted, equation, dt);
+  return report;
+}
+
+template <int Dim>
+void report_divergence(Flow<Dim>& flow, const std::vector<double>& divergence_old, StepReport& report) {
+  const std::vector<double> divergence = find_divergence(flow);
+  std::vector<double> change(divergence.size());
+  for_each(change.size(), [&](std::size_t i) { change[i] = divergence_old[i] - divergence[i]; });
+  report.divergence_new = bulk_rms(flow, divergence);
+  report.divergence_moved = bulk_rms(flow, change);
+}
+
+template StepReport project<2>(Flow<2>&, const StepStart<2>&, double);
+template StepReport project<3>(Flow<3>&, const StepStart<3>&, double);
+template void report_divergence<2>(Flow<2>&, const std::vector<double>&, StepReport&);
+template void report_divergence<3>(Flow<3>&, const std::vector<double>&, StepReport&);
+
+}  // namespace tailwater

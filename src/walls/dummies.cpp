@@ -1,0 +1,100 @@
+#include "walls/dummies.h"
+
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "walls/wet_walls.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+void assemble_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
+  if (!scene.here.is_wet[i]) {
+    row.finish_as_zero();
+    return;
+  }
+  double rhs = 0.0;
+  row.set_weights([&](std::size_t k) {
+    if (!scene.particles.is_fluid(scene.pairs.j[k])) return 0.0;
+    const double share = scene.pairs.W[k] / scene.here.wall_fluid_weight[i];
+    rhs += share * force.hydrostatic_difference(scene.pairs, scene.particles, i, k);
+    return share;
+  });
+  row.finish(1.0, rhs);
+}
+
+template <int Dim>
+class Dummies final : public WallModel<Dim> {
+ public:
+  WallTraits traits() const override {
+    return {.pairs = WallRows::fluid_only, .shows_friction = false, .pulls = false};
+  }
+
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const override {
+    return make_dummy_particles(boundary, spacing, layers);
+  }
+
+  void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
+                     std::span<Vec<Dim>> velocity) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      if (scene.particles.is_fluid(i)) return;
+      velocity[i].setZero();
+      if (!scene.here.is_wet[i]) return;
+      const Vec<Dim> mean =
+          fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
+      const auto row = scene.particles.wall_row[i];
+      const Vec<Dim> relative = mean - V[row];
+      const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
+      const Vec<Dim> tangential_part = relative - normal_part;
+      velocity[i] = V[row] + tangential_part - normal_part;
+    });
+  }
+
+  /// That of the mirror image: as far beyond the wall's as the water in front is short of it.
+  void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
+                             std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      if (scene.particles.is_fluid(i)) return;
+      Vec<Dim> mean = Vec<Dim>::Zero();
+      if (scene.here.is_wet[i]) {
+        mean = fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
+      }
+      const Vec<Dim>& wall_velocity = V[scene.particles.wall_row[i]];
+      no_slip[i] = (wall_velocity - mean) + wall_velocity;
+    });
+  }
+
+  void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      if (!scene.particles.is_fluid(i)) assemble_row(scene, force, i, system.row(i));
+    });
+  }
+
+  bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,
+                       std::span<double> pressure) const override {
+    const Pairs<Dim>& pairs = scene.pairs;
+    for_each(pairs.owned(), [&](std::size_t i) {
+      if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
+      double sum = 0.0;
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        if (!scene.particles.is_fluid(pairs.j[k])) continue;
+        sum += pairs.W[k] * (pressure[pairs.j[k]] + force.hydrostatic_difference(pairs, scene.particles, i, k));
+      }
+      pressure[i] = std::max(0.0, sum / scene.here.wall_fluid_weight[i]);
+    });
+    return true;
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<const WallModel<Dim>> make_dummies() {
+  return std::make_unique<Dummies<Dim>>();
+}
+
+template std::unique_ptr<const WallModel<2>> make_dummies<2>();
+template std::unique_ptr<const WallModel<3>> make_dummies<3>();
+
+}  // namespace tailwater

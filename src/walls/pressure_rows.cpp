@@ -1,0 +1,59 @@
+#include "walls/pressure_rows.h"
+
+#include "base/for_each.h"
+#include "operators/gradient_consistent.h"
+#include "walls/on_wall.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+void assemble_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
+  const Renormalisation<Dim>& tensors = scene.here.tensors[i];
+  if (!scene.here.is_wet[i] || !tensors.gradient_is_sound()) {
+    row.finish_as_zero();
+    return;
+  }
+  const Pairs<Dim>& pairs = scene.pairs;
+  const auto wall_row = scene.particles.wall_row[i];
+  const Vec<Dim> normal = scene.walls.particles.normal[wall_row];
+  const double sum = row.set_weights([&](std::size_t k) {
+    if (!scene.here.takes_part[pairs.j[k]]) return 0.0;
+    return consistent_gradient_weight<Dim>(tensors.B1, scene.particles.volume[pairs.j[k]], pairs.e[k], pairs.r[k],
+                                           pairs.W[k])
+        .dot(normal);
+  });
+  if (sum <= 0.0) {
+    row.finish_as_zero();
+    return;
+  }
+  row.finish(sum, -force.density * force.felt(wall_row).dot(normal));  // (F39)
+}
+
+template <int Dim>
+class PressureRows final : public OnWall<Dim> {
+ public:
+  WallTraits traits() const override { return {.needs_tensors = true}; }
+
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int /*layers*/) const override {
+    return make_surface_particles(boundary, spacing);
+  }
+
+  void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      if (!scene.particles.is_fluid(i)) assemble_row(scene, force, i, system.row(i));
+    });
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<const WallModel<Dim>> make_pressure_rows() {
+  return std::make_unique<PressureRows<Dim>>();
+}
+
+template std::unique_ptr<const WallModel<2>> make_pressure_rows<2>();
+template std::unique_ptr<const WallModel<3>> make_pressure_rows<3>();
+
+}  // namespace tailwater

@@ -1,0 +1,12 @@
+// One row of particles on the wall itself, as published (F36)-(F39): its row of the equation asks for the consistent
+// gradient along the normal, grad p . n = rho (g - a) . n. Needs the renormalisation tensors.
+#pragma once
+
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+template <int Dim>
+std::unique_ptr<const WallModel<Dim>> make_pressure_rows();
+
+}  // namespace tailwater

@@ -1,0 +1,53 @@
+#include "walls/row_and_dummies.h"
+
+#include "base/for_each.h"
+#include "walls/on_wall.h"
+
+namespace tailwater {
+namespace {
+
+/// A dummy behind a row on the wall: the row's pressure beside it; 0 where no water is in reach of either.
+template <int Dim>
+void assemble_copy_of_row(const WallScene<Dim>& scene, std::size_t i, LinearSystem::Row row) {
+  const double sum = row.set_weights([&](std::size_t k) {
+    const auto j = scene.pairs.j[k];
+    const bool is_row = !scene.particles.is_fluid(j) && scene.here.is_wet[j] &&
+                        scene.walls.particles.is_on_wall(scene.particles.wall_row[j]);
+    return is_row ? scene.pairs.W[k] : 0.0;
+  });
+  if (!scene.here.is_wet[i] || sum <= 0.0) {
+    row.finish_as_zero();
+    return;
+  }
+  row.finish(sum, 0.0);
+}
+
+template <int Dim>
+class RowAndDummies final : public OnWall<Dim> {
+ public:
+  WallTraits traits() const override { return {.solves_on_wall = true, .gravity_in_prediction = true}; }
+
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const override {
+    return make_row_and_dummy_particles(boundary, spacing, layers);
+  }
+
+  void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>&, LinearSystem& system) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      const bool has_equation =
+          scene.particles.is_fluid(i) || scene.walls.particles.is_on_wall(scene.particles.wall_row[i]);
+      if (!has_equation) assemble_copy_of_row(scene, i, system.row(i));
+    });
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<const WallModel<Dim>> make_row_and_dummies() {
+  return std::make_unique<RowAndDummies<Dim>>();
+}
+
+template std::unique_ptr<const WallModel<2>> make_row_and_dummies<2>();
+template std::unique_ptr<const WallModel<3>> make_row_and_dummies<3>();
+
+}  // namespace tailwater

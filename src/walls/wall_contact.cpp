@@ -1,0 +1,84 @@
+#include "walls/wall_contact.h"
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double contact_distance = 0.5;  // dx
+constexpr double least_gap = 0.01;        // dx; from nearer, and from behind a wall, a move counts as starting here
+constexpr double search_distance = 3.0;   // dx
+
+template <int Dim>
+bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (!particles.is_fluid(pairs.j[k])) return true;
+  }
+  return false;
+}
+
+/// One cushion per adjacent wall: a corner has at most Dim of them. Returns whether the move would have ended behind
+/// one.
+template <int Dim>
+bool cushion(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways, const Vec<Dim>& before,
+             Vec<Dim>& position, Vec<Dim>* velocity) {
+  const double contact = contact_distance * spacing;
+  bool would_cross = false;
+  int last_face = -1;
+  for (int attempt = 0; attempt < Dim; ++attempt) {
+    const NearestWall<Dim> wall = boundary.nearest(position, search_distance * spacing);
+    if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
+    last_face = wall.face;
+    const WallFace<Dim>& face = boundary.faces[wall.face];
+    const Vec<Dim> carried = ways.way.empty() ? before : ways.way[face.wall](before);  // by the wall
+    const double gap = std::clamp(face.height(carried), least_gap * spacing, contact);
+    const double approach = gap - wall.signed_distance;
+    if (approach <= 0.0) continue;
+    const double share = gap / (gap + approach);
+    position += (share * gap - wall.signed_distance) * face.normal;
+    if (velocity) {
+      const double advance = ways.way.empty() ? 0.0 : face.normal.dot(carried - before) / ways.dt;
+      *velocity -= (1.0 - share) * std::min(0.0, velocity->dot(face.normal) - advance) * face.normal;
+    }
+    would_cross = would_cross || wall.signed_distance < 0.0;
+  }
+  return would_cross;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
+                       const Particles<Dim>& particles, std::span<double> overlap) {
+  const double contact = contact_distance * spacing;
+  for_each(pairs.owned(), [&](std::size_t i) {
+    overlap[i] = 0.0;
+    if (!particles.is_fluid(i) || !has_wall_neighbour(pairs, particles, i)) return;
+    const NearestWall<Dim> wall = boundary.nearest(particles.position[i], contact);
+    if (wall.face < 0) return;
+    const double s = std::clamp(1.0 - wall.signed_distance / contact, 0.0, 1.0);
+    overlap[i] = 0.25 * s * s * (3.0 - s);
+  });
+}
+
+template <int Dim>
+std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
+                           const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
+                           std::span<Vec<Dim>> velocity) {
+  return count_each(pairs.owned(), [&](std::size_t i) {
+    return particles.is_fluid(i) && has_wall_neighbour(pairs, particles, i) &&
+           cushion(boundary, spacing, ways, before[i], particles.position[i],
+                   velocity.empty() ? nullptr : &velocity[i]);
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                \
+  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,    \
+                                       std::span<double>);                                                        \
+  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const WallWays<Dim>&, \
+                                           std::span<const Vec<Dim>>, Particles<Dim>&, std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,33 @@
+#include "walls/wet_walls.h"
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+/// A wall particle is wet when the fluid's kernel sum at it exceeds this share of W(0): some particle is inside its
+/// support and not on its very edge.
+constexpr double least_wet_weight = 1e-6;
+
+}  // namespace
+
+template <int Dim>
+void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double W_0,
+                    std::span<double> fluid_weight, std::span<std::uint8_t> is_wet) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    fluid_weight[i] = 0.0;
+    is_wet[i] = 0;
+    if (particles.is_fluid(i)) return;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      if (particles.is_fluid(pairs.j[k])) fluid_weight[i] += pairs.W[k];
+    }
+    is_wet[i] = fluid_weight[i] > least_wet_weight * W_0;
+  });
+}
+
+template void find_wet_walls<2>(const Pairs<2>&, const Particles<2>&, double, std::span<double>,
+                                std::span<std::uint8_t>);
+template void find_wet_walls<3>(const Pairs<3>&, const Particles<3>&, double, std::span<double>,
+                                std::span<std::uint8_t>);
+
+}  // namespace tailwater

@@ -1,0 +1,28 @@
+// Which wall particles have water in reach, and what that water does there.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "neighbours/pairs.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// Fills `fluid_weight` [1/m^Dim] (sum of W over fluid neighbours; 0 for fluid particles) and `is_wet` for walls.
+template <int Dim>
+void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double W_0,
+                    std::span<double> fluid_weight, std::span<std::uint8_t> is_wet);
+
+/// Shepard mean sum_f W u_f / sum_f W of the fluid in reach of wet wall particle i, whose sum of W is `fluid_weight`.
+template <int Dim>
+Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
+                                double fluid_weight, std::span<const Vec<Dim>> velocity) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (particles.is_fluid(pairs.j[k])) sum += pairs.W[k] * velocity[pairs.j[k]];
+  }
+  return sum / fluid_weight;
+}
+
+}  // namespace tailwater

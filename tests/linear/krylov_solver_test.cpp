@@ -1,0 +1,367 @@
+// PressureSystem against a dense solve, its starting guess, its errors, and systems that determine differences only.
+#include "support/pressure_system.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "support/particle_set.h"
+
+namespace tailwater {
+namespace {
+
+PressureSolverTable solver_settings(double tolerance) {
+  PressureSolverTable settings;
+  settings.tolerance = tolerance;
+  return settings;
+}
+
+/// A random system in the class's own form, diagonal_i x_i - sum_k weight_ik x_j = rhs_i.
+struct SmallSystem {
+  std::vector<std::size_t> row_begin{0};
+  std::vector<std::int32_t> columns;
+  std::vector<double> weights;
+  std::vector<double> diagonal;
+  std::vector<double> rhs;
+
+  std::size_t size() const { return diagonal.size(); }
+
+  void pass_values_to(PressureSystem& system) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      PressureSystem::Row row = system.row(i);
+      for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) row.set_weight(k - row_begin[i], weights[k]);
+      row.finish(diagonal[i], rhs[i]);
+    }
+  }
+
+  Eigen::VectorXd dense_solution() const {
+    const auto n = static_cast<Eigen::Index>(size());
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      matrix(row, row) += diagonal[i];
+      for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) matrix(row, columns[k]) -= weights[k];
+    }
+    return matrix.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(rhs.data(), n));
+  }
+};
+
+/// Rows of very different scale, not symmetric, columns not sorted, strictly diagonally dominant: sum |w| <= d/2.
+SmallSystem random_system(std::size_t size, std::uint64_t seed) {
+  SmallSystem system;
+  Noise noise(seed);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double scale = std::pow(10.0, 4.0 * noise()) * (i % 3 == 0 ? -1.0 : 1.0);
+    for (const std::size_t offset : {7, 1, 19, 4}) {
+      system.columns.push_back(static_cast<std::int32_t>((i + offset) % size));
+      system.weights.push_back(0.125 * scale * noise());
+    }
+    system.row_begin.push_back(system.columns.size());
+    system.diagonal.push_back(scale);
+    system.rhs.push_back(scale * noise());
+  }
+  return system;
+}
+
+/// With unit diagonal and off-diagonal sums <= 1/2 the inverse is bounded by 2 in the maximum norm, so a residual of
+/// tolerance |b|_2 leaves an error below 2 tolerance |b|_2 <= 2 tolerance sqrt(n).
+double error_bound(double tolerance, std::size_t size) {
+  return 2.0 * tolerance * std::sqrt(static_cast<double>(size));
+}
+
+void expect_near(const std::vector<double>& solution, const Eigen::VectorXd& expected, double bound) {
+  for (std::size_t i = 0; i < solution.size(); ++i) {
+    ASSERT_NEAR(solution[i], expected[static_cast<Eigen::Index>(i)], bound) << "row " << i;
+  }
+}
+
+TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
+  const double tolerance = 1e-10;
+  for (const KrylovMethod method :
+       {KrylovMethod::automatic, KrylovMethod::bicgstab, KrylovMethod::gmres, KrylovMethod::fgmres}) {
+    for (const PreconditionerName preconditioner : {PreconditionerName::automatic, PreconditionerName::ssor,
+                                                    PreconditionerName::ilu, PreconditionerName::jacobi}) {
+      PressureSolverTable settings = solver_settings(tolerance);
+      settings.method = method;
+      settings.preconditioner = preconditioner;
+      PressureSystem system(settings);
+      const SmallSystem small = random_system(60, 1);
+      system.set_pattern(small.row_begin, small.columns);
+      EXPECT_EQ(system.size(), small.size());
+      small.pass_values_to(system);
+      std::vector<double> solution(small.size(), 0.0);
+      const SolveReport report = system.solve(solution);
+      EXPECT_GT(report.iterations, 0);
+      EXPECT_LE(report.residual, tolerance);
+      expect_near(solution, small.dense_solution(), error_bound(tolerance, small.size()));
+    }
+  }
+}
+
+TEST(PressureSystem, ASweepQuartersTheError) {
+  // Off-diagonal sums are <= 1/2 of the diagonal, so a Gauss-Seidel pass halves the largest error, a pair quarters it.
+  const SmallSystem small = random_system(60, 2);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> rough(small.size(), 1.0);  // no starting guess: it starts from 0
+  system.sweep(rough);
+  const Eigen::VectorXd exact = small.dense_solution();
+  expect_near(rough, exact, 0.25 * exact.cwiseAbs().maxCoeff());
+}
+
+TEST(PressureSystem, TakesANewRightHandSideAlone) {
+  SmallSystem small = random_system(60, 3);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  system.row(5).finish_as_zero();
+  std::vector<double> solution(small.size(), 0.0);
+  system.solve(solution);
+  const std::vector<double> before = solution;
+  for (std::size_t i = 0; i < small.size(); ++i) system.set_rhs(i, 2.0 * small.rhs[i]);
+  system.solve(solution);
+  EXPECT_EQ(solution[5], 0.0);
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    EXPECT_NEAR(solution[i], 2.0 * before[i], 3.0 * error_bound(1e-10, small.size())) << "row " << i;
+  }
+}
+
+TEST(PressureSystem, DividedDiagonalsAreThoseOfTheSystem) {
+  SmallSystem small = random_system(60, 7);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  system.solve(solution);  // the preconditioner is from before
+  for (const std::size_t i : {3, 8, 40}) {
+    system.divide_diagonal(i, 0.25);
+    small.diagonal[i] /= 0.25;
+  }
+  system.divide_diagonal(11, 0.0);
+  system.solve(solution);
+  for (std::size_t k = small.row_begin[11]; k < small.row_begin[12]; ++k) small.weights[k] = 0.0;
+  small.diagonal[11] = 1.0;
+  small.rhs[11] = 0.0;
+  expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, ATinySourceIsSolvedLikeAnyOther) {
+  SmallSystem small = random_system(60, 8);
+  for (double& value : small.rhs) value *= 1e-60;
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  EXPECT_LE(system.solve(solution).residual, 1e-10);
+  expect_near(solution, small.dense_solution(), 1e-60 * error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, AGuessWorseThanNoneDoesNoHarm) {
+  const SmallSystem small = random_system(60, 9);
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 1e17);
+  system.solve(solution);
+  expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
+  const double tolerance = 1e-10;
+  PressureSystem system(solver_settings(tolerance));
+  SmallSystem small = random_system(60, 2);
+  system.set_pattern(small.row_begin, small.columns);
+  std::vector<double> solution(small.size(), 0.0);
+  for (const std::uint64_t seed : {2, 3}) {  // the same pattern, other values
+    small = random_system(60, seed);
+    small.pass_values_to(system);
+    system.solve(solution);
+    expect_near(solution, small.dense_solution(), error_bound(tolerance, small.size()));
+  }
+  // Another pattern with as many rows, then another number of rows.
+  for (const std::size_t size : {60, 45}) {
+    small = random_system(size, 4);
+    for (std::int32_t& column : small.columns) column = static_cast<std::int32_t>((column + 2) % size);
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t k = small.row_begin[i]; k < small.row_begin[i + 1]; ++k) {
+        if (small.columns[k] == static_cast<std::int32_t>(i))
+          small.columns[k] = static_cast<std::int32_t>((i + 30) % size);
+      }
+    }
+    system.set_pattern(small.row_begin, small.columns);
+    small.pass_values_to(system);
+    solution.assign(size, 0.0);
+    system.solve(solution);
+    expect_near(solution, small.dense_solution(), error_bound(tolerance, size));
+  }
+}
+
+TEST(PressureSystem, IdentityRowsAreZero) {
+  PressureSystem system(solver_settings(1e-10));
+  SmallSystem small = random_system(60, 5);
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  for (std::size_t i = 0; i < small.size(); i += 5) {
+    system.row(i).finish_as_zero();
+    for (std::size_t k = small.row_begin[i]; k < small.row_begin[i + 1]; ++k) small.weights[k] = 0.0;
+    small.rhs[i] = 0.0;
+  }
+  std::vector<double> solution(small.size(), 1.0);
+  system.solve(solution);
+  const double bound = error_bound(1e-10, small.size());
+  expect_near(solution, small.dense_solution(), bound);
+  for (std::size_t i = 0; i < small.size(); i += 5) EXPECT_NEAR(solution[i], 0.0, bound);
+}
+
+TEST(PressureSystem, NothingDrivesNothing) {
+  PressureSystem system(solver_settings(1e-6));
+  SmallSystem small = random_system(20, 6);
+  std::fill(small.rhs.begin(), small.rhs.end(), 0.0);
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 3.0);
+  system.solve(solution);
+  for (const double value : solution) EXPECT_EQ(value, 0.0);
+}
+
+/// Five-point Laplacian on n x n points; with `is_periodic` it wraps round, else p = 0 outside.
+SmallSystem five_point(int n, bool is_periodic) {
+  SmallSystem system;
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const int i = x + dx;
+        const int j = y + dy;
+        if (!is_periodic && (i < 0 || j < 0 || i == n || j == n)) continue;
+        system.columns.push_back((i + n) % n + n * ((j + n) % n));
+        system.weights.push_back(1.0);
+      }
+      system.row_begin.push_back(system.columns.size());
+      system.diagonal.push_back(4.0);
+      system.rhs.push_back(std::sin(2.0 * std::numbers::pi * (x + 1.0) / n) + 0.1 * (x + 2 * y) / n);
+    }
+  }
+  return system;
+}
+
+TEST(PressureSystem, AWarmStartCostsNoMoreThanAColdOne) {
+  const SmallSystem grid = five_point(40, false);
+  PressureSystem system(solver_settings(1e-8));
+  system.set_pattern(grid.row_begin, grid.columns);
+  grid.pass_values_to(system);
+  std::vector<double> solution(grid.size(), 0.0);
+  const int cold = system.solve(solution).iterations;
+  EXPECT_GT(cold, 3);
+  // The tolerance is relative to the right-hand side, not to the first residual: starting from the answer, none or the
+  // one iteration is due that rounding may ask for.
+  EXPECT_LE(system.solve(solution).iterations, 1);
+  for (double& value : solution) value *= 1.001;
+  EXPECT_LE(system.solve(solution).iterations, cold);
+}
+
+TEST(PressureSystem, NoConvergenceIsAnErrorWithItsHistory) {
+  const SmallSystem grid = five_point(40, false);
+  PressureSolverTable settings = solver_settings(1e-12);
+  settings.max_iterations = 3;
+  PressureSystem system(settings);
+  system.set_pattern(grid.row_begin, grid.columns);
+  grid.pass_values_to(system);
+  std::vector<double> solution(grid.size(), 0.0);
+  try {
+    system.solve(solution);
+    FAIL() << "three iterations cannot solve 1600 equations to 1e-12";
+  } catch (const SolverError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("after 3 iterations"), std::string::npos) << message;
+    EXPECT_NE(message.find("1600 unknowns"), std::string::npos) << message;
+    EXPECT_NE(message.find("pressure_solver.max_iterations"), std::string::npos) << message;
+    // From a zero start the first residual is the right-hand side: relative size 1; three iterations make four numbers.
+    const std::size_t history = message.find("Residuals on the way: 1.00e+00, ");
+    ASSERT_NE(history, std::string::npos) << message;
+    const std::string numbers = message.substr(history, message.find('.', message.find("Remedy")) - history);
+    EXPECT_GE(std::count(numbers.begin(), numbers.begin() + static_cast<long>(numbers.find("Remedy")), ','), 3)
+        << message;
+  }
+}
+
+TEST(PressureSystem, ABreakdownIsNoFailure) {
+  // x_0 - 3 x_1 = 1, x_1 + x_0 = 1: with no preconditioner (the diagonal is 1) the first residual r = (1, 1) is
+  // orthogonal to A r, by whose product with it BiCGStab divides.
+  SmallSystem small;
+  small.row_begin = {0, 1, 2};
+  small.columns = {1, 0};
+  small.weights = {3.0, -1.0};
+  small.diagonal = {1.0, 1.0};
+  small.rhs = {1.0, 1.0};
+  PressureSolverTable settings = solver_settings(1e-10);
+  settings.method = KrylovMethod::bicgstab;
+  settings.preconditioner = PreconditionerName::jacobi;
+  PressureSystem system(settings);
+  system.set_pattern(small.row_begin, small.columns);
+  for (int solve = 0; solve < 2; ++solve) {  // the second begins with BiCGStab again
+    small.pass_values_to(system);
+    std::vector<double> solution(2, 0.0);
+    const SolveReport report = system.solve(solution);
+    EXPECT_EQ(report.restarts, 1U);
+    EXPECT_LE(report.residual, 1e-10);
+    EXPECT_NEAR(solution[0], 1.0, 1e-9);
+    EXPECT_NEAR(solution[1], 0.0, 1e-9);
+  }
+}
+
+TEST(PressureSystem, ANonFiniteSourceIsAnError) {
+  SmallSystem small = random_system(20, 7);
+  small.rhs[3] = std::numeric_limits<double>::infinity();
+  PressureSystem system(solver_settings(1e-6));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  EXPECT_THROW(system.solve(solution), SolverError);
+}
+
+/// The periodic Laplacian knows differences only, and its source here has a mean, which must be taken out first.
+class FreeConstant : public testing::TestWithParam<PreconditionerName> {};
+
+TEST_P(FreeConstant, GivesMeanZero) {
+  SmallSystem grid = five_point(40, true);
+  const double tolerance = 1e-10;
+  PressureSolverTable settings = solver_settings(tolerance);
+  settings.preconditioner = GetParam();
+  PressureSystem system(settings);
+  system.set_constant_is_free(true);
+  system.set_pattern(grid.row_begin, grid.columns);
+  grid.pass_values_to(system);
+  std::vector<double> solution(grid.size(), 5.0);
+  system.solve(solution);
+
+  double sum = 0.0;
+  double rhs_sum = 0.0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    sum += solution[i];
+    rhs_sum += grid.rhs[i];
+  }
+  const auto count = static_cast<double>(grid.size());
+  EXPECT_NEAR(sum / count, 0.0, 1e-12);
+  // |b| <= 1.3 sqrt(n); residuals are of rows scaled by 1/4.
+  const double bound = 1.3 * std::sqrt(count) * tolerance * 4.0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    double left = grid.diagonal[i] * solution[i];
+    for (std::size_t k = grid.row_begin[i]; k < grid.row_begin[i + 1]; ++k) {
+      left -= grid.weights[k] * solution[grid.columns[k]];
+    }
+    EXPECT_NEAR(left, grid.rhs[i] - rhs_sum / count, bound);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PressureSystem, FreeConstant,
+                         testing::Values(PreconditionerName::ssor, PreconditionerName::boomeramg),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+}  // namespace
+}  // namespace tailwater

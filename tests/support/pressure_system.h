@@ -1,0 +1,20 @@
+// Rows and their solver together.
+#pragma once
+
+#include "linear/krylov_solver.h"
+#include "linear/linear_system.h"
+
+namespace tailwater {
+
+class PressureSystem : public LinearSystem {
+ public:
+  explicit PressureSystem(const PressureSolverTable& settings, const Communicator& ranks = {})
+      : LinearSystem(ranks), solver_(settings) {}
+
+  SolveReport solve(std::span<double> solution) { return solver_.solve(*this, solution); }
+
+ private:
+  KrylovSolver solver_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,254 @@
+// What wall models show to the water, and wall friction.
+#include "walls/wall_model.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "support/dimensions.h"
+#include "support/particle_set.h"
+#include "walls/wall_friction.h"
+#include "walls/wet_walls.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double dx = 0.1;
+
+template <class D>
+class WallTest : public testing::Test {};
+TYPED_TEST_SUITE(WallTest, Dimensions);
+
+/// A cube of fluid above the plane y = 0 and two layers of wall particles under it (a third would be 3 dx away), plus
+/// one wall particle far from everything, last, which is dry. All of them block what `blocked` projects on.
+template <int Dim>
+struct WettedWall {
+  WettedWall(const Mat<Dim>& blocked, double friction, WallTreatment treatment)
+      : set(particles(), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx),
+        model(make_wall_model<Dim>(treatment)) {
+    here.resize(set.size(), false);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      if (set.particles.is_fluid(i)) continue;
+      walls.particles.position.push_back(set.position(i));
+      walls.particles.normal.push_back(Vec<Dim>::UnitY());
+      walls.particles.blocked.push_back(blocked);
+      walls.particles.wall.push_back(0);
+      walls.friction.push_back(friction);
+      V.push_back(Vec<Dim>::Zero());
+    }
+    find_wet_walls<Dim>(set.pairs(), set.particles, kernel_value(set.neighbourhood.kernel(), 0.0),
+                        here.wall_fluid_weight, here.is_wet);
+  }
+
+  static Particles<Dim> particles() {
+    std::array<int, Dim> count;
+    count.fill(7);
+    Vec<Dim> low = Vec<Dim>::Constant(0.5 * dx);
+    std::vector<Vec<Dim>> points = lattice_points<Dim>(low, count, dx);
+    const std::size_t fluid_count = points.size();
+    count[1] = 2;
+    low[1] = -1.5 * dx;
+    const auto wall = lattice_points<Dim>(low, count, dx);
+    points.insert(points.end(), wall.begin(), wall.end());
+    points.push_back(Vec<Dim>::Constant(-9.0));
+    Particles<Dim> all = fluid_at<Dim>(points, dx);
+    for (std::size_t i = fluid_count; i < all.owned; ++i) {
+      all.kind[i] = ParticleKind::wall;
+      all.wall_row[i] = static_cast<std::int32_t>(i - fluid_count);
+    }
+    return all;
+  }
+
+  std::vector<Vec<Dim>> with_walls(std::vector<Vec<Dim>> velocity) {
+    model->show_velocity(scene(), V, velocity);
+    return velocity;
+  }
+
+  /// Of this velocity, walls included.
+  std::vector<Vec<Dim>> friction_acceleration(const ViscosityLaw& law, const std::vector<Vec<Dim>>& velocity) const {
+    std::vector<Vec<Dim>> no_slip(set.size(), Vec<Dim>::Zero());
+    std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
+    model->find_no_slip_velocity(scene(), V, velocity, no_slip);
+    add_wall_friction<Dim>(scene(), law, dx, V, no_slip, velocity, acceleration);
+    return acceleration;
+  }
+
+  WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, here}; }
+
+  ParticleSet<Dim> set;
+  std::unique_ptr<const WallModel<Dim>> model;
+  Walls<Dim> walls;
+  std::vector<Vec<Dim>> V;
+  Surroundings<Dim> here;
+};
+
+template <int Dim>
+Mat<Dim> flat() {
+  return Vec<Dim>::UnitY() * Vec<Dim>::UnitY().transpose();
+}
+
+template <int Dim>
+Vec<Dim> some_velocity() {
+  Vec<Dim> u = Vec<Dim>::Constant(0.4);
+  u[0] = 1.3;
+  u[1] = -0.7;
+  return u;
+}
+
+TYPED_TEST(WallTest, OnlyWallsInReachOfFluidAreWet) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    const bool is_last = i + 1 == wall.set.size();
+    EXPECT_EQ(wall.here.is_wet[i] != 0, !wall.set.particles.is_fluid(i) && !is_last);
+  }
+}
+
+TYPED_TEST(WallTest, AWallThatMovesWithTheWaterLeavesItAlone) {
+  constexpr int Dim = TypeParam::value;
+  const Vec<Dim> u = some_velocity<Dim>();
+  for (const WallTreatment treatment : {WallTreatment::dummies, WallTreatment::pressure_rows}) {
+    WettedWall<Dim> wall(flat<Dim>(), 1.0, treatment);
+    for (Vec<Dim>& V : wall.V) V = u;
+    const auto velocity = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
+    const auto acceleration = wall.friction_acceleration(ViscosityLaw{.molecular = 1.0}, velocity);
+    for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
+      EXPECT_LT((velocity[i] - u).norm(), 400.0 * eps);
+      EXPECT_LT(acceleration[i].norm(), 4000.0 * eps / (dx * dx));
+    }
+    // A piston faster than the water: the image is as much faster again.
+    for (Vec<Dim>& V : wall.V) V = u + Vec<Dim>::UnitY();
+    const auto pushed = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
+    const double factor = treatment == WallTreatment::dummies ? 2.0 : 1.0;
+    for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
+      if (wall.set.particles.is_fluid(i)) continue;
+      EXPECT_LT((pushed[i] - u - factor * Vec<Dim>::UnitY()).norm(), 400.0 * eps);
+    }
+  }
+}
+
+TYPED_TEST(WallTest, MirrorsAUniformVelocity) {
+  constexpr int Dim = TypeParam::value;
+  // The Shepard mean of a uniform velocity is that velocity, so each slip has a closed answer.
+  const Vec<Dim> u = some_velocity<Dim>();
+  const Vec<Dim> normal = u[1] * Vec<Dim>::UnitY();
+  const Vec<Dim> tangential = u - normal;
+  for (const double friction : {0.0, 0.3, 1.0}) {
+    for (const bool is_corner : {false, true}) {
+      for (const WallTreatment treatment : {WallTreatment::dummies, WallTreatment::pressure_rows}) {
+        const Mat<Dim> blocked = is_corner ? Mat<Dim>(Mat<Dim>::Identity()) : flat<Dim>();
+        WettedWall<Dim> wall(blocked, friction, treatment);
+        const auto velocity = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
+        Vec<Dim> expected;
+        if (treatment == WallTreatment::dummies) {
+          expected = is_corner ? Vec<Dim>(-u) : Vec<Dim>(tangential - normal);
+        } else {
+          expected = is_corner ? Vec<Dim>(Vec<Dim>::Zero()) : Vec<Dim>((1.0 - friction) * tangential);
+        }
+        for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
+          if (wall.set.particles.is_fluid(i)) {
+            ASSERT_EQ(velocity[i], u);
+          } else {
+            ASSERT_LT((velocity[i] - expected).norm(), 400.0 * eps);  // a sum over a row
+          }
+        }
+        EXPECT_EQ(velocity.back(), Vec<Dim>(Vec<Dim>::Zero()));  // dry
+      }
+    }
+  }
+}
+
+constexpr ViscosityLaw wall_law{.molecular = 0.1, .wall_distance = 0.6 * dx};
+
+template <int Dim>
+std::vector<Vec<Dim>> friction_acceleration(double friction, const std::vector<Vec<Dim>>& fluid_velocity,
+                                            const ViscosityLaw& law) {
+  WettedWall<Dim> wall(flat<Dim>(), friction, WallTreatment::dummies);
+  return wall.friction_acceleration(law, wall.with_walls(fluid_velocity));
+}
+
+TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  const std::vector<Vec<Dim>> uniform(wall.set.size(), some_velocity<Dim>());
+  const auto free = friction_acceleration<Dim>(0.0, uniform, wall_law);
+  const auto partial = friction_acceleration<Dim>(0.3, uniform, wall_law);
+  const auto no_slip = friction_acceleration<Dim>(1.0, uniform, wall_law);
+  Vec<Dim> tangential = some_velocity<Dim>();
+  tangential[1] = 0.0;
+  const double scale = 0.1 * tangential.norm() / (dx * dx);
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    EXPECT_EQ(free[i], Vec<Dim>(Vec<Dim>::Zero()));
+    if (!wall.set.particles.is_fluid(i)) continue;
+    EXPECT_LT((partial[i] - 0.3 * no_slip[i]).norm(), 400.0 * eps * scale);
+    EXPECT_EQ(no_slip[i][1], 0.0);
+    if (wall.set.position(i)[1] < dx) {
+      // Against the flow, and along it only.
+      EXPECT_LT(no_slip[i].dot(tangential), 0.0);
+      EXPECT_NEAR(no_slip[i].dot(tangential), -no_slip[i].norm() * tangential.norm(), 400.0 * eps * scale);
+    }
+    if (wall.set.position(i)[1] > 3.0 * dx) {
+      EXPECT_EQ(no_slip[i], Vec<Dim>(Vec<Dim>::Zero()));
+    }
+  }
+}
+
+TYPED_TEST(WallTest, FrictionGoesByTheWallsViscosityAlone) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  const std::vector<Vec<Dim>> uniform(wall.set.size(), some_velocity<Dim>());
+  const auto laminar = friction_acceleration<Dim>(1.0, uniform, wall_law);
+  const ViscosityLaw water{.molecular = 1e-6, .artificial = 0.2 * dx, .floor = 0.3, .wall_distance = 0.6 * dx};
+  const auto turbulent = friction_acceleration<Dim>(1.0, uniform, water);
+  const double ratio = water.at_wall(some_velocity<Dim>().norm()) / wall_law.at_wall(some_velocity<Dim>().norm());
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    EXPECT_LE((turbulent[i] - ratio * laminar[i]).norm(), 8.0 * eps * turbulent[i].norm());
+  }
+}
+
+TEST(WallLaw, StressOfWernerAndWengle) {
+  const double nu = 1e-6;
+  const double y = 0.012;
+  const ViscosityLaw law{.molecular = nu, .artificial = 1.0, .floor = 1.0, .wall_distance = y};
+  for (const double u_tau : {0.01, 0.1, 1.0}) {  // y+ of 120 to 12000: turbulent
+    const double speed = 8.3 * u_tau * std::pow(y * u_tau / nu, 1.0 / 7.0);
+    EXPECT_NEAR(law.at_wall(speed) * speed / y, u_tau * u_tau, 16.0 * eps * u_tau * u_tau);
+  }
+  EXPECT_EQ(law.at_wall(0.0), nu);
+  EXPECT_EQ(law.at_wall(139.0 * nu / y), nu);  // laminar up to u y/nu = 8.3^(7/3) = 139.5
+  const double transition = std::pow(8.3, 7.0 / 3.0) * nu / y;
+  EXPECT_NEAR(law.at_wall(transition * (1.0 + 1e-9)), nu, 1e-9 * nu);  // continuous
+  EXPECT_EQ((ViscosityLaw{.wall_distance = y}.at_wall(3.0)), 0.0);
+}
+
+TEST(SideWalls, StressIsTheMeanOfThePowerLawOverHalfTheWidth) {
+  const double nu = 1e-6;
+  const double b = 0.3;
+  const ViscosityLaw law{.molecular = nu, .wall_distance = 0.012, .channel_width = b};
+  for (const double u_tau : {0.01, 0.1}) {
+    // The mean of 8.3 u_tau (y u_tau/nu)^(1/7) over y = 0 .. b/2 is 7/8 of its value at b/2.
+    const double speed = 7.0 / 8.0 * 8.3 * u_tau * std::pow(0.5 * b * u_tau / nu, 1.0 / 7.0);
+    EXPECT_NEAR(law.side_wall_rate(speed) * speed, 2.0 * u_tau * u_tau / b, 64.0 * eps * u_tau * u_tau / b);
+  }
+  // Slow water: the two walls of plane Poiseuille flow, whose pressure gradient is 12 nu u/b^2.
+  EXPECT_DOUBLE_EQ(law.side_wall_rate(1e-9), 12.0 * nu / (b * b));
+  EXPECT_EQ((ViscosityLaw{.molecular = nu}.side_wall_rate(3.0)), 0.0);
+}
+
+TYPED_TEST(WallTest, SideWallsSlowFluidAgainstItsVelocityOnly) {
+  constexpr int Dim = TypeParam::value;
+  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
+  const std::vector<Vec<Dim>> velocity(wall.set.size(), some_velocity<Dim>());
+  const ViscosityLaw law{.molecular = 1e-6, .wall_distance = 0.6 * dx, .channel_width = 0.3};
+  std::vector<Vec<Dim>> acceleration(wall.set.size(), Vec<Dim>::Zero());
+  add_side_wall_friction<Dim>(wall.set.particles, law, velocity, acceleration);
+  const Vec<Dim> expected = -law.side_wall_rate(some_velocity<Dim>().norm()) * some_velocity<Dim>();
+  for (std::size_t i = 0; i < wall.set.size(); ++i) {
+    EXPECT_EQ(acceleration[i], wall.set.particles.is_fluid(i) ? expected : Vec<Dim>(Vec<Dim>::Zero()));
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
