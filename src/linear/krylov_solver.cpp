@@ -97,6 +97,9 @@ struct KrylovSolver::Petsc {
           column_of_others.data(), system.values_of_others().data(), matrix.create()));
     }
     check_petsc(MatSetOption(matrix.get(), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
+    // Where many rows share their columns, as in drops that fly apart, PETSc treats them in blocks; SSOR in Eisenstat's
+    // form then reads a diagonal of blocks that nobody has made (PETSc 3.18).
+    check_petsc(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
     check_petsc(MatCreateVecs(matrix.get(), nullptr, residual.create()));
     if (system.constant_is_free()) {
       check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants.create()));
