@@ -1,0 +1,101 @@
+// The state is all that a run needs to go on: a flow made of the case and of a state goes on bit for bit.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "schemes/cases.h"
+
+namespace tailwater {
+namespace {
+
+struct Variant {
+  const char* name;
+  CaseSpec spec;
+};
+
+CaseSpec dam_break(Integrator integrator) {
+  CaseSpec spec = zhou_case(0.06, integrator);
+  spec.particles.jitter = 0.1;
+  return spec;
+}
+
+CaseSpec two_step_case() {
+  CaseSpec spec = dam_break(Integrator::explicit_projection);
+  spec.scheme.name = SchemeName::farmani2020;
+  apply_formulation(spec.scheme);
+  return spec;
+}
+
+CaseSpec published_case() {
+  CaseSpec spec = dam_break(Integrator::implicit_projection);
+  spec.scheme.formulation = Formulation::published;
+  apply_formulation(spec.scheme);
+  return spec;
+}
+
+CaseSpec gate_case() {
+  CaseSpec spec = dam_break(Integrator::implicit_projection);
+  WallTable gate;
+  gate.points = {{1.2, 0.0}, {1.2, 0.9}};
+  gate.displacement = {"0.3*t", 0.0};
+  spec.walls.push_back(gate);
+  return spec;
+}
+
+CaseSpec outlet_case() {
+  CaseSpec spec = dam_break(Integrator::explicit_projection);
+  spec.walls[0].points = {{0.0, 3.0}, {0.0, 0.0}, {1.5, 0.0}};
+  OutletTable end;
+  end.from = {1.5, 0.0};
+  end.to = {1.5, 3.0};
+  end.direction = {1.0, 0.0};
+  spec.outlets = {end};
+  return spec;
+}
+
+class StateTest : public testing::TestWithParam<Variant> {};
+
+void expect_same(const Flow<2>& a, const Flow<2>& b) {
+  ASSERT_EQ(a.state.particles.owned, b.state.particles.owned);
+  EXPECT_EQ(a.state.time, b.state.time);
+  EXPECT_EQ(a.state.step, b.state.step);
+  EXPECT_EQ(a.state.energy_rise, b.state.energy_rise);
+  EXPECT_EQ(a.state.density_share, b.state.density_share);
+  for (std::size_t i = 0; i < a.state.particles.owned; ++i) {
+    ASSERT_EQ(a.state.particles.id[i], b.state.particles.id[i]);
+    ASSERT_EQ(a.state.particles.position[i], b.state.particles.position[i]);
+    ASSERT_EQ(a.state.particles.velocity[i], b.state.particles.velocity[i]);
+    ASSERT_EQ(a.state.particles.pressure[i], b.state.particles.pressure[i]);
+  }
+}
+
+/// As a run does: sorted and shared out every few steps, when lists are forgotten.
+void take_steps(Flow<2>& flow, int count) {
+  for (int n = 0; n < count; ++n) {
+    if (flow.state.step % 5 == 0) share_out(flow);
+    let_go(flow);
+    advance(flow, next_time_step(flow));
+  }
+}
+
+TEST_P(StateTest, IsAllThatARunNeedsToGoOn) {
+  const CaseSpec& spec = GetParam().spec;
+  Flow<2> whole(spec);
+  start(whole);
+  take_steps(whole, 40);
+  Flow<2> resumed(spec);
+  resumed.restore(whole.state);
+  take_steps(whole, 20);
+  take_steps(resumed, 20);
+  expect_same(whole, resumed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, StateTest,
+                         testing::Values(Variant{"explicit", dam_break(Integrator::explicit_projection)},
+                                         Variant{"implicit", dam_break(Integrator::implicit_projection)},
+                                         Variant{"two_step", two_step_case()}, Variant{"published", published_case()},
+                                         Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace tailwater
