@@ -1,7 +1,9 @@
-// The one way loops over particles run. The body is a function of one index that touches only its own row, so the
-// wrapper can later hand the range to threads or to a GPU.
+// The one way loops over particles run. The body is a function of one index that writes only its own row, so the
+// wrapper can later hand the range to threads or to a GPU. What a loop sums up it returns: a body never adds to a
+// variable outside. Loops whose rows depend on each other (lists, sorting, sweeps of a solver) are plain loops.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace tailwater {
@@ -21,6 +23,24 @@ std::size_t count_each(std::size_t count, Body&& body) {
     sum += body(i);
   }
   return sum;
+}
+
+/// `zero` plus the values of body(i), in the order of i.
+template <class T, class Body>
+T sum_over(std::size_t count, T zero, Body&& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    zero += body(i);
+  }
+  return zero;
+}
+
+/// The largest value of body(i), at least `least`.
+template <class Body>
+double largest_over(std::size_t count, double least, Body&& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    least = std::max(least, body(i));
+  }
+  return least;
 }
 
 }  // namespace tailwater
