@@ -39,8 +39,8 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
                                             : options.preview;
   write_text_file(preview, picture);
   const RunEstimate estimate = estimate_run(spec, flow);
-  fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.fluid_particles,
-             estimate.wall_particles, spec.particles.spacing);
+  fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
+             estimate.particles.wall, spec.particles.spacing);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
   fmt::print("time:      about {:.0f} steps, {} on this machine (violent flow takes more and smaller steps)\n",
              estimate.steps, readable_duration(estimate.seconds));

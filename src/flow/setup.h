@@ -9,6 +9,7 @@
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
 #include "flow/open_end.h"
+#include "geometry/sampling.h"
 #include "geometry/wall_motion.h"
 #include "neighbours/halo.h"
 #include "operators/lattice.h"

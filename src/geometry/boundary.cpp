@@ -50,27 +50,26 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   for (std::size_t k = 0; k < face_count; ++k) {
     const std::size_t next = (k + 1) % points.size();
     if ((points[next] - points[k]).norm() <= corner_tolerance * spacing) {
-      throw InputError(
-          fmt::format("{}: points[{}] and points[{}] are both at {}, which leaves a piece without extent "
-                      "or normal: remove one of them",
-                      owner, k, next, place(points[k])));
+      throw InputError(fmt::format(
+          "{}: points[{}] and points[{}] are both at {}, so the piece between them has no length: remove one of "
+          "them",
+          owner, k, next, place(points[k])));
     }
   }
 
   bool fluid_is_left = table.fluid_side == FluidSide::left;
   if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside) {
     if (!closed) {
-      throw InputError(
-          fmt::format("{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as one walks "
-                      "along its points",
-                      owner, name_of(table.fluid_side)));
+      throw InputError(fmt::format(
+          "{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as seen when walking along its "
+          "points",
+          owner, name_of(table.fluid_side)));
     }
     const double area = signed_area(points);
     if (std::abs(area) <= corner_tolerance * spacing * spacing) {
       throw InputError(
-          fmt::format("{}: the polygon through {} encloses no area, so it has neither inside nor normal: "
-                      "move its points apart",
-                      owner, place(points[0])));
+          fmt::format("{}: the polygon through {} encloses no area, so it has no inside: move its points apart", owner,
+                      place(points[0])));
     }
     fluid_is_left = (area > 0.0) == (table.fluid_side == FluidSide::inside);
   }
@@ -127,7 +126,7 @@ void append_box(const WallTable& table, int wall, const std::string& owner, doub
   const auto names_end = all_names.begin() + 2 * Dim;
   for (const std::string& name : table.open) {
     if (std::find(all_names.begin(), names_end, name) == names_end) {
-      throw InputError(fmt::format("{}: open = \"{}\" is no face of a {}D box: use \"{}\"", owner, name, Dim,
+      throw InputError(fmt::format("{}: open = \"{}\" is not a face of a {}D box: use \"{}\"", owner, name, Dim,
                                    fmt::join(all_names.begin(), names_end, "\", \"")));
     }
   }
@@ -153,6 +152,13 @@ double WallFace<Dim>::measure() const {
   } else {
     return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
   }
+}
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> WallFace<Dim>::box() const {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const Vec<Dim>& corner : corners) box.extend(corner);
+  return box;
 }
 
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
@@ -205,13 +211,8 @@ void Boundary<Dim>::file_faces(double reach) {
       moving_.push_back(static_cast<int>(f));
       continue;
     }
-    Vec<Dim> low = faces[f].corners[0];
-    Vec<Dim> high = low;
-    for (const Vec<Dim>& corner : faces[f].corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-    resting_.add(static_cast<int>(f), low, high,
+    const Eigen::AlignedBox<double, Dim> box = faces[f].box();
+    resting_.add(static_cast<int>(f), box.min(), box.max(),
                  [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
   }
 }
@@ -262,16 +263,15 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const WallTable& table = spec.walls[w];
     const int wall = static_cast<int>(w);
-    const std::string name = name_or_number(table.name, "wall", w);
-    const std::string owner = fmt::format("wall '{}'", name);
-    boundary.walls.push_back({name, friction_of(table), body_of(spec, w)});
+    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w)});
+    const std::string owner = wall_label(boundary, wall);
     if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
     } else if constexpr (Dim == 2) {
       append_chain(table, wall, owner, spec.particles.spacing, boundary.faces);
     } else {
       throw InputError(
-          fmt::format("{}: a {} exists in 2D only: in 3D use shape = \"box\"", owner, name_of(table.shape)));
+          fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\"", owner, name_of(table.shape)));
     }
   }
   return boundary;

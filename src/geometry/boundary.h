@@ -23,6 +23,8 @@ struct WallFace {
   double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
   /// Length (2D, m) or area (3D, m^2).
   double measure() const;
+  /// The axis-parallel box around it.
+  Eigen::AlignedBox<double, Dim> box() const;
 };
 
 /// Point of the face nearest to `x`.

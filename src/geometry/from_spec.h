@@ -18,6 +18,11 @@ inline std::string name_or_number(const std::string& name, std::string_view what
   return name.empty() ? fmt::format("{}{}", what, index + 1) : name;
 }
 
+/// "fluid 'column'": how messages call a block.
+inline std::string fluid_label(const CaseSpec& spec, std::size_t block) {
+  return fmt::format("fluid '{}'", name_or_number(spec.fluid[block].name, "fluid", block));
+}
+
 /// The point as a vector. Throws InputError, which names the `owner` ("wall 'bed'") and the `key` ("points[2]"), when
 /// it does not have Dim numbers.
 template <int Dim>
@@ -27,6 +32,11 @@ Vec<Dim> to_vec(const Coordinates& point, std::string_view owner, std::string_vi
                                  owner, key, point.size(), Dim));
   }
   return Eigen::Map<const Vec<Dim>>(point.data());
+}
+
+template <int Dim>
+Vec<Dim> gravity_of(const CaseSpec& spec) {
+  return to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity");
 }
 
 /// "(0.5, 1.25)": how messages show a place, to the picometre, so that round-off is not shown.

@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// An outlet whose plane makes a smaller angle with its direction (sine) has no clear outside.
+/// Sine of the least angle between an outlet's plane and its direction: below it, which side is outside is unclear.
 constexpr double least_sine = 0.1;
 
 std::array<Vec<2>, 1> edges_between(const Vec<2>& from, const Vec<2>& to, double, const std::string&) {
@@ -21,10 +21,10 @@ std::array<Vec<3>, 2> edges_between(const Vec<3>& from, const Vec<3>& to, double
     if (std::abs(diagonal[axis]) > tolerance) edges.push_back(diagonal[axis] * Vec<3>::Unit(axis));
   }
   if (edges.size() != 2) {
-    throw InputError(fmt::format(
-        "{}: from {} to {} is no flat rectangle: in 3D they are its opposite corners, which have exactly one "
-        "coordinate in common",
-        owner, place(from), place(to)));
+    throw InputError(
+        fmt::format("{}: from {} to {} is not a flat rectangle: in 3D give two opposite corners that have exactly one "
+                    "coordinate in common",
+                    owner, place(from), place(to)));
   }
   return {edges[0], edges[1]};
 }
@@ -60,7 +60,7 @@ std::vector<Outlet<Dim>> make_outlets(const CaseSpec& spec) {
     const OutletTable& table = spec.outlets[k];
     Outlet<Dim> outlet;
     outlet.name = name_or_number(table.name, "outlet", k);
-    const std::string owner = fmt::format("outlet '{}'", outlet.name);
+    const std::string owner = outlet.label();
     const Vec<Dim> from = to_vec<Dim>(table.from, owner, "from");
     const Vec<Dim> to = to_vec<Dim>(table.to, owner, "to");
     const double tolerance = corner_tolerance * spec.particles.spacing;
@@ -75,8 +75,8 @@ std::vector<Outlet<Dim>> make_outlets(const CaseSpec& spec) {
     const double sine = outlet.normal.dot(direction);
     if (std::abs(sine) < least_sine) {
       throw InputError(fmt::format(
-          "{} from {} to {} runs along its direction {}, so it has no outside: give as direction "
-          "the way the water leaves, such as {} or {}",
+          "{} from {} to {} lies along its direction {}, so it has no outside: give the direction in "
+          "which the water leaves, such as {} or {}",
           owner, place(from), place(to), place(direction), place(outlet.normal), place(Vec<Dim>(-outlet.normal))));
     }
     if (sine < 0.0) outlet.normal = -outlet.normal;

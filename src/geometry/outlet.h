@@ -18,6 +18,8 @@ struct Outlet {
   std::array<Vec<Dim>, Dim - 1> edges;  ///< m; of full length, at right angles
   Vec<Dim> normal = Vec<Dim>::Zero();   ///< unit vector, out of the case
 
+  /// "outlet 'weir'": how messages call it.
+  std::string label() const { return "outlet '" + name + "'"; }
   /// Distance beyond the outlet's plane, m; negative for water that has not reached it.
   double beyond(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Is `x` straight before or behind the outlet?

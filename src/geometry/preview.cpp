@@ -213,6 +213,98 @@ void draw_outlets(Svg& svg, const std::vector<Outlet<Dim>>& outlets, const View&
   }
 }
 
+/// All that the picture must show.
+template <int Dim>
+Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
+                 const std::vector<Outlet<Dim>>& outlets, const std::vector<Marker>& markers) {
+  Extent extent;
+  const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
+    for (const WallFace<Dim>& face : faces) {
+      for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
+    }
+  };
+  for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
+  for (const Vec<Dim>& x : walls.position) extent.include(project(x));
+  include_faces(boundary.faces);
+  for (const Outlet<Dim>& outlet : outlets) include_faces(outlet.as_faces());
+  for (const Marker& marker : markers) {
+    for (const Vec<2>& x : marker.points) {
+      if (!marker.is_vertical) extent.include(x);
+    }
+  }
+  if (extent.low[0] > extent.high[0]) extent.include(Vec<2>::Zero());
+  return extent;
+}
+
+/// The scale at which the plot fits, with its left edge; its top depends on what stands above it.
+View fitted_view(const Extent& extent, double dx) {
+  View view;
+  view.low = extent.low.array() - 1.5 * dx;
+  view.high = extent.high.array() + 1.5 * dx;
+  const Vec<2> size = view.high - view.low;
+  view.scale = std::min(plot_width / size[0], plot_height / size[1]);
+  view.left = margin + axis_margin;
+  view.top = 0.0;
+  return view;
+}
+
+template <int Dim>
+void draw_wall_particles(Svg& svg, const WallParticles<Dim>& walls, const View& view, double diameter) {
+  // Seen along y, the walls before and behind the scene would hide it.
+  std::vector<Vec<Dim>> shown;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) shown.push_back(walls.position[i]);
+  }
+  if (shown.size() <= most_dots) svg.dots(shown, view, dummy_colour, diameter);
+}
+
+template <int Dim>
+void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid, const View& view, double diameter) {
+  if (fluid.position.size() <= most_dots) {
+    svg.dots(fluid.position, view, fluid_colour, diameter);
+    return;
+  }
+  for (const FluidTable& block : spec.fluid) {
+    std::vector<Vec<2>> corners;
+    if (block.shape == BlockShape::polygon) {
+      for (const Coordinates& x : block.points) corners.push_back(view(project(x)));
+    } else {
+      const Vec<2> low = view(project(block.min));
+      const Vec<2> high = view(project(block.max));
+      corners = {low, {high[0], low[1]}, high, {low[0], high[1]}};
+    }
+    svg.outline(corners, fluid_colour, fluid_colour);
+  }
+}
+
+template <int Dim>
+void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
+  for (const WallFace<Dim>& face : boundary.faces) {
+    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
+      const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
+      const bool is_diagonal_of_rectangle = Dim == 3 && edge.cwiseAbs().maxCoeff() < (1.0 - 1e-9) * edge.norm();
+      if (is_diagonal_of_rectangle) continue;
+      svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), wall_colour, 1.5);
+    }
+  }
+}
+
+/// A marker with its name in the given row above the plot, and a line down to it.
+void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
+  const double baseline = view.top - 10.0 - row * line_height;
+  std::vector<Vec<2>> points;
+  for (const Vec<2>& x : marker.points) points.push_back(view(marker.is_vertical ? Vec<2>(x[0], view.high[1]) : x));
+  const double end = marker.is_vertical ? view.bottom() : points[0][1];
+  svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.6" )"
+          R"(stroke-dasharray="4 3"/>)",
+          points[0][0], baseline - 8.0, end, probe_colour);
+  if (points.size() == 2) svg.line(points[0], points[1], probe_colour, 3.0);
+  if (!marker.is_vertical) {
+    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="{}"/>)", points[0][0], points[0][1], probe_colour);
+  }
+  svg.text(points[0][0] + 4.0, baseline, "start", marker.name);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -221,33 +313,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
   const std::vector<Outlet<Dim>> outlets = make_outlets<Dim>(spec);
-
-  Extent extent;
-  for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
-  for (const Vec<Dim>& x : walls.position) extent.include(project(x));
-  for (const WallFace<Dim>& face : boundary.faces) {
-    for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
-  }
-  for (const Outlet<Dim>& outlet : outlets) {
-    for (const WallFace<Dim>& face : outlet.as_faces()) {
-      for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
-    }
-  }
-  for (const Marker& marker : markers) {
-    for (const Vec<2>& x : marker.points) {
-      if (!marker.is_vertical) extent.include(x);
-    }
-  }
-  if (extent.low[0] > extent.high[0]) {
-    extent.include(Vec<2>::Zero());
-  }
-  View view;
-  view.low = extent.low.array() - 1.5 * dx;
-  view.high = extent.high.array() + 1.5 * dx;
-  const Vec<2> size = view.high - view.low;
-  view.scale = std::min(plot_width / size[0], plot_height / size[1]);
-  view.left = margin + axis_margin;
-  view.top = 0.0;
+  View view = fitted_view(extent_of(boundary, fluid, walls, outlets, markers), dx);
 
   std::vector<double> label_x;
   std::vector<std::string> names;
@@ -275,62 +341,15 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   svg.text(view.left, 28.0, "start", spec.general.title, 1.35 * font_size);
   svg.text(view.left, 50.0, "start", summary);
 
-  // Seen along y, the walls before and behind the scene would hide it.
-  std::vector<Vec<Dim>> shown_walls;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) {
-      shown_walls.push_back(walls.position[i]);
-    }
-  }
-  if (shown_walls.size() <= most_dots) {
-    svg.dots(shown_walls, view, dummy_colour, 0.85 * dx * view.scale);
-  }
-  if (fluid.position.size() <= most_dots) {
-    svg.dots(fluid.position, view, fluid_colour, 0.85 * dx * view.scale);
-  } else {
-    for (const FluidTable& block : spec.fluid) {
-      std::vector<Vec<2>> corners;
-      if (block.shape == BlockShape::polygon) {
-        for (const Coordinates& x : block.points) corners.push_back(view(project(x)));
-      } else {
-        const Vec<2> low = view(project(block.min));
-        const Vec<2> high = view(project(block.max));
-        corners = {low, {high[0], low[1]}, high, {low[0], high[1]}};
-      }
-      svg.outline(corners, fluid_colour, fluid_colour);
-    }
-  }
-  for (const WallFace<Dim>& face : boundary.faces) {
-    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
-      const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
-      const bool is_diagonal_of_rectangle = Dim == 3 && edge.cwiseAbs().maxCoeff() < (1.0 - 1e-9) * edge.norm();
-      if (!is_diagonal_of_rectangle) {
-        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), wall_colour, 1.5);
-      }
-    }
-  }
+  const double diameter = 0.85 * dx * view.scale;
+  draw_wall_particles(svg, walls, view, diameter);
+  draw_fluid(svg, spec, fluid, view, diameter);
+  draw_walls(svg, boundary, view);
   draw_outlets(svg, outlets, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
   svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");
-
-  for (std::size_t i = 0; i < markers.size(); ++i) {
-    const double baseline = view.top - 10.0 - rows[i] * line_height;
-    std::vector<Vec<2>> points;
-    for (const Vec<2>& x : markers[i].points)
-      points.push_back(view(markers[i].is_vertical ? Vec<2>(x[0], view.high[1]) : x));
-    const Vec<2> end = markers[i].is_vertical ? Vec<2>(points[0][0], view.bottom()) : points[0];
-    svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.6" )"
-            R"(stroke-dasharray="4 3"/>)",
-            points[0][0], baseline - 8.0, end[1], probe_colour);
-    if (points.size() == 2) {
-      svg.line(points[0], points[1], probe_colour, 3.0);
-    }
-    if (!markers[i].is_vertical) {
-      svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="{}"/>)", points[0][0], points[0][1], probe_colour);
-    }
-    svg.text(label_x[i] + 4.0, baseline, "start", markers[i].name);
-  }
+  for (std::size_t i = 0; i < markers.size(); ++i) draw_marker(svg, markers[i], rows[i], view);
   svg.add("</svg>");
   return svg.str();
 }

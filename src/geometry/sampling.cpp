@@ -28,22 +28,22 @@ double random_number(std::uint64_t seed, std::uint64_t particle, int axis) {
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
 }
 
-enum class Place { outside, on_outline, inside };
+enum class Where { outside, on_outline, inside };
 
-/// Where `x` is with respect to a polygon whose outline is `tolerance` thick: parity of the edges to the right of it.
-Place locate(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
+/// Where `x` is in a polygon whose outline is `tolerance` thick: parity of the edges to the right of it.
+Where where_in(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
   bool is_inside = false;
   for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
     const Vec<2>& a = corners[last];
     const Vec<2>& b = corners[i];
     if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance) {
-      return Place::on_outline;
+      return Where::on_outline;
     }
     if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {
       is_inside = !is_inside;
     }
   }
-  return is_inside ? Place::inside : Place::outside;
+  return is_inside ? Where::inside : Where::outside;
 }
 
 /// One block's lattice: node (i, j, k) stands at low + (index + offset) dx.
@@ -61,7 +61,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const s
   Lattice<Dim> lattice;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw InputError(fmt::format("{}: a polygon exists in 2D only: in 3D use shape = \"box\"", owner));
+      throw InputError(fmt::format("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\"", owner));
     } else {
       for (std::size_t k = 0; k < block.points.size(); ++k) {
         lattice.outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
@@ -83,9 +83,8 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const s
     const double extent = lattice.high[axis] - lattice.low[axis];
     if (extent <= 0.0) {
       throw InputError(
-          fmt::format("{} has no extent in {}: it ends at {} and starts at {}; its highest corner must lie "
-                      "above its lowest",
-                      owner, "xyz"[axis], lattice.high[axis], lattice.low[axis]));
+          fmt::format("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
+                      owner, "xyz"[axis], lattice.low[axis], lattice.high[axis]));
     }
     const bool is_on_nodes = spec.scheme.walls != WallTreatment::dummies && periodic_range(spec.domain, axis).empty();
     const double cells = extent / dx;
@@ -152,83 +151,92 @@ bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
   return block.shape == BlockShape::polygon || !is_axis_parallel;
 }
 
-}  // namespace
+/// Is `x` a lattice place that no fluid particle takes, because a wall particle stands there or because it is behind
+/// the wall?
+template <int Dim>
+bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const Vec<Dim>& x) {
+  const double dx = spec.particles.spacing;
+  const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+  if (wall.face < 0) return false;
+  if (spec.scheme.walls != WallTreatment::dummies) {
+    return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
+  }
+  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
+}
 
-int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
+/// `x`, or the place least_wall_distance before the wall that it is too near to.
+template <int Dim>
+Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x, double dx) {
+  // In a corner, moving away from one wall may approach the next: as many moves as walls can meet.
+  for (int move = 0; move < Dim; ++move) {
+    const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+    const double missing = least_wall_distance * dx - wall.signed_distance;
+    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) break;
+    x += missing * boundary.faces[wall.face].normal;
+  }
+  return x;
+}
+
+/// Chooses the places of a block's lattice that are in the block: all of a box; of a polygon those inside, and every
+/// second one on its outline.
+template <int Dim>
+class InBlock {
+ public:
+  InBlock(const Lattice<Dim>& lattice, double dx) : lattice_(lattice), tolerance_(corner_tolerance * dx) {}
+
+  /// To be called for each place once, in order.
+  bool operator()(const Vec<Dim>& x) {
+    if constexpr (Dim == 2) {
+      if (!lattice_.outline.empty()) {
+        const Where where = where_in(lattice_.outline, x, tolerance_);
+        if (where == Where::on_outline) return takes_next_on_outline_ = !takes_next_on_outline_;
+        return where == Where::inside;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Lattice<Dim>& lattice_;
+  double tolerance_;
+  bool takes_next_on_outline_ = false;
+};
+
+/// Calls visit(x) for every place of the lattice, along x first.
+template <int Dim, class Visit>
+void for_each_place(const Lattice<Dim>& lattice, double dx, Visit&& visit) {
+  std::array<int, Dim> node{};
+  for (int axis = 0; axis < Dim;) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = lattice.low[k] + (node[k] + lattice.offset[k]) * dx;
+    visit(x);
+    for (axis = 0; axis < Dim && ++node[axis] == lattice.count[axis]; ++axis) node[axis] = 0;
+  }
+}
+
+}  // namespace
 
 template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
   const double jitter = spec.particles.jitter * dx;
-  const bool walls_are_particles = spec.scheme.walls != WallTreatment::dummies;
   FluidParticles<Dim> fluid;
-
-  const auto is_left_to_wall = [&](const FluidTable& block, const Vec<Dim>& x) {
-    const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
-    if (wall.face < 0) {
-      return false;
-    }
-    if (walls_are_particles) {
-      return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
-    }
-    return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
-  };
-  const auto keep_off_walls = [&](const FluidTable& block, Vec<Dim>& x) {
-    // In a corner, moving away from one wall may approach the next: as many moves as walls can meet.
-    for (int move = 0; move < Dim; ++move) {
-      const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
-      const double missing = least_wall_distance * dx - wall.signed_distance;
-      if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) {
-        return;
-      }
-      x += missing * boundary.faces[wall.face].normal;
-    }
-  };
-
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const FluidTable& block = spec.fluid[b];
-    const std::string owner = fmt::format("fluid '{}'", name_or_number(block.name, "fluid", b));
+    const std::string owner = fluid_label(spec, b);
     const Lattice<Dim> lattice = make_lattice<Dim>(spec, block, owner);
     StartVelocity<Dim> velocity(spec, block, owner);
-    bool takes_next_on_outline = true;
-    const auto add = [&](Vec<Dim> x) {
-      if constexpr (Dim == 2) {
-        if (!lattice.outline.empty()) {
-          const Place where = locate(lattice.outline, x, corner_tolerance * dx);
-          if (where == Place::outside) {
-            return;
-          }
-          if (where == Place::on_outline) {
-            takes_next_on_outline = !takes_next_on_outline;
-            if (takes_next_on_outline) {
-              return;
-            }
-          }
-        }
-      }
-      if (is_left_to_wall(block, x)) {
-        return;
-      }
+    InBlock<Dim> is_in_block(lattice, dx);
+    for_each_place<Dim>(lattice, dx, [&](Vec<Dim> x) {
+      if (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x)) return;
       for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
         x[axis] += jitter * random_number(spec.particles.seed, fluid.position.size(), axis);
       }
-      keep_off_walls(block, x);
+      x = kept_off_walls(boundary, block, x, dx);
       fluid.position.push_back(x);
       fluid.velocity.push_back(velocity.at(x));
       fluid.block.push_back(static_cast<int>(b));
-    };
-
-    std::array<int, Dim> node{};
-    for (int axis = 0; axis < Dim;) {
-      Vec<Dim> x;
-      for (int k = 0; k < Dim; ++k) {
-        x[k] = lattice.low[k] + (node[k] + lattice.offset[k]) * dx;
-      }
-      add(x);
-      for (axis = 0; axis < Dim && ++node[axis] == lattice.count[axis]; ++axis) {
-        node[axis] = 0;
-      }
-    }
+    });
   }
   return fluid;
 }

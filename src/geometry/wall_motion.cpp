@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/for_each.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 
@@ -98,12 +99,12 @@ void WallMotion<Dim>::place(double time, Boundary<Dim>& boundary, WallParticles<
     for (std::size_t f = 0; f < drawn_faces_.size(); ++f) {
       if (drawn_faces_[f].wall == moving.wall) boundary.faces[f] = moved(motion, drawn_faces_[f]);
     }
-    for (std::size_t row = 0; row < drawn_particles_.size(); ++row) {
-      if (drawn_particles_.wall[row] != moving.wall) continue;
+    for_each(drawn_particles_.size(), [&](std::size_t row) {
+      if (drawn_particles_.wall[row] != moving.wall) return;
       particles.position[row] = motion(drawn_particles_.position[row]);
       particles.normal[row] = motion.linear * drawn_particles_.normal[row];
       particles.blocked[row] = motion.linear * drawn_particles_.blocked[row] * motion.linear.transpose();
-    }
+    });
   }
 }
 
@@ -111,9 +112,9 @@ template <int Dim>
 void WallMotion<Dim>::get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const {
   for (const MovingWall& moving : moving_) {
     const AffineMap<Dim> map = moving.path.mean_velocity(from, to);
-    for (std::size_t row = 0; row < drawn_particles_.size(); ++row) {
+    for_each(drawn_particles_.size(), [&](std::size_t row) {
       if (drawn_particles_.wall[row] == moving.wall) velocity[row] = map(drawn_particles_.position[row]);
-    }
+    });
   }
 }
 

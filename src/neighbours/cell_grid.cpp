@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/for_each.h"
+
 namespace tailwater {
 namespace {
 
@@ -11,10 +13,12 @@ namespace {
 /// the farthest first.
 template <int Dim>
 std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
-  Vec<Dim> mean = Vec<Dim>::Zero();
-  for (const Vec<Dim>& position : positions) mean += position / static_cast<double>(positions.size());
-  Vec<Dim> spread = Vec<Dim>::Zero();
-  for (const Vec<Dim>& position : positions) spread += (position - mean).cwiseAbs2();
+  const Vec<Dim> zero = Vec<Dim>::Zero();
+  const Vec<Dim> mean = sum_over(positions.size(), zero, [&](std::size_t i) -> Vec<Dim> {
+    return positions[i] / static_cast<double>(positions.size());
+  });
+  const Vec<Dim> spread =
+      sum_over(positions.size(), zero, [&](std::size_t i) -> Vec<Dim> { return (positions[i] - mean).cwiseAbs2(); });
   std::array<int, Dim> axes;
   std::iota(axes.begin(), axes.end(), 0);
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
@@ -51,12 +55,11 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
     cells *= count_[d];
   }
 
+  // A counting sort: cells of the particles, particles of each cell, and where each cell begins.
   std::vector<std::int64_t> cell(positions.size());
+  for_each(positions.size(), [&](std::size_t i) { cell[i] = flat_index(positions[i]); });
   cell_begin_.assign(cells + 1, 0);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    cell[i] = flat_index(positions[i]);
-    ++cell_begin_[cell[i] + 1];
-  }
+  for (const std::int64_t c : cell) ++cell_begin_[c + 1];
   for (std::int64_t c = 0; c < cells; ++c) {
     cell_begin_[c + 1] += cell_begin_[c];
   }

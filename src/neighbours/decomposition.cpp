@@ -1,8 +1,7 @@
 #include "neighbours/decomposition.h"
 
-#include <numeric>
-
 #include "base/assert.h"
+#include "base/for_each.h"
 #include "parallel/exchange_plan.h"
 
 namespace tailwater {
@@ -36,7 +35,7 @@ Sharing Decomposition<Dim>::share_out(Particles<Dim>& particles, std::span<const
   TAILWATER_ASSERT(work.size() == particles.owned, "one cost per owned particle");
   particles.resize(particles.owned);
 
-  const double own = std::accumulate(work.begin(), work.end(), 0.0);
+  const double own = sum_over(work.size(), 0.0, [&](std::size_t i) { return work[i]; });
   const double all = ranks_.sum(own);
   if (all > 0.0) sharing.imbalance = ranks_.largest(own) * ranks_.size() / all - 1.0;
   if (!cuts_.are_made() || sharing.imbalance > tolerated_imbalance_) {

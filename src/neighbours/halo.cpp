@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/for_each.h"
+
 namespace tailwater {
 
 namespace {
@@ -48,7 +50,7 @@ void Halo<Dim>::exchange_positions(std::vector<Vec<Dim>>& position) const {
   }
   const std::span<const std::int32_t> sent = plan.sent();
   std::vector<Vec<Dim>> image(sent.size());
-  for (std::size_t k = 0; k < sent.size(); ++k) image[k] = position[sent[k]] + shift[k];
+  for_each(sent.size(), [&](std::size_t k) { image[k] = position[sent[k]] + shift[k]; });
   plan.deliver(std::span<const Vec<Dim>>(image), position);
 }
 
@@ -66,7 +68,8 @@ Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position) {
 template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles) {
   if (std::ranges::none_of(domain, [](const auto& interval) { return interval.has_value(); })) return;
-  for (std::size_t i = 0; i < particles.owned; ++i) particles.position[i] = wrapped<Dim>(domain, particles.position[i]);
+  for_each(particles.owned,
+           [&](std::size_t i) { particles.position[i] = wrapped<Dim>(domain, particles.position[i]); });
 }
 
 template <int Dim>

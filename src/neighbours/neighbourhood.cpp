@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/for_each.h"
+
 namespace tailwater {
 namespace {
 
@@ -15,9 +17,7 @@ constexpr double wall_pair_cost = 0.3;
 template <class Value>
 void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
   std::vector<Value> picked(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    picked[i] = field[kept[i]];
-  }
+  for_each(kept.size(), [&](std::size_t i) { picked[i] = field[kept[i]]; });
   field.swap(picked);
 }
 
@@ -79,10 +79,10 @@ template <int Dim>
 std::vector<double> Neighbourhood<Dim>::work(const Particles<Dim>& particles) const {
   std::vector<double> work(particles.owned, 1.0);
   if (!has_lists_ || list_.row_begin.size() != particles.owned + 1) return work;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  for_each(particles.owned, [&](std::size_t i) {
     const auto neighbours = static_cast<double>(list_.row_begin[i + 1] - list_.row_begin[i]);
     work[i] = row_cost + (particles.is_fluid(i) ? 1.0 : wall_pair_cost) * neighbours;
-  }
+  });
   return work;
 }
 
@@ -90,10 +90,9 @@ template <int Dim>
 bool Neighbourhood<Dim>::lists_are_valid(const Particles<Dim>& particles) const {
   if (!has_lists_ || position_at_rebuild_.size() != particles.owned) return false;
   const double limit = 0.25 * skin_ * skin_;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if ((particles.position[i] - position_at_rebuild_[i]).squaredNorm() > limit) return false;
-  }
-  return true;
+  return count_each(particles.owned, [&](std::size_t i) {
+           return (particles.position[i] - position_at_rebuild_[i]).squaredNorm() > limit;
+         }) == 0;
 }
 
 template <int Dim>
@@ -109,6 +108,7 @@ void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
 
   list_.row_begin.resize(particles.owned + 1);
   list_.j.clear();
+  // Rows are put one behind the other, so this loop goes in order.
   std::vector<std::int32_t> buffer(particles.size());
   std::int32_t* const row = buffer.data();
   const Vec<Dim>* const position = particles.position.data();

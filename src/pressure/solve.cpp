@@ -46,7 +46,7 @@ std::size_t cut_suction(Flow<Dim>& flow, const std::vector<std::uint8_t>& is_hel
 }
 
 PressureReport report_of(const SolveReport& solved) {
-  PressureReport report{.iterations = solved.iterations, .residual = solved.residual};
+  PressureReport report{.iterations = solved.iterations, .residual = solved.residual, .interventions = {}};
   report.interventions.restarted_solves = solved.restarts;
   return report;
 }

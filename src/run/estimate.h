@@ -1,14 +1,41 @@
-// What a run will take, before it is started: time steps, memory, hours.
+// What a run will take, known before it is started: particles, memory, time steps, hours.
 #pragma once
 
 #include "case/spec.h"
 #include "flow/flow.h"
+#include "geometry/finding.h"
 
 namespace tailwater {
 
+/// Particles to come, counted from the shapes' measures; a double, since a mistyped spacing asks for more than an
+/// integer can hold.
+struct ParticleCount {
+  double fluid = 0.0;
+  double wall = 0.0;
+};
+
+/// Throws InputError like make_boundary and make_fluid_particles do, but makes no particle.
+template <int Dim>
+ParticleCount expected_particle_count(const CaseSpec& spec);
+
+/// Particles within the kernel's support (in dx) of a particle on a regular lattice.
+template <int Dim>
+double neighbours_in_support(double support);
+
+/// Memory of a run [bytes] with `count` particles that have `neighbours` each on average. An estimate from above of
+/// what is held at once: fields, neighbour lists with kernel values, matrix and preconditioner.
+template <int Dim>
+double memory_estimate(const ParticleCount& count, double neighbours);
+
+/// Memory that programs can still take on this machine, bytes (MemAvailable of /proc/meminfo). Throws IoError.
+double available_memory();
+
+/// To be called before any particle is made: an error when the case needs more than `available` bytes.
+template <int Dim>
+Findings check_memory(const CaseSpec& spec, double available);
+
 struct RunEstimate {
-  double fluid_particles = 0.0;
-  double wall_particles = 0.0;
+  ParticleCount particles;
   double memory = 0.0;   ///< bytes
   double steps = 0.0;    ///< to the end, if speeds stay near those of free fall through the fluid's height
   double seconds = 0.0;  ///< of this machine, from trial steps

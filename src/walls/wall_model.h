@@ -11,7 +11,7 @@
 #include "case/choices.h"
 #include "closures/surroundings.h"
 #include "geometry/boundary.h"
-#include "geometry/sampling.h"
+#include "geometry/wall_particles.h"
 #include "linear/linear_system.h"
 #include "neighbours/neighbourhood.h"
 #include "particles/particles.h"

@@ -28,7 +28,7 @@ def violations(src):
             if other not in below:
                 yield f"src/{name}/CMakeLists.txt: room {name} links {other}, which does not stand below it"
         allowed = set(below if declared is None else declared) | {name}
-        for file in sorted((src / name).glob("*")):
+        for file in sorted((src / name).rglob("*")):
             if file.suffix not in {".h", ".cpp"}:
                 continue
             for included in re.findall(r'#include "(\w+)/', file.read_text()):

@@ -152,7 +152,7 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   spec.walls = {box_wall({0, 1}, {1, 1})};
   EXPECT_TRUE(contains(input_error_of(spec), "no extent in y"));
   spec.walls = {box_wall({0, 0}, {1, 1}, {"top"})};
-  EXPECT_TRUE(contains(input_error_of(spec), "\"top\" is no face"));
+  EXPECT_TRUE(contains(input_error_of(spec), "\"top\" is not a face"));
   spec.walls = {box_wall({0, 0}, {1, 1}, {"-x", "+x", "-y", "+y"})};
   EXPECT_TRUE(contains(input_error_of(spec), "no face left"));
   spec = empty_case(0.1, 3);

@@ -212,41 +212,11 @@ TEST(Check, PeriodicDirectionTooNarrow) {
   expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
 }
 
-TEST(CheckMemory, CountsParticlesFromShapes) {
-  const ParticleCount count = expected_particle_count<2>(tank());
-  EXPECT_NEAR(count.fluid, 40.0, 1e-9);
-  EXPECT_NEAR(count.wall, 3 * (6 + 10 + 6), 1e-9);
-  CaseSpec spec = empty_case(0.1, 3);
-  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
-  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
-  EXPECT_NEAR(expected_particle_count<3>(spec).fluid, 80.0, 1e-9);
-  EXPECT_NEAR(expected_particle_count<3>(spec).wall, 3 * (50 + 2 * 60 + 2 * 30), 1e-9);
-}
-
-TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
-  CaseSpec spec = tank();
-  EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
-  spec.particles.spacing = 1e-12;
-  expect_only(check_memory<2>(spec, 1e9), Severity::error, {"spacing of 1e-12 m", "1 GB are free", "at least"});
-}
-
-TEST(CheckMemory, TheSpacingItProposesFits) {
-  CaseSpec spec = empty_case(1e-4);
-  spec.fluid = {box_fluid({0, 0}, {1, 1})};
-  // Memory for a hundredth of the 1e8 particles: ten times the spacing.
-  const double available = memory_estimate<2>(1e6, 0.0, neighbours_in_support<2>(spec.scheme.support));
-  expect_only(check_memory<2>(spec, available), Severity::error, {"at least 0.001 m"});
-  spec.particles.spacing = 1.001e-3;
-  EXPECT_TRUE(check_memory<2>(spec, available).empty());
-}
-
-TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }
-
 TEST(Check, ACrestAsHighAsTheEndsOfItsBed) {
   CaseSpec spec = empty_case(0.05);
   spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.6}, {2, 0}, {3, 0}, {3, 0.5}})};
   spec.fluid = {box_fluid({0, 0}, {0.5, 0.3})};
-  expect_only(check(spec), Severity::error, {"wall 'wall1' has a crest at (1.5, 0.6)", "0.1 m", "crest lower"});
+  expect_only(check(spec), Severity::error, {"wall 'wall1' has a crest at (1.5, 0.6)", "0.1 m", "lower the crest"});
   spec.walls[0].points[3][1] = 0.4;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   // A beach that is the end of its bed, and a bed that ends open.
@@ -426,7 +396,7 @@ TEST(Check, AnOutletThatCutsThroughWaterIsAnError) {
   expect_among(check(spec), Severity::error, {"'outlet1' cuts through fluid 'fluid1': 12 particles", "(2.05, 0.05)"});
   CaseSpec backward = open_channel();
   backward.outlets[0].direction = {-1.0, 0.0};
-  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "turn its direction round"});
+  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "the opposite direction"});
 }
 
 TEST(Check, AnOutletOffTheWallsIsAnError) {
@@ -447,7 +417,7 @@ TEST(Check, AnOutletOffTheWallsIsAnError) {
 TEST(Check, AnOutletInAPeriodicDirectionIsAnError) {
   CaseSpec spec = open_channel();
   spec.domain.periodic_x = {0.0, 2.0};
-  expect_among(check(spec), Severity::error, {"'outlet1'", "lets water out in x, a periodic direction"});
+  expect_among(check(spec), Severity::error, {"'outlet1'", "lets water out in x", "periodic_x"});
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ TEST(Outlet, IsARectangleIn3D) {
 
 TEST(Outlet, WithoutExtentOrOutsideIsRefused) {
   EXPECT_NE(refusal<2>(outlet({2.0, 0.0}, {2.0, 0.0})).find("outlet 'outlet1' has no extent"), std::string::npos);
-  EXPECT_NE(refusal<2>(outlet({1.0, 0.0}, {2.0, 0.0})).find("runs along its direction (1, 0)"), std::string::npos);
-  EXPECT_NE(refusal<3>(outlet({2.0, 0.0, 0.0}, {2.5, 1.0, 0.5})).find("no flat rectangle"), std::string::npos);
-  EXPECT_NE(refusal<3>(outlet({2.0, 0.0, 0.0}, {2.0, 0.0, 0.5})).find("no flat rectangle"), std::string::npos);
+  EXPECT_NE(refusal<2>(outlet({1.0, 0.0}, {2.0, 0.0})).find("lies along its direction (1, 0)"), std::string::npos);
+  EXPECT_NE(refusal<3>(outlet({2.0, 0.0, 0.0}, {2.5, 1.0, 0.5})).find("is not a flat rectangle"), std::string::npos);
+  EXPECT_NE(refusal<3>(outlet({2.0, 0.0, 0.0}, {2.0, 0.0, 0.5})).find("is not a flat rectangle"), std::string::npos);
 }
 
 }  // namespace

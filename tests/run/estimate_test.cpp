@@ -3,12 +3,55 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "geometry/cases.h"
 #include "run/pond.h"
 
 namespace tailwater {
 namespace {
+
+using testing_cases::box_fluid, testing_cases::box_wall, testing_cases::empty_case, testing_cases::tank;
+
+TEST(ParticleCount, FollowsFromTheShapes) {
+  const ParticleCount count = expected_particle_count<2>(tank());
+  EXPECT_NEAR(count.fluid, 40.0, 1e-9);
+  EXPECT_NEAR(count.wall, 3 * (6 + 10 + 6), 1e-9);
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  EXPECT_NEAR(expected_particle_count<3>(spec).fluid, 80.0, 1e-9);
+  EXPECT_NEAR(expected_particle_count<3>(spec).wall, 3 * (50 + 2 * 60 + 2 * 30), 1e-9);
+}
+
+void expect_one_error(const Findings& findings, const std::vector<std::string>& parts) {
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::error);
+  for (const std::string& part : parts) {
+    EXPECT_NE(findings[0].message.find(part), std::string::npos) << "'" << part << "' in " << findings[0].message;
+  }
+}
+
+TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
+  CaseSpec spec = tank();
+  EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
+  spec.particles.spacing = 1e-12;
+  expect_one_error(check_memory<2>(spec, 1e9), {"spacing of 1e-12 m", "1 GB are free", "at least"});
+}
+
+TEST(CheckMemory, TheSpacingItProposesFits) {
+  CaseSpec spec = empty_case(1e-4);
+  spec.fluid = {box_fluid({0, 0}, {1, 1})};
+  // Memory for a hundredth of the 1e8 particles: ten times the spacing.
+  const double available = memory_estimate<2>({.fluid = 1e6}, neighbours_in_support<2>(spec.scheme.support));
+  expect_one_error(check_memory<2>(spec, available), {"at least 0.001 m"});
+  spec.particles.spacing = 1.001e-3;
+  EXPECT_TRUE(check_memory<2>(spec, available).empty());
+}
+
+TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }
 
 TEST(ReachableEnd, LimitsTheStepsOfStillWater) {
   CaseSpec spec = pond_case<2>();
@@ -32,8 +75,8 @@ TEST(EstimateRun, CountsWhatThereIs) {
   const CaseSpec spec = pond_case<2>();
   Flow<2> flow(spec);
   const RunEstimate estimate = estimate_run(spec, flow);
-  EXPECT_EQ(estimate.fluid_particles, 8.0);
-  EXPECT_EQ(estimate.wall_particles, 0.0);
+  EXPECT_EQ(estimate.particles.fluid, 8.0);
+  EXPECT_EQ(estimate.particles.wall, 0.0);
   // Falling freely from rest, slower than sqrt(2 g L) for many steps: the rule's largest step holds.
   const double largest_step = spec.scheme.courant * 0.1 / std::sqrt(2.0 * 9.81 * 0.2);
   EXPECT_NEAR(estimate.steps, spec.time.end / largest_step, 1e-9 * estimate.steps);

@@ -1,0 +1,68 @@
+// The checks of a case's geometry, each in a file of its own that has its name. A new one is a file, a declaration here
+// and a line in check.cpp (in check_moving_walls, if it is about walls that move).
+#pragma once
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "geometry/finding.h"
+#include "geometry/sampling.h"
+
+namespace tailwater {
+
+/// Errors: no fluid; a block too small for a single particle. Warning: a box that is not a whole number of dx long.
+template <int Dim>
+Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
+/// Error: a periodic direction narrower than four supports, in which a particle would meet its own image.
+template <int Dim>
+Findings check_periodic_width(const CaseSpec& spec);
+
+/// Error: a wall that crosses itself.
+Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
+
+/// Error: a bed with a crest as high as its own ends. Water that reaches the crest has run over the ends before.
+Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
+
+/// Error: a wall thinner than its layers of wall particles, with water or another wall on its other side. Looks
+/// straight through each face from points dx apart, at most 50 per edge.
+template <int Dim>
+Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: blocks of fluid that overlap.
+template <int Dim>
+Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
+/// Errors: fluid behind a wall, on both sides of it, or too near to it. Warning: a gap between fluid and wall.
+template <int Dim>
+Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Errors: an outlet that lies across a periodic direction, whose rim is not on the walls, that overlaps a wall, or
+/// that cuts through water.
+template <int Dim>
+Findings check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Error: a place where the water would pour out of the case. Outlets count as closed.
+template <int Dim>
+Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// All about walls that move; `drawn` are the walls as the case file has them. Error: a wall that is not where it is
+/// drawn at t = 0. Walls without that error then go through the three checks below.
+template <int Dim>
+Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+/// Warning: a resting wall that ends where a moving one begins, with nothing behind it once that one has moved.
+Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
+
+/// Error: walls that move relative to each other and are nearer than dx at the start, when rows of particles stand on
+/// the walls: the two rows would lie in each other.
+template <int Dim>
+Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn);
+
+/// Errors, each with time and place: a wall that is at no finite place, is faster than water can be taken for
+/// incompressible, crosses a wall, comes nearer to one than dx, or leaves less room than there is water where that
+/// cannot get out. Follows the `moving` walls in steps of dx/4 from the start to the end of the run.
+template <int Dim>
+Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
+                     const std::vector<int>& moving);
+
+}  // namespace tailwater

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "geometry/checks/checks.h"
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+/// Faces that look up by less than this cosine carry no water: they are sides.
+constexpr double least_upward_cosine = 0.01;
+
+/// Height of the higher end of a polyline that ends on a rise; none where both ends lie level, as at an open end.
+std::optional<double> rim_height(const std::vector<Vec<2>>& points, const Vec<2>& up) {
+  std::optional<double> rim;
+  const auto look_at = [&](const Vec<2>& end, const Vec<2>& next) {
+    if (up.dot(end) > up.dot(next)) rim = rim ? std::max(*rim, up.dot(end)) : up.dot(end);
+  };
+  look_at(points.front(), points[1]);
+  look_at(points.back(), points[points.size() - 2]);
+  return rim;
+}
+
+}  // namespace
+
+Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
+  const Vec<2> gravity = gravity_of<2>(spec);
+  if (gravity.norm() == 0.0) return {};
+  const Vec<2> up = -gravity.normalized();
+  const double tolerance = corner_tolerance * spec.particles.spacing;
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (spec.walls[w].shape != WallShape::polyline) continue;
+    const std::string label = wall_label(boundary, static_cast<int>(w));
+    std::vector<Vec<2>> points;
+    for (const Coordinates& point : spec.walls[w].points) points.push_back(to_vec<2>(point, label, "points"));
+    const std::optional<double> rim = rim_height(points, up);
+    if (!rim) continue;
+    for (const WallFace<2>& face : boundary.faces) {
+      if (face.wall != static_cast<int>(w) || up.dot(face.normal) < least_upward_cosine) continue;
+      for (const Vec<2>& corner : face.corners) {
+        const bool is_end =
+            (corner - points.front()).norm() <= tolerance || (corner - points.back()).norm() <= tolerance;
+        if (is_end || up.dot(corner) < *rim) continue;
+        return {Finding::error(
+            "{} has a crest at {}, {:.6g} m higher than the higher of its ends: water would run over the ends before "
+            "it passes the crest; raise the ends, or lower the crest",
+            label, place(corner), up.dot(corner) - *rim)};
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace tailwater

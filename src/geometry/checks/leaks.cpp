@@ -1,0 +1,36 @@
+#include <limits>
+
+#include "geometry/cell_space.h"
+#include "geometry/checks/checks.h"
+#include "geometry/from_spec.h"
+#include "geometry/outlet.h"
+
+namespace tailwater {
+namespace {
+
+/// Cells larger than dx are taken rather than more than this many.
+constexpr double most_cells = 4e6;
+
+}  // namespace
+
+template <int Dim>
+Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.position.empty()) return {};
+  std::vector<WallFace<Dim>> faces = boundary.faces;
+  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+    const std::vector<WallFace<Dim>> closing = outlet.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
+  }
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells);
+  const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid.position), Vec<Dim>(gravity.normalized()));
+  if (!reached.way_out) return {};
+  const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());
+  return {Finding::error("the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
+                         place(*reached.way_out), wall_label(boundary, boundary.faces[wall.face].wall))};
+}
+
+template Findings check_leaks(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_leaks(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

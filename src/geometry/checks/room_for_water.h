@@ -1,0 +1,38 @@
+// The room that moving walls leave to the water.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "geometry/cell_space.h"
+#include "geometry/sampling.h"
+#include "geometry/wall_motion.h"
+
+namespace tailwater {
+
+template <int Dim>
+class RoomForWater {
+ public:
+  RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+  double water() const { return water_; }  ///< m^Dim
+
+  /// Walls have moved, each face by its `way`: cells that one has passed over hold no water any more.
+  void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& way);
+
+  struct Enclosed {
+    double volume;            ///< m^Dim, at most
+    std::vector<bool> walls;  ///< by face: does it hold the water?
+  };
+  /// Empty where the water can get out.
+  std::optional<Enclosed> enclosed() const;
+
+ private:
+  CellSpace<Dim> space_;
+  double water_;
+  std::vector<typename CellSpace<Dim>::Cell> wet_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,40 @@
+#include "geometry/wall_layers.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace tailwater {
+namespace {
+
+constexpr double least_distance = 0.5;  // dx, between wall particles
+
+/// What walls with these normals block together: the eigenvalues of the sum of n n^T clipped at 1.
+template <int Dim>
+Mat<Dim> blocked_by(const std::vector<Vec<Dim>>& normals) {
+  Mat<Dim> sum = Mat<Dim>::Zero();
+  for (const Vec<Dim>& n : normals) sum += n * n.transpose();
+  if (normals.size() == 1) return sum;
+  const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(sum);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMin(1.0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+template <int Dim>
+WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, double spacing)
+    : body_(body), tolerance_(corner_tolerance * spacing), taken_((least_distance - corner_tolerance) * spacing) {}
+
+template <int Dim>
+void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place) {
+  taken_.add(place.position);
+  Vec<Dim> mean = Vec<Dim>::Zero();
+  for (const Vec<Dim>& n : place.normals) mean += n;
+  particles_.position.push_back(place.position);
+  particles_.normal.push_back(mean.normalized());
+  particles_.blocked.push_back(blocked_by<Dim>(place.normals));
+  particles_.wall.push_back(place.wall);
+}
+
+template class WallParticleCollector<2>;
+template class WallParticleCollector<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,75 @@
+// What every kind of wall has in common on the way to its particles. A kind of wall geometry is one file: a function
+// that proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps those
+// that are free. It is declared at the end of this file and called in wall_particles.cpp.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "geometry/boundary.h"
+#include "geometry/point_grid.h"
+#include "geometry/wall_particles.h"
+
+namespace tailwater {
+
+/// The layers of particles asked for, `spacing` (m) apart.
+struct WallLayers {
+  double spacing;
+  int count;
+  bool starts_on_wall;  ///< the first layer stands on the wall; else spacing/2 behind it
+
+  double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
+};
+
+/// A place for a wall particle.
+template <int Dim>
+struct WallPlace {
+  Vec<Dim> position;
+  Vec<Dim> foot;                  ///< the point of its own wall nearest to it
+  std::vector<Vec<Dim>> normals;  ///< of the faces that act there: several at a corner
+  int wall = 0;                   ///< index into Boundary::walls
+};
+
+/// The particles of one body, first come, first kept: none stands nearer than spacing/2 to another.
+template <int Dim>
+class WallParticleCollector {
+ public:
+  WallParticleCollector(const Boundary<Dim>& body, double spacing);
+
+  /// Keeps the place if no other particle is near.
+  void add(const WallPlace<Dim>& place) {
+    if (!taken_.has_near(place.position)) keep(place);
+  }
+
+  /// The same, unless a face that is not the place's own (is_own(f), f an index into Boundary::faces) lies between the
+  /// place and its foot: then it is behind another wall.
+  template <class IsOwn>
+  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
+    if (taken_.has_near(place.position)) return;
+    for (std::size_t f = 0; f < body_.faces.size(); ++f) {
+      if (!is_own(f) && crosses(body_.faces[f], place.position, place.foot, tolerance_)) return;
+    }
+    keep(place);
+  }
+
+  /// To be called when all places on the wall itself have been proposed, before those behind it.
+  void end_of_places_on_wall() { particles_.on_wall = particles_.size(); }
+
+  WallParticles<Dim> particles() && { return std::move(particles_); }
+
+ private:
+  void keep(const WallPlace<Dim>& place);
+
+  const Boundary<Dim>& body_;
+  double tolerance_;  ///< m
+  PointGrid<Dim> taken_;
+  WallParticles<Dim> particles_;
+};
+
+/// 2D: faces joined to chains (wall_chains.cpp).
+WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
+
+/// 3D: axis-parallel boxes (wall_boxes.cpp).
+WallParticles<3> sample_boxes(const Boundary<3>& body, const WallLayers& layers);
+
+}  // namespace tailwater
