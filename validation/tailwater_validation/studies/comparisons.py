@@ -3,8 +3,6 @@
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from .. import janosi2004, plots, soares_frazao2002
 from ..checks import Check
 from ..metric import Metric
@@ -18,16 +16,11 @@ def milliseconds(run):
     return 1000 * summary("steps", "dt_mean_s", run)
 
 
-def passes(run):
-    return float(np.mean(run.steps()["passes"]))
-
-
 # {key: (words, unit, how it is read from a run)}
 GENERAL = {
     "rise": ("largest rise of the energy", "of the start", partial(summary, "energy", "largest_rise_over_start")),
     "density": ("density error, rms", "", partial(summary, "volume", "density_error_rms")),
     "dt": ("time step, mean", "ms", milliseconds),
-    "passes": ("passes per step", "", passes),
     "iterations": ("iterations per solve", "", partial(summary, "pressure_solver", "iterations_per_solve")),
     "cost": ("CPU time per simulated second", "s", partial(summary, "cost", "cpu_s_per_simulated_s")),
 }
@@ -87,8 +80,6 @@ def integrators(plan):
         Check(Metric("integrators.cost_ratio", "CPU time per simulated second, implicit over explicit", "",
                      "the paper: about twice or more", paper=2.0), both,
               partial(ratio, partial(summary, "cost", "cpu_s_per_simulated_s"))),
-        Check(Metric("integrators.passes", "passes per step, implicit", "", "the paper: 8 to 30", paper=8.0, high=3.0),
-              (implicit,), passes),
         *(Check(Metric(f"integrators.{key}_ratio", f"{words}: implicit over explicit", "",
                        "the paper's claim: below 1"), both, partial(ratio, read))
           for key, (words, _, read) in ZHOU.items() if key in ("H2", "H1", "pressure", "noise")),
