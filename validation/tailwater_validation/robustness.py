@@ -1,8 +1,8 @@
-"""The gates of the robust core: which runs they need, what is read from them, and the bars.
+"""The gates of the robust core: the runs they need, the numbers read from them, and the bars.
 
 `tailwater bench robustness` runs this module: it makes the runs, scores them and writes OUT/bench.json and
-OUT/bench.md. Both integrators and all cases run with the defaults; `--set` changes the default under test, but not what
-a gate is about (its start, its spacing).
+OUT/bench.md. All cases and both integrators run with the defaults. `--set` changes the default under test, but not what
+defines a gate (its start, its spacing).
 
 Usage: python -m tailwater_validation.robustness --program FILE [--out DIR] [--level quick|full] [--gate NAME]...
 Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
@@ -45,13 +45,13 @@ class Gate:
 
 @dataclass(frozen=True)
 class Bench:
-    """How the gates' runs are made: the settings under test, and whether all of the table is."""
+    """How the runs of the gates are made: the settings under test, and whether the level is full."""
 
     settings: tuple = ()
     is_full: bool = False
 
     def run(self, name, case, settings=(), seconds=10.0):
-        """Settings of the run itself come last: they win."""
+        """Settings of the run itself come last and override those under test."""
         return Run(name, CASES / case, (*self.settings, *settings), seconds)
 
     def zhou(self, dx, T, start="regular", integrator="explicit", variant="", settings=()):
@@ -68,7 +68,7 @@ class Bench:
 
 
 def tank_gate(bench, name, what, case, dx, end, seconds, factor=1.0, is_implicit_quick=False):
-    """Still water; with `factor` times the bars."""
+    """Still water; the bars are multiplied by `factor`."""
     checks = []
     for integrator in bench.integrators if bench.is_full or is_implicit_quick else ("explicit",):
         run = bench.run(f"{name}_{integrator}", case,
@@ -118,7 +118,7 @@ def count_finished(runs, out):
 
 
 def largest(read, runs, out):
-    """Over those that finished; the others are missed already."""
+    """The largest value of the runs that finished; those that did not miss the bar of finishing."""
     values = [read(finished(run, out)) for run in runs if outcome(out / "runs" / run.name).get("exit_code") == 0]
     if not values:
         raise DataError("none of the runs finished")
@@ -221,7 +221,7 @@ def laboratory_gate(bench):
             checks.append(Check(
                 Metric(f"{label}.{reading}.falls",
                        f"RMS at dx = {spacings[-1]:g} over that at {spacings[0]:g}, {text}, {integrator}", "",
-                       "should fall: below 1"), (runs[spacings[0]], runs[spacings[-1]]),
+                       "should be below 1"), (runs[spacings[0]], runs[spacings[-1]]),
                 lambda coarse, fine, reading=reading: laboratory_rms(reading, fine) / laboratory_rms(reading, coarse)))
     return Gate("laboratory", "wall pressure against Zhou, T = 2.4..7, shift within 0.12", tuple(checks))
 
@@ -300,7 +300,7 @@ def implicit_gate(bench):
     return Gate("implicit", "divergence left and energy lost, Zhou, dx = 0.015", tuple(checks))
 
 
-# Of equal cost: at its own, larger time step an implicit run costs what an explicit one does; the gate shows the ratio.
+# At its own, larger time step an implicit run costs about as much as an explicit one; the gate shows the ratio.
 EQUAL_COST_SPACING = 0.015
 
 
@@ -367,7 +367,7 @@ def score(chosen, program, options):
 def main(arguments=None):
     parser = command.Parser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
-                        help="quick: a subset in about ten minutes; full: the whole table, many hours")
+                        help="quick: a part of the gates' runs, about ten minutes; full: all of them, many hours")
     parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="change the default under test, as in --set scheme.courant=0.2; may be repeated")
