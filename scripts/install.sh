@@ -7,7 +7,7 @@ build_packages=(
   libpetsc-real-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
 )
-test_packages=(libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9)
+test_packages=(libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9 clang-format clang-tidy)
 picture_packages=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
 
 wanted=("${build_packages[@]}" "${test_packages[@]}" "${picture_packages[@]}")

@@ -13,9 +13,8 @@ namespace tailwater {
 
 void add_new_command(CLI::App& app, ExitCode& code);
 void add_check_command(CLI::App& app, ExitCode& code);
-/// `arguments` are the words of the command line after the program, with which other ranks are started.
-void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
-                     const std::vector<std::string>& arguments);
+/// `words` are those of the command line after the program, with which other ranks are started.
+void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words);
 void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
 void add_validate_command(CLI::App& app, ExitCode& code);

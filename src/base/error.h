@@ -14,7 +14,7 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-/// Base of everything that ends a command with a message to its user.
+/// Base of all errors that end a command with a message to its user.
 class UserError : public std::runtime_error {
  public:
   UserError(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

@@ -1,5 +1,5 @@
-// The named alternatives a case file can select. Each enumeration has its names here, once, in the enumerators' order:
-// the reader, the written effective case, the error messages and the help all use this list.
+// The named alternatives that a case file can select. Each enumeration lists its names here, once, in the order of its
+// enumerators; the reader, the effective case, the error messages and the help all use this list.
 #pragma once
 
 #include <array>
@@ -139,7 +139,7 @@ struct Choices<ProbeType> {
       "depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume"};
 };
 
-/// Faces of an axis-parallel box, by the direction in which they look; in 2D the first four.
+/// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.
 inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 /// Fields of the particles that can be written for ParaView.

@@ -78,7 +78,7 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
 
 double clamp(double x, double low, double high) { return std::min(std::max(x, low), high); }
 
-/// What muParser does not have.
+/// Functions that muParser does not have.
 void define_functions(mu::Parser& parser) { parser.DefineFun("clamp", clamp); }
 
 }  // namespace
@@ -90,7 +90,7 @@ struct Formula::State {
 
 Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span<const std::string_view> variables)
     : state_(std::make_unique<State>()) {
-  // Division by zero is told by the result.
+  // A division by zero shows in the result.
   const SuspendFpTraps suspended;
   mu::Parser& parser = state_->parser;
   state_->variables.resize(variables.size());
@@ -109,7 +109,7 @@ Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span
     parser.Eval(count);
     if (count != 1) {
       throw ExpressionError(
-          fmt::format("these are {} numbers, separated by commas; the decimal sign is the point", count));
+          fmt::format("these are {} numbers, separated by commas; write decimals with a point", count));
     }
   } catch (const mu::Parser::exception_type& error) {
     NamedNumbers known = numbers;

@@ -24,7 +24,7 @@ class ExpressionError : public std::runtime_error {
  public:
   explicit ExpressionError(const std::string& message, std::optional<std::string> unknown_name = {})
       : std::runtime_error(message), unknown_name_(std::move(unknown_name)) {}
-  /// The name that the expression uses and nobody defined, if that is the reason.
+  /// The undefined name that the expression uses, if that is the reason.
   const std::optional<std::string>& unknown_name() const { return unknown_name_; }
 
  private:
@@ -42,7 +42,7 @@ class Formula {
   Formula(Formula&&) noexcept;
   ~Formula();
 
-  /// Whether the value depends on where it is taken: the text names one of the variables.
+  /// Whether the value varies: the text uses one of the variables.
   bool uses_variables() const;
 
   /// The value with the variables at `values`, in their order; it may be infinite or not a number.

@@ -1,12 +1,12 @@
-// The defaults of [scheme] by `name` and `formulation`. What SchemeTable's initialisers say is farzin2014, robust.
+// The defaults of [scheme] by `name` and `formulation`. SchemeTable's initialisers are those of farzin2014, robust.
 #pragma once
 
 #include "case/spec.h"
 
 namespace tailwater {
 
-/// Sets the keys that depend on `scheme.name`, `scheme.formulation` and `scheme.integrator` to their defaults. To be
-/// called on the initialisers, before the keys given in the file are read.
+/// Sets the keys that depend on `scheme.name`, `scheme.formulation` and `scheme.integrator` to their defaults. Call it
+/// on the initialisers, before the keys given in the file are read.
 ///
 /// farzin2014, robust: only the implicit integrator's alpha, 0.5, differs from the initialisers.
 ///

@@ -20,7 +20,7 @@ std::vector<KeyInfo> defaults(SchemeName name, Formulation formulation,
   return keys_of(scheme);
 }
 
-/// What `row`, number `index` of its table, is if the file does not give it.
+/// The default of `row`, which is number `index` of its table.
 std::string default_text(const TableInfo& table, std::size_t index) {
   const KeyInfo& row = table.keys[index];
   if (row.presence == Presence::required) {
@@ -40,7 +40,7 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   static const auto two_step_robust = defaults(farmani, Formulation::robust);
   static const auto two_step_published = defaults(farmani, Formulation::published);
 
-  /// The value with the first and the second choice, each named only where it is news.
+  /// The values with the first and the second choice, each shown only where it differs from what is known.
   const auto pair = [](std::string_view first_name, const std::string& first, std::string_view second_name,
                        const std::string& second, const std::string& known) {
     std::string text = first == known ? "" : fmt::format("{}{}", first_name, first);
@@ -91,6 +91,23 @@ std::string cell(std::string_view text) {
 
 std::string functions_text() { return fmt::format("{}", fmt::join(function_names(), ", ")); }
 
+/// The text with its lines broken at spaces where they would exceed 120 characters; items of a list stay indented.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t width = 120;
+  std::string result;
+  std::size_t line = 0;  // where the current line begins in `result`
+  for (const char c : text) {
+    result += c;
+    if (c == '\n') line = result.size();
+    if (result.size() - line <= width) continue;
+    const std::string indent = result.compare(line, 2, "- ") == 0 || result.compare(line, 2, "  ") == 0 ? "  " : "";
+    const std::size_t space = result.rfind(' ');
+    result.replace(space, 1, "\n" + indent);
+    line = space + 1;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string case_help() {
@@ -122,38 +139,38 @@ std::string case_help() {
 }
 
 std::string case_reference_markdown() {
-  std::string text =
+  std::string text = wrapped(
       "# The case file\n\n"
       "Made by `tailwater run --help-case=markdown > docs/reference/case-file.md`; change `src/case/spec.h`, not this "
       "page.\n\n"
       "A case file is [TOML](https://toml.io). Unknown keys are errors, and all problems of a file are reported at "
       "once.\n\n"
       "## Numbers\n\n"
-      "Numbers are SI, without units. Wherever a number may stand, also inside lists, an expression in quotes may "
-      "stand:\n\n"
+      "Numbers are SI, without units. Any number, also one in a list, may be written as an "
+      "expression in quotes:\n\n"
       "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
       "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4; `a < b ? c : d` is c "
       "or "
       "d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
       "`particles.spacing`, `g` = the magnitude of `physics.gravity`; in `fluid.velocity` also `x`, `y`, `z`, the "
-      "particle's position, and in `wall.displacement` and `wall.rotation` the time `t`, which no parameter can be "
-      "called\n"
+      "particle's position, and in `wall.displacement` and `wall.rotation` the time `t`; none of these can name a "
+      "parameter\n"
       "- functions: " +
       functions_text() +
       "\n\n"
-      "`particles.spacing` may use parameters only, `physics.gravity` parameters and `dx`.\n\n"
+      "`particles.spacing` may use parameters only; `physics.gravity` may use parameters and `dx`.\n\n"
       "## Changes from the command line\n\n"
       "`--set key=value` replaces or adds one value: `--set scheme.integrator=implicit`, `--set parameters.H=0.5`, "
       "`--set 'fluid[0].max=[1, 2]'` (tables count from 0), `--set probe.NAME.interval=0.01`. Words and expressions "
       "need no "
       "quotes.\n\n"
       "## Tables\n\n"
-      "`[name]` stands once, `[[name]]` as often as wanted. *Goes with*: the shapes or types that the key belongs to; "
-      "it is an error with the others.\n\n"
+      "`[name]` appears once, `[[name]]` any number of times. *Goes with* names the shapes or types that a key belongs "
+      "to; with any other the key is an error.\n\n"
       "`scheme.formulation = \"published\"` changes the defaults marked *published*. It detects the free surface by "
-      "the cone; with `surface = \"farzin\"` the detection is the paper's own (F35). `scheme.name = \"farmani2020\"` "
-      "changes those marked *farmani2020*.\n";
+      "an empty cone; `surface = \"farzin\"` selects the paper's own detection (F35). `scheme.name = \"farmani2020\"` "
+      "changes those marked *farmani2020*.\n");
   for (const TableInfo& table : case_tables()) {
     text += fmt::format("\n### {}\n\n{}.\n\n", table.heading(), table.doc);
     text += "| key | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";

@@ -1,5 +1,5 @@
-// The keys of a table as rows of text: what the help, the reference page, the written effective case and the messages
-// about missing or misspelt keys are made of.
+// The keys of a table as rows of text. The help, the reference page, the effective case and the messages about missing
+// or misspelt keys are made from them.
 #pragma once
 
 #include <span>
@@ -16,16 +16,16 @@ namespace tailwater {
 /// One key of a table.
 struct KeyInfo {
   std::string_view key;
-  std::string type;   ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"; of what
-                      ///< may vary as the help shows it
-  std::string value;  ///< as TOML
+  std::string type;       ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"; of a
+                          ///< quantity that may vary, as the help shows it
+  std::string value;      ///< as TOML
   std::string_view unit;  ///< empty: none
   std::string allowed;    ///< the range of a number, the names of a choice; empty: anything of that type
   std::string_view doc;   ///< one line
   Presence presence = Presence::optional;
 };
 
-/// The range in words, such as "above 0" or "2 to 5"; empty if it is the whole line.
+/// The range in words, such as "above 0" or "2 to 5"; empty if all numbers are allowed.
 std::string range_text(const Range& range);
 
 /// Visitor for `describe` that makes the rows.
@@ -73,7 +73,7 @@ std::vector<KeyInfo> keys_of(const Table& table = {}) {
 /// One table of the case file with its keys and their defaults.
 struct TableInfo {
   std::string_view name;
-  bool is_list = false;  ///< [[name]], as often as wanted
+  bool is_list = false;  ///< [[name]], any number of times
   std::string_view doc;
   std::vector<KeyInfo> keys;
 

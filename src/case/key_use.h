@@ -1,5 +1,5 @@
-// Which keys of a block, wall, probe or scheme belong to which of its shapes, types or choices: the only home of that
-// rule.
+// Which keys of a block, wall, probe or scheme belong to which of its shapes, types or choices. This rule is stated
+// here only.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace tailwater {
 
-/// The keys that one choice needs or may have. A key that stands in no row of its table goes with every choice.
+/// The keys that one choice needs or may have. A key that is in no row of its table goes with every choice.
 struct KeyUse {
   std::string_view table;
   std::string_view selector;  ///< the key whose value chooses
@@ -32,8 +32,8 @@ struct KeyVerdict {
 };
 KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows);
 
-/// For the help: `shape = "box"`, or `type = "depth", "pressure"`, with "(needed)" where it is; empty if the key goes
-/// with every choice.
+/// For the help: `shape = "box"`, or `type = "depth", "pressure"`, with "(needed)" where it is needed; empty if the key
+/// goes with every choice.
 std::string key_use_text(std::string_view table, std::string_view key);
 
 }  // namespace tailwater

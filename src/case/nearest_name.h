@@ -13,8 +13,8 @@ namespace tailwater {
 /// distance). Upper and lower case count as equal.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The valid name nearest to `given`, if so near that it can be a slip of the pen: at most one edit per three letters
-/// of `given`, one in shorter names, none (but upper for lower case) in single letters.
+/// The valid name nearest to `given`, if it is near enough to be a slip: at most one edit per three letters of
+/// `given`, one in shorter names, none in single letters (but upper for lower case).
 std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid);
 
 /// The names in quotes, separated by commas.

@@ -21,7 +21,7 @@ constexpr std::string_view usage =
 /// One step down the tree: a name in a table, a name or a number in a list.
 using Step = std::variant<std::string, std::size_t>;
 
-/// Why an override has no place.
+/// Why the key of an override does not exist.
 struct Misplaced {
   std::string reason;
 };
@@ -30,7 +30,7 @@ std::size_t parse_index(std::string_view digits) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
   if (error != std::errc{} || end != digits.data() + digits.size()) {
-    throw Misplaced{fmt::format("\"[{}]\" is not a place in a list; {}", digits, usage)};
+    throw Misplaced{fmt::format("\"[{}]\" is not an index of a list; {}", digits, usage)};
   }
   return index;
 }

@@ -11,7 +11,7 @@ namespace tailwater {
 /// Puts the value of each override into the tree. An override is `scheme.courant=0.1`, `parameters.H=0.5`,
 /// `fluid[0].max=[1, 2]` (tables count from 0), `probe.NAME.interval=0.01` or `fluid[0].max[1]=2`. The value is TOML;
 /// what is not valid TOML is taken as a string, so that words and expressions need no quotes. The source of the new
-/// values names the override. Returns one line for each override that has no place in the tree.
+/// values names the override. Returns one line for each override whose key cannot exist in the tree.
 std::vector<std::string> apply_overrides(toml::table& root, const std::vector<std::string>& overrides);
 
 /// What a message calls the override that a value came from; the source path of its values.

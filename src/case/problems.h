@@ -1,4 +1,4 @@
-// The list of everything wrong with a case, so that its author reads all of it at once.
+// The list of all problems of a case, so that its author can read them all at once.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ class Problems {
   /// `source` is where the thing is, in the file or in an override; null: the file as a whole.
   void add(const toml::source_region* source, const std::string& message);
 
-  /// A complete line about an override that has no place in the file.
+  /// A complete line about an override whose key does not exist in the file.
   void add_override(const std::string& line);
 
   bool none() const { return lines_.empty(); }

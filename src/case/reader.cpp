@@ -23,13 +23,14 @@ namespace tailwater {
 
 namespace {
 
-/// Blocks, walls and probes are told apart by their names.
+/// Names of blocks, walls, outlets and probes must differ.
 template <class Table>
 void check_names(const std::vector<Table>& tables, std::vector<TableReader>& readers) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (tables[i].name == tables[j].name && !tables[i].name.empty()) {
-        const std::string message = fmt::format("the name \"{}\" is taken; give each its own", tables[i].name);
+        const std::string message =
+            fmt::format("the name \"{}\" is used twice; give each table a name of its own", tables[i].name);
         const bool is_given = readers[i].given("name") != nullptr;
         TableReader& reader = is_given ? readers[i] : readers[j];
         reader.wrong("name", *reader.given("name"), message);
@@ -167,7 +168,7 @@ void CaseReader::parameters(std::vector<Parameter>& parameters) {
   }
   for (const std::string& name : waiting) {
     report(*table->get(name), fmt::format("parameters.{}", name),
-           "uses itself by way of other parameters; give one of them a number");
+           "depends on itself through other parameters; give one of them a number");
     context_.numbers[name] = std::numeric_limits<double>::quiet_NaN();
   }
   for (const auto& [name, value] : context_.numbers) {
@@ -175,7 +176,7 @@ void CaseReader::parameters(std::vector<Parameter>& parameters) {
   }
 }
 
-/// The few keys that all others depend on: the dimension, the parameters, dx and g, in this order.
+/// Reads the few keys that all others depend on: the dimension, the parameters, dx and g, in this order.
 void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, const toml::table& root) {
   TableReader general(context, find_table(root, "case"), "case");
   general.read_ahead(spec.general, {"dimension"});
@@ -215,8 +216,9 @@ toml::table parse(const std::string& text, const std::string& file) {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     const toml::source_position where = error.source().begin;
-    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}; correct the line (texts stand in quotes, lists in [ ])",
-                                 file, where.line, where.column, error.description()));
+    throw InputError(
+        fmt::format("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
+                    where.line, where.column, error.description()));
   }
 }
 

@@ -1,7 +1,7 @@
-// What a case file can say: one struct per table, one `describe` per struct. `describe` is the single home of every
-// key: its name, default (the member's initialiser), unit, range and one line of documentation. The reader, the
-// effective case written beside the results, `tailwater run --help-case` and docs/reference/case-file.md all come
-// from it, so they cannot disagree.
+// The contents of a case file: one struct per table, one `describe` per struct. `describe` declares every key once: its
+// name, default (the member's initialiser), unit, range and one line of documentation. The reader, the effective case
+// written beside the results, `tailwater run --help-case` and docs/reference/case-file.md are all generated from it, so
+// they cannot disagree.
 //
 // All numbers are SI. Lengths and other numbers may be written in the file as expressions of named parameters
 // ("2*H"); the structs hold the values.
@@ -19,8 +19,8 @@
 
 namespace tailwater {
 
-/// Name of a block of fluid, a wall or an outlet that gave none: fluid1, fluid2, ..., wall1, ...; `index` counts from
-/// 0.
+/// Name of a block of fluid, a wall or an outlet that was not given one: fluid1, fluid2, ..., wall1, ...; `index`
+/// counts from 0.
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
@@ -28,10 +28,10 @@ inline std::string default_name(const std::string& table, std::size_t index) {
 /// A point or vector as read from the file: `dimension` numbers.
 using Coordinates = std::vector<double>;
 
-/// Names of the position in expressions that are evaluated particle by particle; in 2D the first two.
+/// Names of the coordinates in expressions that are evaluated for each particle; in 2D the first two.
 inline constexpr std::array<std::string_view, 3> position_names{"x", "y", "z"};
 
-/// Name of the time in expressions that are evaluated step by step.
+/// Name of the time in expressions that are evaluated at each step.
 inline constexpr std::array<std::string_view, 1> time_name{"t"};
 
 /// What an expression may depend on besides the named numbers.
@@ -72,7 +72,7 @@ struct CaseTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.text("title", self.title, "One line that names the case in summaries and reports");
+    v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
   }
 };
@@ -91,9 +91,9 @@ struct PhysicsTable {
     v.number("viscosity", self.viscosity, "m^2/s", Range::at_least(0.0), "Kinematic viscosity of the fluid, nu_0");
     v.coordinates("gravity", self.gravity, "m/s^2",
                   "Acceleration of gravity, one number per dimension (default in 3D: 0, 0, -9.81)");
-    v.number(
-        "channel_width", self.channel_width, "m", Range::at_least(0.0),
-        "2D: width of the channel between two smooth side walls, whose friction acts on all water; 0: no side walls");
+    v.number("channel_width", self.channel_width, "m", Range::at_least(0.0),
+             "2D: width of the channel between two smooth side walls, whose friction acts on all the water; 0: no side "
+             "walls");
   }
 };
 
@@ -107,14 +107,14 @@ struct ParticlesTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.number("spacing", self.spacing, "m", Range::above(0.0),
-             "Distance dx between neighbouring particles of the starting lattice", Presence::required);
+             "Distance dx between neighbouring particles of the initial lattice", Presence::required);
     v.number("jitter", self.jitter, "dx", Range::between(0.0, 0.4),
-             "Random displacement of each fluid particle at the start, up to this share of dx per coordinate");
-    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of the random displacement");
+             "Largest random displacement of a fluid particle at the start, in each coordinate, as a fraction of dx");
+    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of the random displacements");
   }
 };
 
-/// A direction in which the domain repeats itself; empty: not periodic.
+/// Directions in which the domain repeats itself; an empty range: not periodic.
 struct DomainTable {
   std::vector<double> periodic_x;
   std::vector<double> periodic_y;
@@ -124,9 +124,10 @@ struct DomainTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.numbers("periodic_x", self.periodic_x, "m", "[low, high]: what leaves at one end in x enters at the other");
-    v.numbers("periodic_y", self.periodic_y, "m", "[low, high]: the same in y");
-    v.numbers("periodic_z", self.periodic_z, "m", "[low, high]: the same in z");
+    v.numbers("periodic_x", self.periodic_x, "m",
+              "[low, high]: range of x that repeats itself: what leaves at one end enters at the other");
+    v.numbers("periodic_y", self.periodic_y, "m", "[low, high]: the same for y");
+    v.numbers("periodic_z", self.periodic_z, "m", "[low, high]: the same for z");
   }
 };
 
@@ -146,9 +147,9 @@ struct FluidTable {
     v.choice("shape", self.shape, "Shape of the block: an axis-parallel box, or a polygon (2D)");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
-    v.points("points", self.points, "m", "Corners of a polygon, in order; the last joins the first");
+    v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
     v.field("velocity", self.velocity, Variables::position, "m/s",
-            "Velocity at the start (default: at rest); expressions may use the particle's position x, y, z");
+            "Initial velocity (default: at rest); expressions may use the particle's coordinates x, y, z");
   }
 };
 
@@ -172,22 +173,24 @@ struct WallTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
     v.choice("shape", self.shape,
-             "polyline: open chain of points (2D); polygon: the same, closed (2D); box: faces of a box");
+             "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box");
     v.points("points", self.points, "m", "Corners of a polyline or polygon, in order");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
-    v.texts("open", self.open, box_face_names, "Faces left out of a box");
-    v.choice("fluid_side", self.fluid_side,
-             "Where the water is: left or right of a polyline as one walks along its points; inside or outside a "
-             "polygon or box (default: left; inside)");
-    v.choice("slip", self.slip, "Friction on the wall: none at all, water sticks to it, or a share of that");
+    v.texts("open", self.open, box_face_names, "Faces of a box that are left open");
+    v.choice(
+        "fluid_side", self.fluid_side,
+        "Side on which the water is: left or right of a polyline, seen in the order of its points; inside or outside a "
+        "polygon or box (default: left; inside)");
+    v.choice("slip", self.slip,
+             "Friction on the wall: none (free), that of a smooth wall (no-slip), or a fraction of it (partial)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
-             "With slip = \"partial\": share of the no-slip wall stress");
+             "With slip = \"partial\": fraction of the no-slip wall stress");
     v.field("displacement", self.displacement, Variables::time, "m",
-            "Way of the wall from where it is drawn (default: none); expressions may use the time t");
+            "Displacement of the wall from its drawn position (default: none); expressions may use the time t");
     v.varying(
         "rotation", self.rotation, Variables::time, "rad",
-        "Angle by which the wall has turned about its pivot, counter-clockwise (2D); the displacement comes on top");
+        "Angle by which the wall has turned about its pivot, counter-clockwise (2D); the displacement is added to it");
     v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
   }
 };
@@ -204,13 +207,14 @@ struct OutletTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: outlet1, outlet2, ...)");
     v.coordinates("from", self.from, "m",
-                  "Where the open end begins, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
+                  "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
                   "rectangle (3D)",
                   Presence::required);
-    v.coordinates("to", self.to, "m", "Its other end, above any water that comes; the opposite corner (3D)",
+    v.coordinates("to", self.to, "m",
+                  "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)",
                   Presence::required);
     v.coordinates("direction", self.direction, "",
-                  "Direction in which water leaves, roughly: it decides between the two sides (default: +x)");
+                  "Rough direction in which the water leaves; it tells the two sides apart (default: +x)");
   }
 };
 
@@ -274,79 +278,90 @@ struct SchemeTable {
   static void describe(Self& self, Visitor& v) {
     v.choice(
         "name", self.name,
-        "The published system the run follows: projection of the velocity (Farzin et al. 2014), or two steps with the "
-        "density at predicted positions (Farmani et al. 2020)");
+        "Published scheme: projection of the velocity (Farzin et al. 2014), or two steps with the density at predicted "
+        "positions (Farmani et al. 2020)");
     v.choice("formulation", self.formulation,
-             "robust: what works (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
+             "robust: recommended (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
     v.choice("integrator", self.integrator,
-             "explicit: derivatives at the old positions (F14-F17); implicit: iterated to the new ones (F20-F27)");
+             "explicit: derivatives at the old positions (F14-F17); implicit: at the new positions (F20-F27)");
     v.choice("kernel", self.kernel, "Smoothing kernel (formulation)");
     v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support (formulation)");
-    v.choice("laplacian", self.laplacian,
-             "Laplacian of the pressure equation and of the viscous term: two-point, (F12), or two-point with each "
-             "particle's density (B8) (formulation)");
-    v.choice("gradient", self.gradient,
-             "Pressure gradient: symmetric, (F9), or symmetric with each particle's density (B7) (formulation)");
-    v.choice("divergence", self.divergence, "Velocity divergence in the source of the pressure equation (formulation)");
+    v.choice(
+        "laplacian", self.laplacian,
+        "Laplacian of the pressure equation and of the viscous term: two-point (F11), consistent (F12), or two-point "
+        "with each particle's density (B8) (formulation)");
+    v.choice(
+        "gradient", self.gradient,
+        "Pressure gradient: symmetric, consistent (F9), or symmetric with each particle's density (B7) (formulation)");
+    v.choice("divergence", self.divergence,
+             "Velocity divergence in the source of the pressure equation: standard SPH, or consistent (formulation)");
     v.choice("source", self.source,
              "Source of the pressure equation: the velocity's divergence (F15), the density error (B17), or the "
-             "divergence and a share of the density error (formulation)");
-    v.choice(
-        "surface", self.surface,
-        "Free surface in the pressure equation: missing neighbours count as air, or p = 0 on particles detected by "
-        "an empty cone, by (F35), or by a low density (B21) (formulation)");
+             "divergence and a fraction of the density error (formulation)");
+    v.choice("surface", self.surface,
+             "Free surface in the pressure equation: missing neighbours count as air at p = 0, or p = 0 on particles "
+             "detected "
+             "by an empty cone, by (F35), or by a low density (B21) (formulation)");
     v.number("surface_density", self.surface_density, "", Range::between(0.5, 1.0),
-             "beta of (B21): a particle with a smaller share of the full density is on the surface");
-    v.choice("walls", self.walls,
-             "Dummy particles behind the wall, as deep as the support, one layer on it that carries pressure rows, or "
-             "one layer on it that solves the pressure equation with dummies behind (formulation)");
-    v.choice("divergence_free", self.divergence_free,
-             "Where the explicit projection makes the velocity divergence-free: at the positions at the start of the "
-             "step (F18), or midway along the displacement, which is second order in time (formulation)");
-    v.choice("displacement", self.displacement,
-             "Velocity that moves the particles: the new one, or the mean of old and new (F17, F25) (formulation)");
+             "beta of (B21): a particle with less than this fraction of the full density is on the surface");
+    v.choice(
+        "walls", self.walls,
+        "Walls in the pressure equation: dummy particles behind the wall, as deep as the support; one layer of wall "
+        "particles with the wall's pressure condition; or one layer that solves the pressure equation, with "
+        "dummies behind it (formulation)");
+    v.choice(
+        "divergence_free", self.divergence_free,
+        "Where the explicit projection makes the velocity divergence-free: at the start of the step (F18), or midway "
+        "along the displacement, which is second order in time (formulation)");
+    v.choice(
+        "displacement", self.displacement,
+        "Velocity that moves the particles: the new one, or the mean of the old and the new (F17, F25) (formulation)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
              "alpha of the time-step rule (F40, F41, B20) (formulation)");
     v.number("length", self.length, "m", Range::at_least(0.0),
-             "L of (F41), the scale of the start; 0: the height of the fluid along gravity");
+             "Length scale L of the time-step rule (F41); 0: the initial height of the fluid along gravity");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
              "c_a of nu_a = c_a |u| dx (F3) (formulation)");
     v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
-             "Least numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest (formulation)");
-    v.number("noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
-             "Viscosity, as a multiple of dx times the speed of the time-step rule, for what a linear velocity field "
-             "does not explain of the difference between neighbours (formulation)");
+             "Lower bound of the numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest "
+             "(formulation)");
+    v.number(
+        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
+        "a multiple of dx times the speed of the time-step rule (formulation)");
     v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
              "c_s of the sub-particle stress (F4-F6); 0: no stress (formulation)");
-    v.choice("shifting", self.shifting,
-             "Particle shifting: none, along the concentration gradient, or (F28-F32) "
-             "(formulation)");
+    v.choice(
+        "shifting", self.shifting,
+        "Particle shifting: none, along the concentration gradient (lind), or as in (F28-F32) (farzin) (formulation)");
     v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
-             "Factor of the shifting displacement; eps of (F30) for the published one (formulation)");
+             "Factor of the shifting displacement; with shifting = \"farzin\" eps of (F30) (formulation)");
     v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.3),
-             "Largest shift of one step (formulation)");
+             "Largest shift in one step (formulation)");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
-             "Share of the density error corrected per step by the source of the pressure equation");
-    v.number("energy_slack", self.energy_slack, "", Range::above(0.0),
-             "Rise of the energy that the walls do not explain, over m g L/2 and the kinetic energy, at which the "
-             "density source stops lifting; it gives way from 0 on (formulation)");
+             "Fraction of the density error that the source of the pressure equation corrects in a step");
+    v.number(
+        "energy_slack", self.energy_slack, "", Range::above(0.0),
+        "The density source expands water less and less as the energy rises by more than the walls' work, and not at "
+        "all when the rise reaches this fraction of m g L/2 plus the kinetic energy (formulation)");
     v.choice(
         "implicit_form", self.implicit_form,
         "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "
         "the whole step repeated (F20-F27) (formulation)");
     v.integer(
         "corrections", self.corrections, "", Range::between(1, 100),
-        "Corrections of the second projection; each takes the Laplacian nearer to the divergence of the gradient");
+        "Number of corrections in the second projection; each brings the Laplacian nearer to the divergence of the "
+        "gradient");
     v.integer("max_passes", self.max_passes, "", Range::between(1, 100),
-              "Most passes of the implicit iteration (formulation)");
+              "Largest number of passes of the implicit iteration (formulation)");
     v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),
-             "The implicit iteration ends when the pressure changes by less than this share of its rms value");
+             "The implicit iteration ends when the pressure changes by less than this fraction of its rms value");
     v.number("relax_pressure", self.relax_pressure, "", Range::above_up_to(0.0, 1.0),
              "Under-relaxation of p in the implicit iteration (formulation)");
     v.number("relax_velocity", self.relax_velocity, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of u (formulation)");
+             "Under-relaxation of u in the implicit iteration (formulation)");
     v.number("relax_position", self.relax_position, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of r (formulation)");
+             "Under-relaxation of r in the implicit iteration (formulation)");
   }
 };
 
@@ -364,8 +379,10 @@ struct PressureSolverTable {
     v.choice("method", self.method, "Krylov method; auto chooses by size (docs/theory/linear.md)");
     v.choice("preconditioner", self.preconditioner, "Preconditioner; auto chooses by size");
     v.number("tolerance", self.tolerance, "", Range::between(1e-14, 0.1), "Relative residual at which a solve ends");
-    v.integer("max_iterations", self.max_iterations, "", Range::at_least(1), "More iterations are an error");
-    v.text("petsc_options", self.petsc_options, "PETSc options with prefix pressure_, applied last");
+    v.integer("max_iterations", self.max_iterations, "", Range::at_least(1),
+              "Largest number of iterations; a solve that needs more is an error");
+    v.text("petsc_options", self.petsc_options,
+           "Further PETSc options, with the prefix pressure_; they override the keys above");
   }
 };
 
@@ -378,10 +395,10 @@ struct ParallelTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.choice("decomposition", self.decomposition,
-             "How particles are shared out among ranks: recursive coordinate bisection or Hilbert space-filling curve "
-             "(docs/scaling.md)");
+             "How particles are distributed among ranks: recursive coordinate bisection (rcb) or Hilbert space-filling "
+             "curve (hsfc) (docs/scaling.md)");
     v.number("imbalance", self.imbalance, "", Range::between(0.0, 10.0),
-             "Work of the busiest rank over the mean, less 1, beyond which particles are shared out anew");
+             "Particles are redistributed when the busiest rank has more than 1 plus this times the mean work");
   }
 };
 
@@ -395,9 +412,10 @@ struct OutputTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
-             "Time between two field files; 0: a hundredth of the end time");
+             "Time between field files; 0: a hundredth of the end time");
     v.texts("fields", self.fields, field_names, "Fields to write");
-    v.integer("compression", self.compression, "", Range::between(0, 9), "zlib level of the field files; 0: none");
+    v.integer("compression", self.compression, "", Range::between(0, 9),
+              "zlib compression level of the field files; 0: none");
   }
 };
 
@@ -417,13 +435,14 @@ struct ProbeTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name of the CSV file, probes/NAME.csv", Presence::required);
     v.choice("type", self.type, "What is measured", Presence::required);
-    v.coordinates("at", self.at, "m",
-                  "Place of a depth probe (its height is ignored), of a wall-pressure, pressure or velocity probe");
+    v.coordinates(
+        "at", self.at, "m",
+        "Position of a depth probe (its height is ignored) or of a wall-pressure, pressure or velocity probe");
     v.coordinates("from", self.from, "m", "Start of a stretch of wall or of a profile");
     v.coordinates("to", self.to, "m", "End of a stretch of wall or of a profile");
     v.coordinates("direction", self.direction, "", "Direction in which a front probe looks (default: +x)");
     v.numbers("times", self.times, "s", "Times at which a profile is taken");
-    v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two lines; 0: every step");
+    v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two lines of the file; 0: every step");
   }
 };
 
@@ -435,7 +454,7 @@ struct Parameter {
   bool operator==(const Parameter&) const = default;
 };
 
-/// A whole case, read and validated key by key; cross-checks of the geometry are in geometry/check.h.
+/// A whole case, each key read and validated; the geometry as a whole is checked in geometry/check.h.
 struct CaseSpec {
   std::vector<Parameter> parameters;
   CaseTable general;
@@ -458,17 +477,17 @@ struct CaseSpec {
   static void describe(Self& self, Visitor& v) {
     v.table("case", self.general, "The case as a whole");
     v.table("physics", self.physics, "Fluid and gravity");
-    v.table("particles", self.particles, "Resolution and start");
+    v.table("particles", self.particles, "Resolution and initial arrangement");
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");
     v.tables("wall", self.walls, "A solid wall; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves for good; one table each");
-    v.table("time", self.time, "Duration");
+    v.table("time", self.time, "Duration of the run");
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
     v.table("parallel", self.parallel, "Runs on several ranks (-n)");
     v.table("output", self.output, "Field files for ParaView");
-    v.tables("probe", self.probes, "A measurement written while the run goes; one table each");
+    v.tables("probe", self.probes, "A measurement written during the run; one table each");
   }
 };
 

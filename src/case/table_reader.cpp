@@ -160,7 +160,7 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
     } else if (std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
       wrong(key, element, fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
     } else if (std::find(given.begin(), given.end(), name->get()) != given.end()) {
-      wrong(key, element, "stands in the list twice; remove one", place);
+      wrong(key, element, "is in the list twice; remove one", place);
     } else {
       given.push_back(name->get());
     }
@@ -240,7 +240,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
       return std::nullopt;
     }
     if (!std::isfinite(*value)) {
-      // It uses a number that has no value itself, which is reported where that number stands.
+      // It uses a number that has no value itself, which is reported at that number.
       context_.keys_wrong.insert(full(key));
       return std::nullopt;
     }
@@ -257,7 +257,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
 
 std::optional<Varying> TableReader::read_varying(std::string_view key, const std::string& place, const toml::node& node,
                                                  Variables variables, std::string_view unit) {
-  // In a plane there is no z; 0: the file gives no valid dimension, which is reported.
+  // In 2D there is no z; 0: the file gives no valid dimension, which is reported.
   const auto position = std::span(position_names).first(context_.dimension == 2 ? 2 : 3);
   const auto names = variables == Variables::time ? std::span<const std::string_view>(time_name) : position;
   const auto* text = node.as_string();

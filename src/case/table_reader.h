@@ -20,13 +20,13 @@ namespace tailwater {
 /// " in m", or nothing for a number without unit.
 std::string in_unit(std::string_view unit);
 
-/// What the tables of one file share while they are read.
+/// State that the tables of one file share while they are read.
 struct Context {
   explicit Context(const std::string& file) : problems(file) {}
 
   Problems problems;
   NamedNumbers numbers;
-  int dimension = 0;                 ///< 0: not known, because the file gives a wrong one
+  int dimension = 0;                 ///< 0: unknown, because the file gives an invalid one
   std::set<std::string> keys_done;   ///< full keys that were read ahead of their table
   std::set<std::string> keys_wrong;  ///< full keys that have no usable value
 };
@@ -60,7 +60,7 @@ class TableReader {
     }
   }
 
-  /// Reads just these keys now, because the others' defaults or meaning depend on them.
+  /// Reads only these keys now, because defaults or meanings of the others depend on them.
   template <class Table>
   void read_ahead(Table& table, std::initializer_list<std::string_view> keys) {
     only_ = keys;
@@ -71,20 +71,20 @@ class TableReader {
     }
   }
 
-  /// What the file has for a key; null if nothing.
+  /// The node that the file has for a key; null if there is none.
   const toml::node* given(std::string_view key) const { return source_ == nullptr ? nullptr : source_->get(key); }
-  /// Whether a problem of this key was reported already.
+  /// Whether a problem with this key has been reported.
   bool is_wrong(std::string_view key) const { return context_.keys_wrong.contains(full(key)); }
-  /// 2 or 3; 0 if the file gives a wrong one.
+  /// 2 or 3; 0 if the file gives an invalid one.
   int dimension() const { return context_.dimension; }
 
-  /// A problem of the value of `key`, or of the part of it at `place`.
+  /// Reports a problem with the value of `key`, or with the part of it at `place`.
   void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");
 
-  /// A key that should be there.
+  /// Reports a key that is required and absent.
   void missing(std::string_view key, const std::string& message);
 
-  /// Keys in the file that the table does not have.
+  /// Reports keys in the file that the table does not have.
   void report_unknown_keys(std::span<const KeyInfo> keys);
 
  private:
@@ -94,18 +94,19 @@ class TableReader {
   const toml::node* find(std::string_view key, std::string_view doc, std::string_view unit, std::string_view allowed,
                          Presence presence);
 
-  /// The place in `names` of the choice given for a key.
+  /// The index in `names` of the choice given for a key.
   std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> names, std::string_view doc,
                                     Presence presence);
 
-  /// The list that a key was given; null if it was given nothing, or something else, which is reported: give `wanted`.
+  /// The list given for a key; null if nothing was given, or if it is no list, which is reported with `wanted` as
+  /// remedy.
   const toml::array* list_at(std::string_view key, const toml::node* node, const std::string& wanted);
 
-  /// The number that a node of `key` stands for, if it is one.
+  /// The number that a node of `key` represents, if it does.
   std::optional<double> evaluated(std::string_view key, std::string_view place, const toml::node& node,
                                   std::string_view unit);
 
-  /// The number or the expression that a node of `key` stands for, if it is one.
+  /// The number or the expression that a node of `key` represents, if it does.
   std::optional<Varying> read_varying(std::string_view key, const std::string& place, const toml::node& node,
                                       Variables variables, std::string_view unit);
 

@@ -95,7 +95,7 @@ void set_defaults(ProbeTable& probe, TableReader& reader) {
 
 void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction = along_x(reader); }
 
-/// Under-relaxation by a factor f leaves (1 - f)^passes of the old value: too few passes would lose part of every step.
+/// Under-relaxation by a factor f leaves (1 - f)^passes of the old value, so too few passes lose part of every step.
 void check(const SchemeTable& scheme, TableReader& reader) {
   constexpr double most_left = 0.01;
   const double least = std::min({scheme.relax_pressure, scheme.relax_velocity, scheme.relax_position});
@@ -107,7 +107,8 @@ void check(const SchemeTable& scheme, TableReader& reader) {
     return;
   }
   const std::string message = fmt::format(
-      "{} passes with an under-relaxation of {} leave part of every step undone; give at least {}, or relax less",
+      "{} passes with an under-relaxation factor of {} do not complete a step; give at least {} passes, or a larger "
+      "factor",
       scheme.max_passes, least, needed);
   if (const toml::node* node = reader.given("max_passes")) {
     reader.wrong("max_passes", *node, message);
@@ -119,10 +120,9 @@ void check(const SchemeTable& scheme, TableReader& reader) {
 void check(const PhysicsTable& physics, TableReader& reader) {
   const toml::node* node = reader.given("channel_width");
   if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {
-    reader.wrong(
-        "channel_width", *node,
-        "stands for the side walls that a computation in two dimensions does not have, but case.dimension = 3; "
-        "remove it and give the side walls as [[wall]] tables");
+    reader.wrong("channel_width", *node,
+                 "replaces the side walls that are missing in two dimensions, but case.dimension = 3; "
+                 "remove it and give the side walls as [[wall]] tables");
   }
 }
 
@@ -147,7 +147,7 @@ void check(const WallTable& wall, TableReader& reader) {
   const bool is_side_of_chain = wall.fluid_side == FluidSide::left || wall.fluid_side == FluidSide::right;
   if (is_chain != is_side_of_chain && !reader.is_wrong("shape") && !reader.is_wrong("fluid_side")) {
     reader.wrong("fluid_side", *reader.given("fluid_side"),
-                 fmt::format("does not go with shape = \"{}\"; give {}", name_of(wall.shape),
+                 fmt::format("does not fit shape = \"{}\"; give {}", name_of(wall.shape),
                              is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
   }
   if (reader.dimension() == 3 && wall.rotation != Varying(0.0)) {
@@ -166,7 +166,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
     const bool is_rising =
         std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
     if (probe.times.empty() || probe.times.front() < 0.0 || !is_rising) {
-      reader.wrong("times", *node, "give at least one time in s, from 0 on, in rising order");
+      reader.wrong("times", *node, "give at least one time in s, none negative, in increasing order");
     }
   }
   check_ends(probe.from, probe.to, reader);
@@ -178,7 +178,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
                               probe.name.front() != '-' && probe.name.size() <= 100;
     if (!is_file_name) {
       reader.wrong("name", *node,
-                   "cannot name a file; use up to 100 letters, digits, _ and -, and do not begin with -");
+                   "cannot be a file name; use up to 100 letters, digits, _ and -, and do not begin with -");
     }
   }
 }
@@ -202,7 +202,7 @@ void check(const DomainTable& domain, TableReader& reader) {
   check_period("periodic_z", domain.periodic_z, 3);
 }
 
-/// Keys that the chosen shape or type needs, or has no use for.
+/// Reports keys that the chosen shape or type needs or does not use.
 void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader) {
   for (const KeyInfo& info : rows) {
     const auto [need, use] = key_verdict(table, info.key, rows);
@@ -216,7 +216,7 @@ void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, Table
     } else if (need == KeyNeed::unused && node != nullptr) {
       reader.wrong(
           info.key, *node,
-          fmt::format("has no use with {}; remove it (it goes with {})", choice, key_use_text(table, info.key)));
+          fmt::format("is not used with {}; remove it (it goes with {})", choice, key_use_text(table, info.key)));
     }
   }
 }

@@ -1,4 +1,4 @@
-// What single tables need beyond the type and range of each key: defaults that depend on other keys, and checks that
+// Rules of single tables beyond the type and range of each key: defaults that depend on other keys, and checks that
 // involve several of them. Problems are reported to the reader; keys whose own value is wrong were reported before and
 // are left out.
 #pragma once
@@ -32,8 +32,8 @@ void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
 void check(const SchemeTable& scheme, TableReader& reader);
 
-/// Checks that the keys the chosen shape or type needs are there, and no others (key_use.h). `rows` are the keys of the
-/// table as read, `table` its name without index.
+/// Checks that the keys needed by the chosen shape or type are there, and no others (key_use.h). `rows` are the keys of
+/// the table as read, `table` its name without index.
 void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader);
 
 }  // namespace tailwater

@@ -1,4 +1,4 @@
-// The effective case: what a run really used, as a case file.
+// The effective case: the case as a run used it, written as a case file.
 #pragma once
 
 #include <string>

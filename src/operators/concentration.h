@@ -1,8 +1,8 @@
-// How full space is around a particle:
+// The share of space around a particle that is filled:
 //
 //   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j grad_i W_ij
 //
-// C is 1 (up to quadrature, see lattice.h) inside, smaller at a surface; -grad C points out of the fluid.
+// C is 1 (up to quadrature, see lattice.h) inside and smaller at a surface; -grad C points out of the fluid.
 #pragma once
 
 #include <span>

@@ -3,7 +3,7 @@
 //   div u_i = sum_j w_j (u_j - u_i) . grad_i W_ij
 //
 // Zero for a uniform velocity. Exact for linear fields only on a symmetric full neighbourhood; where neighbours are
-// missing it takes the air to move with the particle, which is what a free surface wants. The consistent form is the
+// missing, the air counts as moving with the particle, which is right at a free surface. The consistent form is the
 // trace of (F9), gradient_consistent.h.
 #pragma once
 

@@ -2,8 +2,8 @@
 //
 //   grad p_i = sum_j w_j (p_i + p_j) grad_i W_ij,   grad_i W_ij = dW e_ij
 //
-// Antisymmetric pair by pair: linear momentum is conserved to round-off, and where neighbours are missing (p = 0 there)
-// the force is that of a free surface. Not zero for a constant p on a disordered set.
+// Antisymmetric pair by pair: linear momentum is conserved to round-off, and missing neighbours count as p = 0,
+// which is the condition at a free surface. Not zero for a constant p on a disordered set.
 #pragma once
 
 #include <span>

@@ -3,8 +3,8 @@
 //   grad v_i = [ sum_j w_j (v_j - v_i) dW e_ij ] . L_i,    L_i = M_i^-1,   M_i = sum_j w_j r (-dW) e e
 //
 // Exact for linear fields where the neighbours span space. M is I on a full lattice and has the eigenvalue 1/2 across a
-// flat surface; where its least eigenvalue falls below 0.5 the correction fades, and below 0.3 (spray) it is gone and
-// the derivative only gets smaller: continuous in the positions, never large.
+// flat surface; where its smallest eigenvalue falls below 0.5 the correction fades, and below 0.3 (spray) there is
+// none, and the uncorrected derivative is too small rather than too large. Continuous in the positions.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 
 namespace tailwater {
 
-/// Share of the correction that is applied where M has this least eigenvalue.
+/// Share of the correction that is applied where M has this smallest eigenvalue.
 inline double correction_share(double least_eigenvalue_M) {
   return std::clamp((least_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0);
 }
 
 /// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. Neighbours without
-/// `takes_part` are not there.
+/// `takes_part` are left out.
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                             std::span<const std::uint8_t> takes_part, std::span<const Vec<Dim>> field) {

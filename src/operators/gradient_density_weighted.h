@@ -1,10 +1,10 @@
-// Pressure gradient with each particle's own density, (B7) (Monaghan 1992), density over the water's: c = rho/rho_0,
-// w = m/rho_0:
+// Pressure gradient with each particle's own density, (B7) (Monaghan 1992), in terms of the density ratio c = rho/rho_0
+// and of w = m/rho_0:
 //
 //   rho_0 (1/rho grad p)_i = sum_j w_j (p_i/c_i^2 + p_j/c_j^2) grad_i W_ij
 //
 // Antisymmetric pair by pair and along e_ij: conserves linear and angular momentum to round-off, whatever p and c.
-// Where neighbours are missing p = 0 is taken there. With c = 1 it is conservative_gradient. Not zero for a constant p
+// Missing neighbours count as p = 0. With c = 1 it is conservative_gradient. Not zero for a constant p
 // on a disordered set.
 #pragma once
 

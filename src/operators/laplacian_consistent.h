@@ -3,9 +3,9 @@
 //   lap v_i = sum_j c_ij (v_j - v_i),   c_ij = 2 w_j (W_ij/r_ij) [ (e . B2 . e)/r_ij - drift . e ],
 //   drift = B1 . (C : B2)
 //
-// The scan of (F23) prints "+" before the second term; the sign follows from (F12) with (F9) put in for grad v, and a
-// test holds it. Exact for quadratic fields where B1 and B2 exist. Not an M-matrix on a disordered set: coefficients of
-// the wrong sign occur in 30-60 % of the rows (method.md 2).
+// The copy of the paper at hand prints "+" before the second term; the sign here follows from (F12) with (F9) inserted
+// for grad v, and a test checks it. Exact for quadratic fields where B1 and B2 exist. Not an M-matrix on a disordered
+// set: 30 to 60 % of the rows have coefficients of the wrong sign.
 #pragma once
 
 #include "operators/renormalisation.h"
@@ -20,8 +20,8 @@ double consistent_laplacian_weight(const Renormalisation<Dim>& tensors, double v
   return 2.0 * volume_j * W / r * (B2_ee / r - tensors.drift.dot(e));
 }
 
-/// The scaled two-point weight that stands in for a row whose B2 is unsound (method.md 2): 2 w W/r^2 * 2/max(0.5, tr
-/// A), of one sign. Distances below dx/2 count as dx/2.
+/// The scaled two-point weight that replaces (F23) in a row whose B2 is unsound: 2 w W/r^2 * 2/max(0.5, tr A), never
+/// negative. Distances below dx/2 count as dx/2.
 template <int Dim>
 double fallback_laplacian_weight(const Renormalisation<Dim>& tensors, double volume_j, double r, double W,
                                  double spacing) {

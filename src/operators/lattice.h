@@ -1,5 +1,5 @@
-// Sums over a full cubic lattice of spacing dx: what an interior particle of a perfect set sees. They are the reference
-// for "how much is missing here".
+// Sums over a full cubic lattice of spacing dx: the sums of an interior particle on a perfect set. They are the
+// reference for how much of a neighbourhood is missing.
 #pragma once
 
 #include "kernel/kernel.h"

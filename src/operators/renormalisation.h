@@ -18,13 +18,13 @@
 
 namespace tailwater {
 
-/// lambda_min(A) below which the neighbours do not span space well enough for a gradient: 0.1 in 2D (method.md 2). In
-/// the interior A is about I/Dim, so the bound goes with 1/Dim.
+/// Smallest eigenvalue of A below which the neighbours do not span space well enough for a gradient: 0.1 in 2D. In the
+/// interior A is about I/Dim, so the bound scales with 1/Dim.
 template <int Dim>
 inline constexpr double least_sound_eigenvalue = 0.2 / Dim;
 
-/// Largest |B2xx| + |B2yy| + |B2xy| (and so on in 3D) with which a Laplacian row is used: 20 in 2D, where the interior
-/// reads 4.9 and a corner 215. The interior value goes with Dim^2, and so does the bound.
+/// Largest |B2xx| + |B2yy| + |B2xy| (and so on in 3D) at which a Laplacian row is used: 20 in 2D, where the sum is 4.9
+/// in the interior and 215 at a corner. The interior value scales with Dim^2, and so does the bound.
 template <int Dim>
 inline constexpr double largest_sound_b2_sum = 5.0 * Dim* Dim;
 
@@ -36,7 +36,7 @@ struct Renormalisation {
   double trace_A = 0.0;
   double least_eigenvalue_A = 0.0;
   double b2_sum = 0.0;       ///< S_B2 of (F35 c): sum of |entries|, each off-diagonal entry once
-  bool has_inverse = false;  ///< A and the system of B2 could be inverted at all
+  bool has_inverse = false;  ///< whether A and the system of B2 could be inverted
   bool gradient_is_sound() const { return has_inverse && least_eigenvalue_A > least_sound_eigenvalue<Dim>; }
   bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum<Dim>; }
 };

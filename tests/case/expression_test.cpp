@@ -44,7 +44,7 @@ TEST(Expression, WithoutAValueSaysWhyAndWhere) {
       {"0.6 m", {"\"m\" at position 5 follows a number", "SI without a unit"}},
       {"60cm", {"\"cm\" at position 3 follows a number", "SI without a unit"}},
       {"2H", {"\"H\" at position 2 follows a number", "*"}},
-      {"0,6", {"2 numbers", "decimal sign is the point"}},
+      {"0,6", {"2 numbers", "write decimals with a point"}},
       {"(1 + 2", {"parenthesis is not closed"}},
       {"1 +", {"ends too early"}},
       {"", {"empty"}},

@@ -49,7 +49,9 @@ class Energy : public testing::TestWithParam<Integrator> {};
 TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
   CaseSpec spec = zhou_case(0.012, Integrator::explicit_projection);
   spec.particles.jitter = 0.15;  // too close by their kernel sums
+  // The slack's default is 1e-4 of m g L/2 plus the kinetic energy, and m g L/2 is the energy of the start.
   EXPECT_LT(rise_of_dam_break(spec, 0.25), 1e-4);
+  // Without a limit the rise is 1.9e-4 (observed, not derived): the start of this test does put the limit to use.
   spec.scheme.energy_slack = 1e3;
   EXPECT_GT(rise_of_dam_break(spec, 0.25), 1.5e-4);
 }
@@ -67,6 +69,8 @@ TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
     flow.state.energy_rise = 1e9;  // J/m
     ASSERT_EQ(step(flow).density_share, 0.0);
   }
+  // A step takes 1.5 density_relaxation = 0.015 of what is too light, and 1 s has some 250 steps of 0.25 dx/sqrt(2 g
+  // L): e^-3.75 = 0.02 would be left. Ten times that is allowed, since the outermost rows do not pull.
   EXPECT_GT(measure(flow).density_error_mean, 0.2 * start);
 }
 
@@ -76,7 +80,7 @@ TEST(DensitySource, GivesNoEnergyToAStartThatHitsItsWalls) {
   apply_formulation(spec.scheme);
   for (double& corner : spec.fluid[0].min) corner += 0.5 * dx;  // off the walls, which it hits after some steps
   for (double& corner : spec.fluid[0].max) corner += 0.5 * dx;
-  EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4);
+  EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4);  // the energy_slack, as above
 }
 
 TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
@@ -98,6 +102,7 @@ TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
     step(flow);
     ASSERT_LT(energy(flow), start);
   }
+  // Observed, not derived: 0.978 (explicit). With walls that pull in the equation but not in the force it was 0.89.
   EXPECT_GT(energy(flow), 0.96 * start);
 }
 
@@ -121,6 +126,7 @@ TEST_P(Energy, OfAPistonIsItsWork) {
   const Books books = run_to(flow, 1.0);
   // The sum over the kernel misses (dx/depth)^2 of the force, 4 % here; what is dissipated is far less.
   EXPECT_GT(energy(flow) - start, 20.0);  // J/m; rho g H^2/2 times half the way is 44
+  // 4 %, and 2 % for what is dissipated, which is observed and not derived.
   EXPECT_NEAR(books.wall_work, energy(flow) - start, 0.06 * books.wall_work);
   EXPECT_GT(books.mean_share, 0.95);  // and the density source does not take it for a fault
 }
@@ -144,6 +150,8 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
   const double start = energy(flow);
   const Books books = run_to(flow, 0.1);
   EXPECT_GT(books.viscous_work, 1.0);  // J/m
+  // Observed, not derived: what the settling lattice does is below 1 % of it (with twice the pull on light water 1.05
+  // %).
   EXPECT_NEAR(books.viscous_work, energy(flow) - start, 0.01 * books.viscous_work);
   EXPECT_GT(books.mean_share, 0.95);
 }

@@ -12,7 +12,7 @@ import tomllib
 import unittest
 
 from fake_program import ProgramTest
-from tailwater_validation import report, robustness, runs
+from tailwater_validation import reading, report, robustness, runs
 from tailwater_validation.curves import DataError
 
 
@@ -91,16 +91,18 @@ class Gates(unittest.TestCase):
                          ("scheme.courant=0.1", "particles.spacing=1", "particles.spacing=0.02"))
 
     def test_order_of_a_power_law(self):
-        self.assertAlmostEqual(robustness.order({dx: 3 * dx**1.7 for dx in (0.1, 0.05, 0.02)}), 1.7, places=12)
+        self.assertAlmostEqual(reading.order({dx: 3 * dx**1.7 for dx in (0.1, 0.05, 0.02)}), 1.7, places=12)
 
-    def test_the_baseline_has_every_spacing_and_says_where_it_comes_from(self):
-        for flow, (_, _, spacings, finest, *_, quantities) in robustness.CONSISTENCY.items():
-            for quantity in quantities:
-                for dx in (*spacings, finest):
-                    self.assertGreater(robustness.c1_error(flow, quantity, dx), 0)
-            self.assertIn("# WHAT:", (robustness.C1 / f"c1_{flow}.csv").read_text())
-        with self.assertRaisesRegex(DataError, "no spacing of 0.033"):
-            robustness.c1_error("drop", "axes_error", 0.033)
+    def test_errors_are_held_to_their_bars_from_the_second_spacing_on(self):
+        for is_full, count in ((False, 1), (True, 2)):
+            checks = {check.metric.name: check for check in robustness.exact_gate(robustness.Bench((), is_full)).checks}
+            for name, flow in robustness.EXACT_FLOWS.items():
+                for quantity, high in flow.bars:
+                    held = [check.runs[0].settings[0] for check in checks.values() if check.metric.high == high
+                            and check.metric.name.startswith(f"exact.{name}.{quantity}.dx")]
+                    finer = (*flow.spacings, flow.finest)[1:1 + count]
+                    self.assertEqual(held, [f"particles.spacing={dx:g}" for dx in finer])
+                self.assertEqual(checks[f"exact.{name}.{flow.ordered}.order"].metric.low, 1.5)
 
     def test_the_full_matrix_is_that_of_the_table(self):
         gate = robustness.gates(robustness.Bench((), True))["dam-break"]
@@ -111,13 +113,13 @@ class Report(unittest.TestCase):
     RESULT = {"version": "1", "commit": "abc", "date": "now", "level": "quick", "settings": ["a=1"],
               "gates": [{"name": "g", "what": "w", "metrics": [
                   {"name": "g.a", "what": "first | one", "value": 0.12345, "low": None, "high": 0.2, "unit": "s",
-                   "verdict": "met", "reference": "C1 0.3", "note": "", "runs": ["r"]},
+                   "verdict": "met", "reference": "SISPH 0.3", "note": "", "runs": ["r"]},
                   {"name": "g.b", "what": "second", "value": None, "low": 1.0, "high": None, "unit": "",
-                   "verdict": "missed", "reference": "C1", "note": "it broke", "runs": ["r"]}]}]}
+                   "verdict": "missed", "reference": "SISPH", "note": "it broke", "runs": ["r"]}]}]}
 
     def test_table(self):
         text = report.table(self.RESULT)
-        self.assertRegex(text, r"first \| one +<= 0\.2 +0\.123 +s +met +C1 0\.3")
+        self.assertRegex(text, r"first \| one +<= 0\.2 +0\.123 +s +met +SISPH 0\.3")
         self.assertRegex(text, r"second +>= 1 +- +missed +it broke")
         self.assertIn("--set a=1", text)
         self.assertTrue(text.endswith("1 met, 1 missed"))

@@ -1,4 +1,4 @@
-"""What the commands that make and score runs have in common: options, complaints, and the order of their work."""
+"""What the commands that make and score runs share: options, error messages, and the order of their work."""
 
 import argparse
 import difflib
@@ -12,7 +12,7 @@ from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepte
 
 
 class Parser(argparse.ArgumentParser):
-    """With the options that all have; complains like the rest of the program."""
+    """The options that all commands have; errors read like those of the rest of the program."""
 
     def __init__(self, name, what, out, jobs):
         super().__init__(prog=name, description=what, allow_abbrev=False,
@@ -22,7 +22,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("--out", type=Path, default=Path(out), metavar="DIR",
                           help=f"folder for runs and results ({out})")
         self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
-        self.add_argument("--list", action="store_true", help="show what there is to do, with estimates, and do nothing")
+        self.add_argument("--list", action="store_true", help="list what would be run, with estimated times, and exit")
 
     def error(self, message):
         print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)

@@ -1,7 +1,7 @@
 """Curves over time: reading them, and the numbers that compare them.
 
 A curve is a quantity at strictly increasing times. Times and values carry the unit that their owner gave them; every
-function here keeps it. The scores are those that docs and papers of the project call "as in cases.md".
+function here keeps it.
 """
 
 from dataclasses import dataclass

@@ -188,13 +188,6 @@ def draw_start(run):
 # ------------------------------------------------------------------------------------------------------------ plots
 
 
-def draw_curves(axes, curves, first_style=0):
-    """Lines [(curve, label)] in the cycle's styles."""
-    for k, (curve, label) in enumerate(curves):
-        axes.plot(curve.time, curve.value, label=label, linewidth=1.3, zorder=3, **CYCLE[(first_style + k) % len(CYCLE)])
-    grid(axes)
-
-
 def of_the_start(run, energy):
     return energy / run.summary["energy"]["start_J"]
 

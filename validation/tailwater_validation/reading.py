@@ -60,11 +60,6 @@ def divergence(positions, run):
     return run.summary["divergence"][f"rms_at_{positions}_positions_per_s"] * zhou1999.TIME_SCALE
 
 
-def divergence_of_old_positions(run):
-    """What the motion of a step adds: the part of the divergence that is at the new positions only, in quadrature."""
-    return max(divergence("new", run) ** 2 - divergence("old", run) ** 2, 0.0) ** 0.5
-
-
 def order(errors):
     """Observed order of {dx: error}: slope of log error over log dx, least squares."""
     return float(np.polyfit(np.log(list(errors)), np.log(list(errors.values())), 1)[0])

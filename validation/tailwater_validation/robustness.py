@@ -1,8 +1,8 @@
-"""The gates of the robust core: which runs they need, what is read from them, and the bars.
+"""The gates of the robust core: the runs they need, the numbers read from them, and the bars.
 
 `tailwater bench robustness` runs this module: it makes the runs, scores them and writes OUT/bench.json and
-OUT/bench.md. Both integrators and all cases run with the defaults; `--set` changes the default under test, but not what
-a gate is about (its start, its spacing).
+OUT/bench.md. All cases and both integrators run with the defaults. `--set` changes the default under test, but not what
+defines a gate (its start, its spacing).
 
 Usage: python -m tailwater_validation.robustness --program FILE [--out DIR] [--level quick|full] [--gate NAME]...
 Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
@@ -11,21 +11,17 @@ interrupted.
 
 import sys
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
-
-import numpy as np
 
 from . import command, report, zhou1999
 from .checks import Check, runs_of
-from .curves import DataError, read_table
+from .curves import DataError
 from .metric import Metric
-from .reading import (divergence, divergence_of_old_positions, energy_at, exact, interventions, mean_level,
-                      observed_order, order, summary, zhou)
+from .reading import divergence, energy_at, exact, interventions, mean_level, observed_order, summary, zhou
 from .runs import Run, finished, outcome
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-C1 = CASES / "robustness" / "data"  # errors of the conservative formulation C1, which the program no longer has
 INVISCID = ("scheme.artificial_viscosity=0", "scheme.viscosity_floor=0", "scheme.noise_viscosity=0")
 STARTS = {
     "regular": (),
@@ -49,13 +45,13 @@ class Gate:
 
 @dataclass(frozen=True)
 class Bench:
-    """How the gates' runs are made: the settings under test, and whether all of the table is."""
+    """How the runs of the gates are made: the settings under test, and whether the level is full."""
 
     settings: tuple = ()
     is_full: bool = False
 
     def run(self, name, case, settings=(), seconds=10.0):
-        """Settings of the run itself come last: they win."""
+        """Settings of the run itself come last and override those under test."""
         return Run(name, CASES / case, (*self.settings, *settings), seconds)
 
     def zhou(self, dx, T, start="regular", integrator="explicit", variant="", settings=()):
@@ -71,45 +67,20 @@ class Bench:
         return ("explicit", "implicit")
 
 
-# ---------------------------------------------------------------------------------------------------- what is read
-
-
-@lru_cache(maxsize=None)
-def c1_table(flow):
-    return read_table(C1 / f"c1_{flow}.csv")
-
-
-def c1_error(flow, name, dx):
-    """The error that the conservative formulation C1 had. Throws DataError for a spacing it was not measured at."""
-    table = c1_table(flow)
-    at = np.flatnonzero(np.isclose(table["spacing_m"], dx))
-    if at.size == 0:
-        raise DataError(f"c1_{flow}.csv: has no spacing of {dx:g} m")
-    return float(table[name][at[0]])
-
-
-def worst_ratio(flow, name, *runs):
-    """Largest ratio of an error to that of C1 at equal dx."""
-    return max(exact(flow, name, run) / c1_error(flow, name, run.spacing) for run in runs)
-
-
-# --------------------------------------------------------------------------------------------------------- gates
-
-
 def tank_gate(bench, name, what, case, dx, end, seconds, factor=1.0, is_implicit_quick=False):
-    """Still water; with `factor` times the bars."""
+    """Still water; the bars are multiplied by `factor`."""
     checks = []
     for integrator in bench.integrators if bench.is_full or is_implicit_quick else ("explicit",):
         run = bench.run(f"{name}_{integrator}", case,
                         (f"particles.spacing={dx:g}", "particles.jitter=0.2", f"time.end={end:g}",
                          f"scheme.integrator={integrator}", "output.fields_interval=1.0"), seconds)
-        for number, text, unit, high, reference in (
+        for number, text, unit, high in (
                 ("u_rms", "rms speed from 5 s on, largest" if end > 5 else "rms speed in the second half, largest",
-                 "sqrt(g H)", 3e-4, "C1 2.9e-4"),
-                ("pressure_error", "rms pressure error at the end", "rho g H", 3e-3, "C1 0.003"),
-                ("level_error_dx", "level, largest error", "dx", 0.25, ""),
-                ("bottom_density", "density error within 4 dx of the bottom", "", 2e-3, "C1 0.002 (bulk)")):
-            checks.append(Check(Metric(f"{name}.{integrator}.{number}", f"{text}, {integrator}", unit, reference,
+                 "sqrt(g H)", 3e-4),
+                ("pressure_error", "rms pressure error at the end", "rho g H", 3e-3),
+                ("level_error_dx", "level, largest error", "dx", 0.25),
+                ("bottom_density", "density error within 4 dx of the bottom", "", 2e-3)):
+            checks.append(Check(Metric(f"{name}.{integrator}.{number}", f"{text}, {integrator}", unit, "exact: 0",
                                        high=factor * high), (run,), partial(exact, "tank", number)))
     return Gate(name, what, tuple(checks))
 
@@ -129,14 +100,14 @@ def matrix_gate(bench):
         label, text = f"dam_break.dx{dx:g}.{integrator}", f"dx = {dx:g}, {integrator}"
         checks += [
             Check(Metric(f"{label}.finished", f"runs that reach T = {T}, {text}", f"of {len(runs)}",
-                         "C1: 5 of 5 at dx = 0.02; published: none", low=len(runs)), runs, count_finished, True),
+                         "", low=len(runs)), runs, count_finished, True),
             Check(Metric(f"{label}.outside", f"particles outside the tank, most, {text}", "", "", high=0), runs,
                   partial(largest, partial(summary, "volume", "outside_the_walls_most")), True),
             Check(Metric(f"{label}.energy_rise", f"largest rise of the total energy, {text}", "of the start",
-                         "C1 2e-4", high=1e-4), runs,
+                         "physics: none", high=1e-4), runs,
                   partial(largest, partial(summary, "energy", "largest_rise_over_start")), True),
             Check(Metric(f"{label}.energy_rise_unexplained", f"the same without the work of the density source, {text}",
-                         "of the start", "", high=1e-4), runs,
+                         "of the start", "physics: none", high=1e-4), runs,
                   partial(largest, partial(summary, "energy", "largest_rise_less_density_work_over_start")), True),
         ]
     return Gate("dam-break", f"Zhou to T = {T} from five starts, with and without numerical viscosity", tuple(checks))
@@ -147,7 +118,7 @@ def count_finished(runs, out):
 
 
 def largest(read, runs, out):
-    """Over those that finished; the others are missed already."""
+    """The largest value of the runs that finished; those that did not miss the bar of finishing."""
     values = [read(finished(run, out)) for run in runs if outcome(out / "runs" / run.name).get("exit_code") == 0]
     if not values:
         raise DataError("none of the runs finished")
@@ -163,10 +134,10 @@ def slip_gate(bench):
         for integrator in bench.integrators if bench.is_full else ("explicit",):
             run = bench.zhou(0.02, T, integrator=integrator, variant=name, settings=settings)
             label, text = f"slip.{name}.{integrator}", f"{name}, {integrator}"
-            checks.append(Check(Metric(f"{label}.finished", f"reaches T = {T}, {text}", "of 1",
-                                       "C1 with a smaller leak: to T = 8", low=1), (run,), count_finished, True))
+            checks.append(Check(Metric(f"{label}.finished", f"reaches T = {T}, {text}", "of 1", "", low=1), (run,),
+                                count_finished, True))
             checks.append(Check(Metric(f"{label}.delay", f"front at the wall later than with free slip, {text}", "s",
-                                       "to be explained: C1 0.06..0.08"), (run, free),
+                                       ""), (run, free),
                                 lambda run, free: zhou("arrival_front", run) - zhou("arrival_front", free)))
     return Gate("slip", f"no slip and partial slip, Zhou to T = {T}", tuple(checks))
 
@@ -178,9 +149,9 @@ def density_gate(bench):
         run = bench.zhou(dx, T, integrator=integrator)
         label, text = f"density.{integrator}", f"dx = {dx:g}, to T = {T}, {integrator}"
         checks += [
-            Check(Metric(f"{label}.mean", f"mean density error, {text}", "", "C1 0.002", -2e-3, 2e-3), (run,),
+            Check(Metric(f"{label}.mean", f"mean density error, {text}", "", "incompressible: 0", -2e-3, 2e-3), (run,),
                   partial(summary, "volume", "density_error_mean")),
-            Check(Metric(f"{label}.rms", f"rms density error, {text}", "", "C1 0.010..0.015", high=1e-2), (run,),
+            Check(Metric(f"{label}.rms", f"rms density error, {text}", "", "incompressible: 0", high=1e-2), (run,),
                   partial(summary, "volume", "density_error_rms")),
         ]
         if bench.is_full:
@@ -199,18 +170,17 @@ def pressure_gate(bench):
     checks = []
     for integrator in bench.integrators:
         run = bench.zhou(0.015, 8, integrator=integrator)
-        noise_reference = "C1/C2 0.005-0.015; SISPH 0.015-0.020, DFSPH 0.04, SPHinXsys 0.17, DualSPHysics 0.22"
-        arrival_reference = "C1 0.59-0.61; SISPH 0.62"
+        noise_reference = "SISPH 0.015-0.020, DFSPH 0.04, SPHinXsys 0.17, DualSPHysics 0.22"
         checks += [
             Check(Metric(f"noise.{integrator}", f"wall pressure noise, z = 0.16 m, {integrator}", "rho g H",
                          noise_reference, high=6e-3), (run,), partial(zhou, "noise")),
             Check(Metric(f"arrival.{integrator}", f"arrival at the wall, z = 0.12 m, {integrator}", "s",
-                         arrival_reference, 0.61, 0.64), (run,), partial(zhou, f"arrival_{zhou1999.READ_AT}")),
+                         "SISPH 0.62", 0.61, 0.64), (run,), partial(zhou, f"arrival_{zhou1999.READ_AT}")),
             Check(Metric(f"arrival.front.{integrator}", f"arrival, front at the wall, {integrator}", "s", ""), (run,),
                   partial(zhou, "arrival_front")),
             Check(Metric(f"interventions.{integrator}",
-                         f"clamps, limiters, fallbacks per particle and step, {integrator}", "",
-                         "C1 1e-4..3e-4 without clamped pressures", high=1e-5), (run,), interventions),
+                         f"clamps, limiters, fallbacks per particle and step, {integrator}", "", "", high=1e-5),
+                  (run,), interventions),
             *(Check(Metric(f"interventions.{kind}.{integrator}", f"of these, {kind.replace('_', ' ')}, {integrator}",
                            "", ""), (run,), lambda run, kind=kind: interventions(run, kind))
               for kind in INTERVENTIONS),
@@ -251,74 +221,86 @@ def laboratory_gate(bench):
             checks.append(Check(
                 Metric(f"{label}.{reading}.falls",
                        f"RMS at dx = {spacings[-1]:g} over that at {spacings[0]:g}, {text}, {integrator}", "",
-                       "should fall: below 1"), (runs[spacings[0]], runs[spacings[-1]]),
+                       "should be below 1"), (runs[spacings[0]], runs[spacings[-1]]),
                 lambda coarse, fine, reading=reading: laboratory_rms(reading, fine) / laboratory_rms(reading, coarse)))
     return Gate("laboratory", "wall pressure against Zhou, T = 2.4..7, shift within 0.12", tuple(checks))
 
 
-# flow: (case, settings, spacings of quick, one more for full, CPU s at the coarsest, power of the cost, quantities)
-CONSISTENCY = {
-    "taylor-green": ("robustness/taylor_green.toml", (), (0.04, 0.02), 0.01, 0.4, 3.4,
-                     ("velocity_error", "pressure_error", "decay_error")),
-    "standing-wave": ("robustness/standing_wave.toml", (), (0.05, 0.025), 0.0125, 1.5, 3.2,
-                      ("wave_error", "period_error", "decay_error")),
-    "drop": ("robustness/drop.toml", (), (0.1, 0.05), 0.025, 0.2, 3.2,
-             ("velocity_error", "pressure_error", "axes_error", "energy_error")),
-    "tank": ("tank/case.toml", ("particles.jitter=0.2", "time.end=5", "output.fields_interval=1.0"), (0.05, 0.025),
-             0.0125, 1.5, 3.2, ("pressure_error", "u_rms")),
+@dataclass(frozen=True)
+class ExactFlow:
+    """A flow with a known solution, at the spacings of the quick level and one more of the full level. Every quantity is
+    shown at each spacing; those in `bars` must be below their bar from the second spacing on, and the order of `ordered`
+    must be 1.5. The run at the coarsest spacing costs `seconds`, the others grow with the power `growth`."""
+
+    case: str
+    spacings: tuple
+    finest: float
+    seconds: float
+    growth: float
+    quantities: tuple
+    ordered: str
+    bars: tuple = ()
+    settings: tuple = ()
+
+
+# The bars are our own, set for the second spacing: 50 particles across the box of vortices, 20 in the wave's depth, 20 in
+# the drop's radius. Of the wave's period linear theory leaves out 0.03 % ((k a)^2/8): a bar ten times that is the scheme's
+# own error. The pressure of the tank has its bar in the gates of the tanks.
+EXACT_FLOWS = {
+    "taylor-green": ExactFlow("robustness/taylor_green.toml", (0.04, 0.02), 0.01, 0.4, 3.4,
+                              ("velocity_error", "pressure_error", "decay_error"), "velocity_error",
+                              (("velocity_error", 5e-3),)),
+    "standing-wave": ExactFlow("robustness/standing_wave.toml", (0.05, 0.025), 0.0125, 1.5, 3.2,
+                               ("wave_error", "period_error", "decay_error"), "wave_error",
+                               (("wave_error", 0.03), ("period_error", 3e-3))),
+    "drop": ExactFlow("robustness/drop.toml", (0.1, 0.05), 0.025, 0.2, 3.2,
+                      ("velocity_error", "pressure_error", "axes_error", "energy_error"), "velocity_error",
+                      (("axes_error", 3e-3), ("energy_error", 2e-3))),
+    "tank": ExactFlow("tank/case.toml", (0.05, 0.025), 0.0125, 1.5, 3.2, ("pressure_error", "u_rms"), "pressure_error",
+                      (), ("particles.jitter=0.2", "time.end=5", "output.fields_interval=1.0")),
 }
 
 
-def consistency_gate(bench):
-    """The default against C1, at equal dx and by order. The first quantity of each flow has bars, the others are shown.
-    """
+def exact_gate(bench):
     checks = []
-    for flow, (case, settings, spacings, finest, seconds, power, quantities) in CONSISTENCY.items():
-        if bench.is_full:
-            spacings = (*spacings, finest)
-        runs = tuple(bench.run(f"{flow}_dx{dx:g}", case, (f"particles.spacing={dx:g}", *settings),
-                               seconds * (spacings[0] / dx) ** power) for dx in spacings)
-        for rank, quantity in enumerate(quantities):
-            label, text = f"consistency.{flow}.{quantity}", f"{flow}, {quantity.replace('_', ' ')}"
-            theirs = {dx: c1_error(flow, quantity, dx) for dx in spacings}
-            checks += [
-                Check(Metric(f"{label}.ratio", f"{text}: over that of C1 at equal dx, worst", "", "not shown by anyone",
-                             high=0.5 if rank == 0 else None), runs, partial(worst_ratio, flow, quantity)),
-                Check(Metric(f"{label}.order", f"{text}: observed order", "", f"C1 {order(theirs):.2f}",
-                             low=1.5 if rank == 0 else None), runs, partial(observed_order, flow, quantity)),
-                *(Check(Metric(f"{label}.dx{dx:g}", f"{text}, dx = {dx:g}", "", f"C1 {theirs[dx]:.3g}"), (run,),
-                        partial(exact, flow, quantity)) for dx, run in zip(spacings, runs)),
-            ]
-    return Gate("consistency", "the default against the conservative C1: half the error, order 1.5", tuple(checks))
+    for name, flow in EXACT_FLOWS.items():
+        spacings = (*flow.spacings, flow.finest) if bench.is_full else flow.spacings
+        runs = tuple(bench.run(f"{name}_dx{dx:g}", flow.case, (f"particles.spacing={dx:g}", *flow.settings),
+                               flow.seconds * (spacings[0] / dx) ** flow.growth) for dx in spacings)
+        for quantity in flow.quantities:
+            label, text = f"exact.{name}.{quantity}", f"{name}, {quantity.replace('_', ' ')}"
+            checks.append(Check(Metric(f"{label}.order", f"{text}: observed order", "", "",
+                                       low=1.5 if quantity == flow.ordered else None), runs,
+                                partial(observed_order, name, quantity)))
+            for dx, run in zip(spacings, runs):
+                high = dict(flow.bars).get(quantity) if dx < spacings[0] else None
+                checks.append(Check(Metric(f"{label}.dx{dx:g}", f"{text}, dx = {dx:g}", "", "exact: 0", high=high),
+                                    (run,), partial(exact, name, quantity)))
+    return Gate("exact", "flows with a known solution: errors and orders", tuple(checks))
 
 
 def implicit_gate(bench):
     explicit, implicit = bench.zhou(0.015, 8), bench.zhou(0.015, 8, integrator="implicit")
     both = (implicit, explicit)
     checks = [
-        Check(Metric("implicit.passes", "passes per step, median", "", "C2 4", high=3), (implicit,),
-              lambda run: float(np.median(run.steps()["passes"]))),
-        Check(Metric("implicit.old_part", "divergence from the old positions, over the explicit scheme's", "",
-                     "C2: the small part", high=0.1), both,
-              lambda run, other: divergence_of_old_positions(run) / divergence_of_old_positions(other)),
-        Check(Metric("implicit.whole", "divergence at the new positions, over the explicit scheme's", "",
-                     "C2 0.03/0.04 = 0.75", high=1 / 3), both,
-              lambda run, other: divergence("new", run) / divergence("new", other)),
-        Check(Metric("implicit.energy", "energy at T = 4, less the explicit scheme's", "of the start",
-                     "C2 0.975 - 0.992 = -0.017", low=-2e-3), both,
-              lambda run, other: energy_at(4, run) - energy_at(4, other)),
+        Check(Metric("implicit.whole", "divergence at the new positions, over the explicit scheme's", "", "",
+                     high=1 / 3), both, lambda run, other: divergence("new", run) / divergence("new", other)),
+        Check(Metric("implicit.energy", "energy at T = 4, less the explicit scheme's", "of the start", "", low=-2e-3),
+              both, lambda run, other: energy_at(4, run) - energy_at(4, other)),
     ]
+    # The implicit integrator solves at the new positions: it has no divergence at the old ones to show.
+    for name, positions, run in (("explicit", "old", explicit), ("explicit", "new", explicit),
+                                 ("implicit", "new", implicit)):
+        checks.append(Check(Metric(f"implicit.divergence.{name}.{positions}",
+                                   f"rms divergence at the {positions} positions, {name}", "sqrt(g/H)", ""), (run,),
+                            partial(divergence, positions)))
     for name, run in (("explicit", explicit), ("implicit", implicit)):
-        for positions in ("old", "new"):
-            checks.append(Check(Metric(f"implicit.divergence.{name}.{positions}",
-                                       f"rms divergence at the {positions} positions, {name}", "sqrt(g/H)",
-                                       "C2 0.03..0.04"), (run,), partial(divergence, positions)))
         checks.append(Check(Metric(f"implicit.energy.{name}", f"energy at T = 4, {name}", "of the start", ""), (run,),
                             partial(energy_at, 4)))
     return Gate("implicit", "divergence left and energy lost, Zhou, dx = 0.015", tuple(checks))
 
 
-# Of equal cost: at its own, larger time step an implicit run costs what an explicit one does; the gate shows the ratio.
+# At its own, larger time step an implicit run costs about as much as an explicit one; the gate shows the ratio.
 EQUAL_COST_SPACING = 0.015
 
 
@@ -369,7 +351,7 @@ def gates(bench):
         tank_gate(bench, "tank-3d", "3D tank, 5 s, twice the bars", "robustness/tank_3d.toml", 0.025, 5, 80,
                   factor=2.0),
         matrix_gate(bench), slip_gate(bench), density_gate(bench), pressure_gate(bench), laboratory_gate(bench),
-        consistency_gate(bench), implicit_gate(bench), equal_cost_gate(bench),
+        exact_gate(bench), implicit_gate(bench), equal_cost_gate(bench),
     ]
     return {gate.name: gate for gate in found}
 
@@ -385,7 +367,7 @@ def score(chosen, program, options):
 def main(arguments=None):
     parser = command.Parser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
-                        help="quick: a subset in about ten minutes; full: the whole table, many hours")
+                        help="quick: a part of the gates' runs, about ten minutes; full: all of them, many hours")
     parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="change the default under test, as in --set scheme.courant=0.2; may be repeated")

@@ -77,7 +77,7 @@ class Plan:
         return ("explicit", "implicit") if self.scheme in ("", "farzin2014") else ("", "")
 
     def run(self, name, case, settings=(), seconds=10.0, integrator=""):
-        """Settings of the run itself come last: they win."""
+        """Settings of the run itself come last and override those of the plan."""
         if integrator:
             name, settings = f"{name}_{integrator}", (f"scheme.integrator={integrator}", *settings)
         return Run("_".join(filter(None, (name, self.scheme))), CASES / case, (*self.settings, *settings), seconds)

@@ -28,7 +28,7 @@ def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments,
                   *more_plots), shown=runs[-1], moments=moments, has_histories=has_histories)
 
 
-EXACTLY = "The solution is exact; what the number tells is the discretisation's error, and round-off far below it."
+EXACTLY = "The solution is exact, so the number is the error of the discretisation; round-off is far smaller."
 
 
 def taylor_green(plan):
@@ -52,7 +52,7 @@ def standing_wave(plan):
         "standing-wave", "Standing wave with viscous decay", "standing-wave",
         "The slowest wave of a tank 1 m long and 0.5 m deep, amplitude a = 0.05/k, five periods. Period and decay of the centre "
         "of mass against linear theory with viscosity (Lamb 1932), whose root is solved exactly.",
-        "Linear theory leaves out terms of order (k a)^2 = 0.25 %; in the period of a standing wave their factor is about 1/8.", runs,
+        "Linear theory leaves out terms of order (k a)^2 = 0.25 %; they change the period of a standing wave by about 1/8 of that.", runs,
         (("period_error", "period, relative error", "", 0.005), ("decay_error", "decay, relative error", "", 0.05),
          ("wave_error", "whole curve, rms error over the amplitude", "", None)), ())
 
@@ -65,7 +65,7 @@ def drop(plan):
     return flow_study(
         "drop", "Stretching elliptical drop", "drop",
         "A round drop without gravity in u = (A x, -A y) becomes an ellipse whose axes obey an ordinary differential equation "
-        "(Monaghan 1994), to t = 2.5/A. No dissipation: its energy should stay.",
+        "(Monaghan 1994), to t = 2.5/A. No dissipation: its energy should not change.",
         EXACTLY, runs, (("axes_error", "semi-axes, largest relative error over the run", "", 0.005),
                         ("energy_error", "kinetic energy at the end, relative error", "", None),
                         ("velocity_error", "velocity at the end, relative L2 error", "", None),

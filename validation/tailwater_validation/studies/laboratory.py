@@ -1,4 +1,4 @@
-"""The laboratory's dam breaks but the impact: each scored by its own module, which says what is compared with what."""
+"""The laboratory's dam breaks except the impact on a wall; each is scored by a module of its own."""
 
 from dataclasses import replace
 from functools import partial
@@ -11,7 +11,7 @@ from ..metric import Metric
 from ..reading import scored, summary
 from ..study import LABORATORY, ModuleChecks, Plot, Study
 
-ALWAYS = ("The gate's removal, friction of side walls and surface tension, which the laboratory had, are in no error bar.")
+ALWAYS = ("The laboratory's gate, friction of side walls and surface tension are not included in these uncertainties.")
 
 
 def case_run(plan, name, length, count, seconds, integrator=None, variant="", settings=()):
@@ -54,9 +54,9 @@ def martin_moyce(plan):
         name, "Collapse of a square column: Martin & Moyce (1952)", martin_moyce1952, martin_moyce1952_picture.draw,
         "A column 57 mm wide and as high collapses and runs over a dry, smooth bed. Front x/a over T = t sqrt(g/a) and height of "
         "the column at its back wall. Farzin et al. compute it with 3898 and 9320 particles (a/60 and a/96) on a frictionless bed "
-        "and give no numbers.",
-        "The release takes time: until friction can matter the laboratory's fronts come 0.13 to 0.19 of T after that of a "
-        "column let go at once, so the best shift is looked for within 0.2. Readings of one figure differ by 0.006 to 0.04 a, "
+        "but give no numbers.",
+        "The release takes time: before friction can matter, the laboratory's fronts are 0.13 to 0.19 in T behind that of a "
+        "column released at once, so the best shift is sought within 0.2. Readings of one figure differ by 0.006 to 0.04 a, "
         "columns of two sizes by 0.12 a where they should coincide.", runs,
         (("front, the table (a)", "rms front table"), ("column height (n2 a)", "rms height")), "RMS difference")
 
@@ -70,7 +70,7 @@ def janosi(plan):
         "on the water. Surfaces "
         "at eight instants. Farzin et al. compute it with 11 905 particles and compare four of them.",
         "Each photograph has its own vertical offset (the still water reads 35.3 to 45.7 mm and is moved to 38 mm); the instant at "
-        "which the gate began to move is known to 0.015 s, in which the bore runs 15 mm; below 2 mm nothing means anything.", runs,
+        "which the gate began to move is known to 0.015 s, in which the bore runs 15 mm; differences below 2 mm mean nothing.", runs,
         tuple((f"t = {instant:g} s", f"rms {instant:g}") for instant in janosi2004.INSTANTS[2::2]), "RMS distance (mm)",
         keep=lambda score: not score.startswith("rms published"))
 
@@ -89,10 +89,10 @@ def ozmen_cagatay(plan):
         name, "Dam break over a hump with an open end: Ozmen-Cagatay, Kocaman & Guzel (2014)", ozmen_cagatay2014,
         ozmen_cagatay2014_picture.draw,
         "A reservoir 0.25 m deep empties over a dry floor and a triangular hump 0.075 m high; part is reflected, the rest leaves "
-        "through the open end and takes its energy along. Heights at eight places and instants of profiles and at six gauges. Farmani et al. compute it with "
+        "through the open end. Heights at eight places and instants of profiles and at six gauges. Farmani et al. compute it with "
         "5976 particles, dx = 0.014 m (h0/18).",
-        "Published are 14 numbers with two or three digits, chosen by the paper as its model's worst; the data's own error "
-        "is not given. "
+        "Published are 14 numbers with two or three digits, chosen by the paper as the worst of its model; the error of the "
+        "data is not given. "
         "The channel's width, 0.30 m, is assumed: with 0.20 m the mean errors are 1.6 and 2.2 % smaller, without side walls 2.2 and "
         "4.3 % larger (scheme F, h0/12).",
         runs, (("profile points", "mean error profile"), ("gauge points", "mean error gauge")), "mean error (%)", farmani,
@@ -132,7 +132,7 @@ def soares_frazao(plan):
         "at five instants and state a worst error of 12.3 % without giving a measured number: arrivals, reflections and "
         "surfaces are shown.",
         "No measured numbers are published: nothing here has a target. Surfaces of coarser runs are "
-        "compared with those of the finest; most of their distance is the place of breaking faces.", runs, (), "",
+        "compared with those of the finest; most of the distance comes from where the breaking faces are.", runs, (), "",
         more_checks=distances,
         more_plots=(Plot("Surfaces by spacing: distance from those of the finest run.", runs, draw_surface_distances),),
         moments=soares_frazao2002.INSTANTS[:4])

@@ -11,13 +11,13 @@ from ..reading import exact
 from ..study import EXACT, OrderCheck, Plot, Study
 from .exact import draw_errors
 
-LIMIT = ("Shallow-water theory is the limit of late times, not the solution: it leaves out vertical acceleration, which a gate removed at "
-         "once makes as large as g. The water needs about sqrt(h0/g) to get going and stays behind by a length that does not grow, and "
-         "dispersion rounds the kinks over a length like t^(1/3). So the comparison is made from T = t sqrt(g/h0) = 3 on, before "
-         "the wave that runs back meets the reservoir's end: speeds and the discharge are slopes over T (what lags by a constant does not "
-         "count), and the profile is compared over x/t, where its distance must fall as T grows. The discharge, and behind a bore the "
-         "depth, follow from mass and momentum whatever dissipates the energy: these have targets (our own). The tip is thinner than "
-         "a particle, so the place where the depth is 0.1 h0 stands for the front.")
+LIMIT = ("Shallow-water theory is the limit at late times, not the solution: it leaves out vertical acceleration, which is as large as g "
+         "when a gate is removed at once. The water takes about sqrt(h0/g) to start and stays behind by a length that does not grow, and "
+         "dispersion rounds the kinks over a length like t^(1/3). So the comparison begins at T = t sqrt(g/h0) = 3 and ends before "
+         "the wave that runs back meets the end of the reservoir. Speeds and the discharge are slopes over T, in which a constant lag does "
+         "not count; the profile is compared over x/t, and its distance must fall as T grows. The discharge, and the depth behind a bore, "
+         "follow from mass and momentum, however the energy is dissipated: these have targets (our own). The tip is thinner than "
+         "a particle, so the place where the depth is 0.1 h0 represents the front.")
 
 
 def draw_profiles(theory, label, *runs):

@@ -1,0 +1,65 @@
+"""What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, and loops over
+particles go through base/for_each.h. Usage: text.py markdown|citations|loops ROOT"""
+import pathlib
+import re
+import sys
+
+TEXTS = {".md", ".h", ".cpp", ".py", ".toml", ".txt", ".sh", ".csv"}
+LONGEST = 120
+WRITTEN = {"bench.md"}  # by the program, beside its runs
+
+
+def files(root):
+    """Of the tree, without what a build or a run left in it."""
+    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake"):
+        for file in sorted((root / top).rglob("*") if top else root.glob("*")):
+            if file.is_file() and file.suffix in TEXTS and file != pathlib.Path(__file__).resolve():
+                yield file
+
+
+def numbered(file):
+    return enumerate(file.read_text(encoding="utf-8").splitlines(), 1)
+
+
+def is_prose(line):
+    """Not a row of a table, and not one word that cannot be broken, such as a link."""
+    return not line.lstrip().startswith("|") and " " in line.strip()[:LONGEST]
+
+
+def markdown(root):
+    for file in files(root):
+        if file.suffix == ".md":
+            for number, line in numbered(file):
+                if len(line) > LONGEST and is_prose(line):
+                    yield file, number, f"{len(line)} characters; break the line at {LONGEST}"
+
+
+def citations(root):
+    names = {file.name for file in files(root)} | WRITTEN
+    for file in files(root):
+        for number, line in numbered(file):
+            for issue in re.findall(r"\bissue (?:#\s*)?\d+\b", line):
+                yield file, number, f'cites "{issue}", which is not in the tree; say here what it says'
+            for name in re.findall(r"\b([A-Za-z][\w-]*\.md)\b", line):
+                if name not in names:
+                    yield file, number, f"cites {name}, which is not in the tree; say here what it says"
+
+
+def loops(root):
+    loop = re.compile(r"\bfor \([^;]*; \w+ < [^;]*\bowned\b[^;]*;")
+    for file in files(root):
+        if file.is_relative_to(root / "src") and file.suffix in {".h", ".cpp"} and file.name != "for_each.h":
+            for number, line in numbered(file):
+                if loop.search(line):
+                    yield file, number, "a loop over particles of its own; use one of base/for_each.h"
+
+
+def main():
+    root = pathlib.Path(sys.argv[2]).resolve()
+    found = list({"markdown": markdown, "citations": citations, "loops": loops}[sys.argv[1]](root))
+    print("\n".join(f"{file.relative_to(root)}:{number}: {what}" for file, number, what in found))
+    if found:
+        sys.exit(f"{len(found)} findings")
+
+
+main()
