@@ -2,6 +2,7 @@
 // wrapper can later hand the range to threads or to a GPU.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace tailwater {
@@ -21,6 +22,24 @@ std::size_t count_each(std::size_t count, Body&& body) {
     sum += body(i);
   }
   return sum;
+}
+
+/// `zero` plus what the body returns for each index, added in ascending order.
+template <class T, class Body>
+T sum_over(std::size_t count, T zero, Body&& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    zero += body(i);
+  }
+  return zero;
+}
+
+/// The largest of `least` and what the body returns for each index.
+template <class Body>
+double largest_over(std::size_t count, double least, Body&& body) {
+  for (std::size_t i = 0; i < count; ++i) {
+    least = std::max<double>(least, body(i));
+  }
+  return least;
 }
 
 }  // namespace tailwater
