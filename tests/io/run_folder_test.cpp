@@ -54,7 +54,7 @@ TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
   const TemporaryFolder folder;
   const RunFolder run = RunFolder::create(folder.path(), false);
   for (const fs::path& path :
-       {run.effective_case(), run.steps(), run.summary(), run.probe("wall"), run.fields() / "fields.pvd",
+       {run.effective_case(), run.steps(), run.ranks(), run.summary(), run.probe("wall"), run.fields() / "fields.pvd",
         run.fields() / "fields_00000.vtp", run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
     write_text_file(path, "result");
   }
