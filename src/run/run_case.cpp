@@ -18,10 +18,10 @@
 #include "run/estimate.h"
 #include "run/failure.h"
 #include "run/field_output.h"
-#include "run/interrupt.h"
 #include "run/progress.h"
 #include "run/provenance.h"
 #include "run/rank_log.h"
+#include "run/requests.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
 #include "schemes/advance.h"
@@ -161,7 +161,7 @@ class Run {
   }
 
   ExitCode loop() {
-    const InterruptGuard interrupt;
+    Requests requests(folder_, ranks_);
     const double field_interval =
         spec_.output.fields_interval > 0.0 ? spec_.output.fields_interval : spec_.time.end / default_field_files;
     double next_fields = 0.0;
@@ -172,7 +172,7 @@ class Run {
     attempt([&] { start(flow_); });
     record_probes(measure(flow_));
     while (flow_.time < spec_.time.end) {
-      if (ranks_.any(interrupt.requested())) return ExitCode::interrupted;
+      if (requests.stop_is_asked()) return ExitCode::interrupted;
       if (flow_.time >= next_fields) {
         write_fields();
         next_fields = (std::floor(flow_.time / field_interval) + 1.0) * field_interval;
