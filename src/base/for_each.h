@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace tailwater {
 
@@ -40,6 +41,16 @@ double largest_over(std::size_t count, double least, Body&& body) {
     least = std::max<double>(least, body(i));
   }
   return least;
+}
+
+/// The indices for which the condition holds, ascending.
+template <class Condition>
+std::vector<std::size_t> indices_where(std::size_t count, Condition&& condition) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (condition(i)) indices.push_back(i);
+  }
+  return indices;
 }
 
 }  // namespace tailwater

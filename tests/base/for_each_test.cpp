@@ -39,5 +39,10 @@ TEST(LargestOver, IsAtLeastWhatItStartsFrom) {
   EXPECT_EQ(largest_over(0, -10.0, value), -10.0);
 }
 
+TEST(IndicesWhere, AreInAscendingOrder) {
+  EXPECT_EQ(indices_where(6, [](std::size_t i) { return i % 2 == 1; }), (std::vector<std::size_t>{1, 3, 5}));
+  EXPECT_TRUE(indices_where(3, [](std::size_t) { return false; }).empty());
+}
+
 }  // namespace
 }  // namespace tailwater
