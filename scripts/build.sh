@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
-# Builds into build/<preset>/; the program is build/<preset>/bin/tailwater. Usage: scripts/build.sh [preset]
+# Builds the program into build/<preset>/: build/<preset>/bin/tailwater. Usage: scripts/build.sh [preset] [--tests]
+# With --tests the test programs too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
+case ${2:-} in
+  "") tests=OFF ;;
+  --tests) tests=ON ;;
+  *) echo "build.sh: unknown option \"$2\"; there is --tests" >&2; exit 2 ;;
+esac
 
-scripts/install.sh
-cmake --preset "$preset" >"/tmp/tailwater-cmake-$preset.$$.log" || { cat "/tmp/tailwater-cmake-$preset.$$.log" >&2; exit 1; }
-rm -f "/tmp/tailwater-cmake-$preset.$$.log"
+scripts/install.sh build
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+cmake --preset "$preset" -D TAILWATER_BUILD_TESTS=$tests >"$log" || { cat "$log" >&2; exit 1; }
 cmake --build "build/$preset" --parallel

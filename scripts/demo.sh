@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+scripts/install.sh build pictures
 scripts/build.sh release
 build/release/bin/tailwater run cases/zhou1999/case.toml --out out/demo --force "$@"
 echo

@@ -1,16 +1,26 @@
 #!/usr/bin/env bash
-# Installs everything Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
+# Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
+# Usage: scripts/install.sh [build] [tests] [pictures]   default: all three
 set -euo pipefail
 
-build_packages=(
+build=(
   g++ cmake ninja-build pkg-config git ca-certificates
   libpetsc-real-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
-  libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
+  libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
 )
-test_packages=(libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9 clang-format clang-tidy)
-picture_packages=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
+pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
+tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}")
 
-wanted=("${build_packages[@]}" "${test_packages[@]}" "${picture_packages[@]}")
+(($# > 0)) || set -- build tests pictures
+wanted=()
+for group in "$@"; do
+  case $group in
+    build) wanted+=("${build[@]}") ;;
+    tests) wanted+=("${tests[@]}") ;;
+    pictures) wanted+=("${pictures[@]}") ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures" >&2; exit 2 ;;
+  esac
+done
 missing=()
 for package in "${wanted[@]}"; do
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)

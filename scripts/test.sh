@@ -5,5 +5,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 shift || true
 
-scripts/build.sh "$preset"
+scripts/install.sh build tests
+scripts/build.sh "$preset" --tests
 ctest --test-dir "build/$preset" --output-on-failure --parallel 2 "$@"

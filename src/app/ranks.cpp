@@ -18,6 +18,8 @@
 #include <system_error>
 #include <thread>
 
+#include "run/requests.h"
+
 namespace tailwater {
 namespace {
 
@@ -61,20 +63,10 @@ std::vector<std::string> mpirun_command(int count, const std::vector<std::string
   return command;
 }
 
-volatile std::sig_atomic_t mpirun_process = 0;
-volatile std::sig_atomic_t signals_passed_on = 0;
-
-/// mpirun hands SIGUSR1 on to all ranks, and ends them at SIGTERM.
-void pass_on(int) {
-  const int saved = errno;
-  if (mpirun_process > 0) kill(mpirun_process, signals_passed_on == 0 ? SIGUSR1 : SIGTERM);
-  signals_passed_on = signals_passed_on + 1;
-  errno = saved;
-}
-
 /// In the new process: becomes mpirun, or says through `failure` why not.
-[[noreturn]] void become_mpirun(std::vector<std::string> command, int failure) {
+[[noreturn]] void become_mpirun(std::vector<std::string> command, const sigset_t& signals_before, int failure) {
   setpgid(0, 0);  // Ctrl-C goes to the launching process alone
+  sigprocmask(SIG_SETMASK, &signals_before, nullptr);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
@@ -87,11 +79,34 @@ void pass_on(int) {
   _exit(127);
 }
 
-int wait_for(pid_t process) {
+/// What the launching process waits for. They are taken one by one where it waits, so that it need not do its work in a
+/// signal handler.
+sigset_t awaited_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&signals, signal);
+  return signals;
+}
+
+struct Ending {
+  int code;  ///< exit code, or 128 and the number of the signal that ended the process
+  bool was_asked;
+};
+
+/// Waits for mpirun. The first SIGINT or SIGTERM asks the ranks to end in order if their run has begun, and everything
+/// else makes mpirun kill them.
+Ending wait_for(pid_t mpirun, StopSender& stop) {
+  const sigset_t signals = awaited_signals();
+  bool was_asked = false;
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(mpirun, &status, WNOHANG) == 0) {
+    int signal = 0;
+    sigwait(&signals, &signal);
+    if (signal == SIGCHLD) continue;
+    if (was_asked || !stop.send()) kill(mpirun, SIGTERM);
+    was_asked = true;
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
 }
 
 /// "error: " before every line: a case may have several problems, one line each.
@@ -113,7 +128,7 @@ bool is_root_in_environment() {
   return number_in_environment({"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"}) <= 0;
 }
 
-ExitCode launch_ranks(int count, const std::vector<std::string>& arguments) {
+ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
     fmt::print(stderr, "warning: {} ranks on {} core(s) take turns; remedy: -n {}\n", count, usable_cores(),
                usable_cores());
@@ -121,27 +136,26 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments) {
   const std::vector<std::string> command = mpirun_command(count, arguments);
   int failure[2];
   if (pipe2(failure, O_CLOEXEC) != 0) throw IoError("cannot make a pipe: " + std::generic_category().message(errno));
-  struct sigaction action {};
-  action.sa_handler = pass_on;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  StopSender stop(out);
+  const sigset_t signals = awaited_signals();
+  sigset_t signals_before;
+  sigprocmask(SIG_BLOCK, &signals, &signals_before);
+  std::signal(SIGCHLD, SIG_DFL);  // whoever ignores it hands that on, and would get no word of mpirun's end
   const pid_t process = fork();
   if (process < 0) throw IoError("cannot start a process: " + std::generic_category().message(errno));
-  if (process == 0) become_mpirun(command, failure[1]);
-  mpirun_process = process;
+  if (process == 0) become_mpirun(command, signals_before, failure[1]);
   close(failure[1]);
   int error_number = 0;
   const bool has_failed = read(failure[0], &error_number, sizeof(error_number)) == sizeof(error_number);
   close(failure[0]);
-  const int code = wait_for(process);
+  const auto [code, was_asked] = wait_for(process, stop);
   if (has_failed) {
     throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
                                  std::generic_category().message(error_number)));
   }
-  // Ranks that were not yet ready to end in order were ended by the signal.
+  // Ranks that did not end in order were killed.
   const bool is_ours = code == 0 || code == 2 || code == 3 || code == 4;
-  return signals_passed_on > 0 && !is_ours ? ExitCode::interrupted : static_cast<ExitCode>(code);
+  return was_asked && !is_ours ? ExitCode::interrupted : static_cast<ExitCode>(code);
 }
 
 ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {

@@ -43,7 +43,7 @@ ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const
   }
   if (arguments.ranks) {
     require_possible(*arguments.ranks);
-    if (*arguments.ranks > 1 && ranks.is_alone()) return launch_ranks(*arguments.ranks, words);
+    if (*arguments.ranks > 1 && ranks.is_alone()) return launch_ranks(*arguments.ranks, words, arguments.run.out);
   }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   std::optional<LinearSession> session;  // several ranks have one already
@@ -81,7 +81,8 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       "          tailwater run my.toml --out fine --set particles.spacing=0.01 --set scheme.integrator=implicit\n"
       "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"
       "DIR/fields/fields.pvd (open it in ParaView) and DIR/summary.json; if the run fails, also DIR/failure/.\n"
-      "Ctrl-C ends a run in order: what it has written can be used.");
+      "Ctrl-C, or the file DIR/STOP (touch DIR/STOP), ends a run in order after the present step: what it has written\n"
+      "can be used.");
   command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
 }
 

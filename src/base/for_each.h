@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace tailwater {
 
@@ -25,7 +26,7 @@ std::size_t count_each(std::size_t count, Body&& body) {
   return sum;
 }
 
-/// `zero` plus the values of body(i), in the order of i.
+/// `zero` plus what the body returns for each index, added in ascending order.
 template <class T, class Body>
 T sum_over(std::size_t count, T zero, Body&& body) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -34,13 +35,23 @@ T sum_over(std::size_t count, T zero, Body&& body) {
   return zero;
 }
 
-/// The largest value of body(i), at least `least`.
+/// The largest of `least` and what the body returns for each index.
 template <class Body>
 double largest_over(std::size_t count, double least, Body&& body) {
   for (std::size_t i = 0; i < count; ++i) {
-    least = std::max(least, body(i));
+    least = std::max<double>(least, body(i));
   }
   return least;
+}
+
+/// The indices for which the condition holds, ascending.
+template <class Condition>
+std::vector<std::size_t> indices_where(std::size_t count, Condition&& condition) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (condition(i)) indices.push_back(i);
+  }
+  return indices;
 }
 
 }  // namespace tailwater

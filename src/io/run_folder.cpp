@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 3> result_files{"case.effective.toml", "steps.csv", "summary.json"};
+constexpr std::array<std::string_view, 5> result_files{effective_case_name, "steps.csv", "ranks.csv", "summary.json",
+                                                       stop_file_name};
 constexpr std::array<std::string_view, 3> result_folders{"probes", "fields", "failure"};
 /// Endings of the files a run writes into its folders.
 constexpr std::array<std::string_view, 5> result_endings{".csv", ".vtp", ".pvd", ".txt", ".json"};

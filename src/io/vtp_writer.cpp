@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/assert.h"
+#include "base/for_each.h"
 #include "base/fp_traps.h"
 #include "io/write_file.h"
 
@@ -84,11 +85,11 @@ EncodedPiece::Array append_array(EncodedPiece& piece, std::string name, int comp
 template <class Value, int Dim>
 std::vector<Value> three_components(std::span<const Vec<Dim>> vectors) {
   std::vector<Value> values(3 * vectors.size(), Value(0));
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
+  for_each(vectors.size(), [&](std::size_t i) {
     for (int d = 0; d < Dim; ++d) {
       values[3 * i + d] = static_cast<Value>(vectors[i][d]);
     }
-  }
+  });
   return values;
 }
 
@@ -107,7 +108,7 @@ std::vector<std::int64_t> stored(std::span<const std::int64_t> values) { return 
 /// first, first + step, ...
 std::vector<std::int64_t> progression(std::size_t count, std::int64_t first, std::int64_t step) {
   std::vector<std::int64_t> values(count);
-  for (std::size_t i = 0; i < count; ++i) values[i] = first + step * static_cast<std::int64_t>(i);
+  for_each(count, [&](std::size_t i) { values[i] = first + step * static_cast<std::int64_t>(i); });
   return values;
 }
 

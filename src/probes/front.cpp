@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/for_each.h"
 #include "probes/places.h"
 
 namespace tailwater {
@@ -30,10 +31,8 @@ template <int Dim>
 Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   const Particles<Dim>& particles = context.particles;
   std::vector<std::pair<double, std::int32_t>> heap;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (particles.is_fluid(i)) {
-      heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
-    }
+  for (const std::size_t i : indices_where(particles.owned, [&](std::size_t k) { return particles.is_fluid(k); })) {
+    heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
   }
   if (heap.empty()) return {};
   std::make_heap(heap.begin(), heap.end());

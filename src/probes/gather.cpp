@@ -4,6 +4,8 @@
 #include <array>
 #include <tuple>
 
+#include "base/for_each.h"
+
 namespace tailwater {
 namespace {
 
@@ -34,13 +36,14 @@ template <int Dim>
 Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
   const Particles<Dim>& particles = context.particles;
   const double reach = kernel_radius(context.kernel);
+  const auto is_near = [&](std::size_t i) {
+    return std::any_of(regions.begin(), regions.end(),
+                       [&](const Region<Dim>& region) { return region.contains(particles.position[i], reach); });
+  };
   std::vector<Sample<Dim>> near;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec<Dim>& x = particles.position[i];
-    if (std::any_of(regions.begin(), regions.end(), [&](const Region<Dim>& r) { return r.contains(x, reach); })) {
-      near.push_back({particles.id[i], to_array<Dim>(x), to_array<Dim>(particles.velocity[i]), particles.pressure[i],
-                      particles.volume[i], particles.kind[i]});
-    }
+  for (const std::size_t i : indices_where(particles.size(), is_near)) {
+    near.push_back({particles.id[i], to_array<Dim>(particles.position[i]), to_array<Dim>(particles.velocity[i]),
+                    particles.pressure[i], particles.volume[i], particles.kind[i]});
   }
   near = context.ranks.gather(near);
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
@@ -50,7 +53,7 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
   Particles<Dim> gathered;
   gathered.resize(near.size());
   gathered.owned = near.size();
-  for (std::size_t i = 0; i < near.size(); ++i) {
+  for_each(near.size(), [&](std::size_t i) {
     gathered.position[i] = Vec<Dim>(near[i].position.data());
     gathered.velocity[i] = Vec<Dim>(near[i].velocity.data());
     gathered.pressure[i] = near[i].pressure;
@@ -58,7 +61,7 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
     gathered.kind[i] = near[i].kind;
     gathered.wall_row[i] = -1;
     gathered.id[i] = near[i].id;
-  }
+  });
   return gathered;
 }
 

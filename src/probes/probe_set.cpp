@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/for_each.h"
 #include "parallel/together.h"
 #include "probes/front.h"
 #include "probes/gather.h"
@@ -26,9 +27,7 @@ Reading<Dim> volume_reading() {
   return {{"particles", "density_error_mean", "density_error_rms", "volume_out_m3"},
           [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const Particles<Dim>& particles = context.particles;
-            const auto count =
-                std::count(particles.kind.begin(),
-                           particles.kind.begin() + static_cast<std::ptrdiff_t>(particles.owned), ParticleKind::fluid);
+            const std::size_t count = count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
             return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
                      context.totals.density_error_rms, context.totals.volume_out}};
           }};

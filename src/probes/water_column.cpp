@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/for_each.h"
 #include "geometry/from_spec.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
@@ -101,10 +102,10 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line,
 /// A height [m] that all water the context knows lies below.
 template <int Dim>
 double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
-  double highest = -std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < context.particles.size(); ++i) {
-    if (context.particles.is_fluid(i)) highest = std::max(highest, context.particles.position[i].dot(up));
-  }
+  constexpr double nowhere = -std::numeric_limits<double>::max();
+  const double highest = largest_over(context.particles.size(), nowhere, [&](std::size_t i) {
+    return context.particles.is_fluid(i) ? context.particles.position[i].dot(up) : nowhere;
+  });
   return highest + kernel_radius(context.kernel);
 }
 

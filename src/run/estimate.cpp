@@ -113,7 +113,8 @@ void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow) {
   RunEstimate estimate;
-  const std::size_t fluid = count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
+  const std::size_t fluid =
+      count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
   estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.state.particles.owned - fluid)};
   estimate.memory = memory_estimate<Dim>(estimate.particles, neighbours_in_support<Dim>(spec.scheme.support));
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/for_each.h"
 #include "geometry/from_spec.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"
@@ -27,14 +28,13 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (!particles.is_fluid(i)) continue;
-    if (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
-        !std::isfinite(particles.pressure[i])) {
-      return i;
-    }
-  }
-  return std::nullopt;
+  const std::vector<std::size_t> found = indices_where(particles.owned, [&](std::size_t i) {
+    return particles.is_fluid(i) &&
+           (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
+            !std::isfinite(particles.pressure[i]));
+  });
+  if (found.empty()) return std::nullopt;
+  return found.front();
 }
 
 template <int Dim>

@@ -1,7 +1,8 @@
 #include "run/field_output.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "base/for_each.h"
 
 namespace tailwater {
 
@@ -9,10 +10,7 @@ template <int Dim>
 FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles,
                               const std::vector<std::string>& names)
     : names_(names) {
-  std::vector<std::size_t> fluid;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (particles.is_fluid(i)) fluid.push_back(i);
-  }
+  std::vector<std::size_t> fluid = indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
   std::sort(fluid.begin(), fluid.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
   // Before the first step there are no work fields yet: the start is a lattice with no marks.

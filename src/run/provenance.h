@@ -1,7 +1,7 @@
 // Where a result comes from: program, commit, libraries, machine.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace tailwater {

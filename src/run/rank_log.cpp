@@ -1,6 +1,7 @@
 #include "run/rank_log.h"
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 namespace tailwater {
 

@@ -1,22 +1,12 @@
 // A run: from a validated case to a folder of results.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "base/error.h"
 #include "case/spec.h"
-#include "io/run_folder.h"
 #include "parallel/communicator.h"
+#include "run/run_options.h"
 
 namespace tailwater {
-
-struct RunOptions {
-  std::filesystem::path case_file;  ///< named in the summary
-  std::filesystem::path out;
-  bool force = false;  ///< replace the results of an earlier run
-  bool quiet = false;  ///< no progress lines
-};
 
 /// The case's geometry as `check` sees it; called by `run` before anything is written. Warnings go to standard error.
 /// Throws InputError with all errors found.

@@ -1,6 +1,7 @@
 #include "run/statistics.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace tailwater {
 

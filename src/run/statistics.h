@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "flow/measure.h"
 #include "flow/step.h"

@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 from fields import read_points, read_series
-from program import ProgramTest
+from program import PATIENCE, ProgramTest
 
 # Hours of work: such a run goes on until it is stopped.
 ENDLESS = ("--set", "time.end=1000", "--set", "output.fields_interval=0.05")
@@ -219,7 +219,7 @@ class Unwritable(ProgramTest):
         process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
         self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
         resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (1, 1))
-        _, message = process.communicate(timeout=60)
+        _, message = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 4)
         self.assertRegex(message, r"^error: cannot write 'run/.+': File too large\n$")
         for _, path in read_series(self.folder / "run/fields/fields.pvd"):
@@ -248,7 +248,7 @@ class Stopped(ProgramTest):
             with self.subTest(stop):
                 process = self.start_endless_run()
                 process.send_signal(stop)
-                self.assertEqual(process.wait(timeout=60), 130)
+                self.assertEqual(process.wait(timeout=PATIENCE), 130)
                 summary = self.summary("run")
                 self.assertEqual((summary["status"], summary["exit_code"]), ("interrupted", 130))
                 series = self.check_readable()
@@ -257,10 +257,25 @@ class Stopped(ProgramTest):
                 self.assertEqual(steps[-1][0], summary["time_s"]["reached"])
                 (self.folder / "run").rename(self.folder / stop.name)
 
+    def test_a_file_ends_a_run_in_order(self):
+        process = self.start_endless_run()
+        (self.folder / "run/STOP").touch()
+        self.assertEqual(process.wait(timeout=PATIENCE), 130)
+        self.assertEqual(self.summary("run")["status"], "interrupted")
+        self.assertEqual(self.check_readable()[-1][0], self.summary("run")["time_s"]["reached"])
+        self.assertFalse((self.folder / "run/STOP").exists())
+
+    def test_a_stale_file_stops_nothing(self):
+        (self.folder / "run").mkdir()
+        (self.folder / "run/STOP").touch()
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--force")
+        self.assertEqual(self.summary("run")["status"], "done")
+        self.assertFalse((self.folder / "run/STOP").exists())
+
     def test_what_a_killed_run_wrote_can_be_read(self):
         process = self.start_endless_run()
         process.kill()
-        process.wait(timeout=60)
+        process.wait(timeout=PATIENCE)
         self.check_readable()
         self.assertFalse((self.folder / "run/summary.json").exists())
         self.assertIn("run/summary.json", self.call("info", "run", expect=4).stderr)

@@ -53,9 +53,9 @@ TEST(RunFolder, IsNeverOverwrittenUnasked) {
 TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
   const TemporaryFolder folder;
   const RunFolder run = RunFolder::create(folder.path(), false);
-  for (const fs::path& path :
-       {run.effective_case(), run.steps(), run.summary(), run.probe("wall"), run.fields() / "fields.pvd",
-        run.fields() / "fields_00000.vtp", run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
+  for (const fs::path& path : {run.effective_case(), run.steps(), run.ranks(), run.summary(), run.stop(),
+                               run.probe("wall"), run.fields() / "fields.pvd", run.fields() / "fields_00000.vtp",
+                               run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
     write_text_file(path, "result");
   }
   for (const char* name : {"notes.txt", "case.toml", "fields/view.pvsm", "probes/plot.py"}) {

@@ -1,0 +1,15 @@
+// What the command line says about a run, beside its case.
+#pragma once
+
+#include <filesystem>
+
+namespace tailwater {
+
+struct RunOptions {
+  std::filesystem::path case_file;  ///< named in the summary
+  std::filesystem::path out;
+  bool force = false;  ///< replace the results of an earlier run
+  bool quiet = false;  ///< no progress lines
+};
+
+}  // namespace tailwater

@@ -1,0 +1,75 @@
+// What a run writes and says while it goes and when it ends: fields, probes, tables, progress, summary. Functions are
+// collective.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "case/spec.h"
+#include "flow/flow.h"
+#include "io/pvd_series.h"
+#include "io/run_folder.h"
+#include "probes/probe_set.h"
+#include "run/progress.h"
+#include "run/rank_log.h"
+#include "run/run_options.h"
+#include "run/statistics.h"
+#include "run/step_log.h"
+#include "run/water_books.h"
+
+namespace tailwater {
+
+template <int Dim>
+class RunOutput {
+ public:
+  /// Last in the row of checks: throws InputError for a probe in the wrong place, an end out of reach or a folder that
+  /// cannot be taken, and leaves nothing behind then. From here on there are traces. Borrows `spec` and `options`.
+  RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow);
+
+  const RunFolder& folder() const { return folder_; }
+
+  /// Fields, when their time has come.
+  void write_due_fields(const Flow<Dim>& flow);
+  /// Probes that are due.
+  void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
+  void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
+  /// Everything that is written and told after each step.
+  void record_step(const Flow<Dim>& flow, const StepReport& report);
+
+  /// The last fields and the summary.
+  void finish(const Flow<Dim>& flow, ExitCode code);
+  /// The summary of a run that failed.
+  void finish_failed(const Flow<Dim>& flow, const std::string& message);
+
+ private:
+  RunFolder make_folder(const Flow<Dim>& flow) const;
+  void write_fields(const Flow<Dim>& flow);
+  void warn_if_outside(const Flow<Dim>& flow, std::size_t outside);
+  void write_summary(const Flow<Dim>& flow, const std::string& status, ExitCode code, const std::string& message);
+  void tell_water(const Flow<Dim>& flow) const;
+
+  const CaseSpec& spec_;
+  const RunOptions& options_;
+  Communicator ranks_;
+  bool tells_;                          ///< speaks to the user: the root, unless it shall be quiet
+  std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
+  RunFolder folder_;
+  PvdSeries series_;
+  PvdSeries wall_series_;            ///< only when a wall moves
+  std::optional<StepLog> step_log_;  ///< on the root
+  RankLog rank_log_;
+  ProbeSet<Dim> probes_;
+  Progress progress_;
+  RunStatistics statistics_;
+  Water water_at_start_;
+  double next_fields_ = 0.0;  ///< s
+  double last_fields_time_ = -1.0;
+  bool warned_outside_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double cpu_start_;
+};
+
+}  // namespace tailwater

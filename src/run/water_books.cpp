@@ -1,0 +1,93 @@
+#include "run/water_books.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+nlohmann::ordered_json json_of(const Water& water) {
+  return {{"particles", water.particles}, {"volume_m3", water.volume}};
+}
+
+/// Empty when there are no walls.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    for (const Vec<Dim>& corner : face.corners) box.extend(corner);
+  }
+  return box;
+}
+
+}  // namespace
+
+Water& Water::operator+=(const Water& other) {
+  particles += other.particles;
+  volume += other.volume;
+  return *this;
+}
+
+std::string Water::text() const { return fmt::format("{} particles ({:.6g} m^3)", particles, volume); }
+
+template <int Dim>
+Water water_in(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
+    return particles.is_fluid(i) ? Water{1, particles.volume[i]} : Water();
+  });
+  flow.setup.ranks.sum_each(water.particles, water.volume);
+  return water;
+}
+
+template <int Dim>
+Water water_out(const Flow<Dim>& flow) {
+  Water water;
+  for (const OpenEndState& end : flow.state.open_ends) water += {end.departed.particles, end.departed.volume};
+  return water;
+}
+
+template <int Dim>
+nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow) {
+  nlohmann::ordered_json outlets = nlohmann::ordered_json::array();
+  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
+    const Departed& departed = flow.state.open_ends[e].departed;
+    outlets.push_back({{"name", flow.setup.open_ends[e].outlet.name},
+                       {"particles", departed.particles},
+                       {"volume_m3", departed.volume},
+                       {"energy_J", departed.energy}});
+  }
+  return {{"start", json_of(at_start)},
+          {"inside", json_of(water_in(flow))},
+          {"out", json_of(water_out(flow))},
+          {"outlets", outlets}};
+}
+
+template <int Dim>
+std::size_t count_outside(const Flow<Dim>& flow) {
+  const Eigen::AlignedBox<double, Dim> box = box_around(flow.walls.boundary);
+  if (box.isEmpty()) return 0;
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::size_t count = count_each(particles.owned, [&](std::size_t i) {
+    const Vec<Dim>& x = particles.position[i];
+    return particles.is_fluid(i) && !box.contains(x) &&
+           std::none_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
+                        [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
+  });
+  return flow.setup.ranks.sum(count);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                    \
+  template Water water_in<Dim>(const Flow<Dim>&);                                     \
+  template Water water_out<Dim>(const Flow<Dim>&);                                    \
+  template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&); \
+  template std::size_t count_outside<Dim>(const Flow<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater
