@@ -84,7 +84,7 @@ std::vector<std::string> mpirun_command(int count, const std::vector<std::string
 sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) sigaddset(&signals, signal);
   return signals;
 }
 
@@ -93,8 +93,8 @@ struct Ending {
   bool was_asked;
 };
 
-/// Waits for mpirun. The first SIGINT or SIGTERM asks the ranks to end in order if their run has begun, and everything
-/// else makes mpirun kill them.
+/// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 asks the ranks to end in order. A second one, or the first
+/// when their run has not begun, makes mpirun kill them.
 Ending wait_for(pid_t mpirun, StopSender& stop) {
   const sigset_t signals = awaited_signals();
   bool was_asked = false;

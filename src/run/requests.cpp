@@ -63,7 +63,7 @@ bool StopSender::send() {
   return true;
 }
 
-/// The earliest time there is when no run has been there.
+/// When no run has been there, the earliest time there is.
 std::filesystem::file_time_type StopSender::last_start() const {
   std::error_code error;
   return std::filesystem::last_write_time(effective_case_, error);

@@ -91,7 +91,7 @@ class RanksTest(ProgramTest):
         self.assertIn("error: rank 1: missing.toml", error)
 
     def test_interrupt_ends_all_in_order(self):
-        for stop in (signal.SIGINT, signal.SIGTERM):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             with self.subTest(stop):
                 process = self.start_long_run(**FORWARD_NOTHING)
                 self.assertGreaterEqual(len(self.processes()), 4)  # this one, mpirun, two ranks

@@ -244,7 +244,7 @@ class Stopped(ProgramTest):
         return series
 
     def test_interrupted_runs_end_in_order(self):
-        for stop in (signal.SIGINT, signal.SIGTERM):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             with self.subTest(stop):
                 process = self.start_endless_run()
                 process.send_signal(stop)
