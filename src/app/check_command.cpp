@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "case/reader.h"
+#include "flow/flow.h"
 #include "geometry/preview.h"
 #include "io/write_file.h"
 #include "linear/session.h"
@@ -15,7 +16,6 @@
 #include "run/estimate.h"
 #include "run/progress.h"
 #include "run/run_case.h"
-#include "flow/flow.h"
 
 namespace tailwater {
 namespace {

@@ -90,6 +90,7 @@ class LinearSystem {
   std::span<double> values_of_own() { return std::span(value_).first(own_.column.size()); }
   std::span<double> values_of_others() { return std::span(value_).subspan(own_.column.size()); }
   std::span<double> rhs() { return rhs_; }
+  std::span<const double> rhs() const { return rhs_; }
 
  private:
   template <class Body>

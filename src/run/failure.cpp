@@ -28,10 +28,11 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
+  const std::span<const double> source = flow.pressure_rows.rhs();
   const std::vector<std::size_t> found = indices_where(particles.owned, [&](std::size_t i) {
     return particles.is_fluid(i) &&
            (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
-            !std::isfinite(particles.pressure[i]));
+            !std::isfinite(particles.pressure[i]) || (i < source.size() && !std::isfinite(source[i])));
   });
   if (found.empty()) return std::nullopt;
   return found.front();

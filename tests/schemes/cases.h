@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "case/formulation.h"
-#include "schemes/advance.h"
 #include "pressure/verbs.h"
+#include "schemes/advance.h"
 
 namespace tailwater {
 
