@@ -5,6 +5,7 @@
 
 #include "geometry/from_spec.h"
 #include "operators/laplacian_shao_lo.h"
+#include "walls/wall_contact.h"
 
 namespace tailwater {
 namespace {
@@ -14,9 +15,6 @@ constexpr double fastest_counted_over_reference = 2.0;
 
 /// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
 constexpr double wall_law_distance_over_spacing = 0.6;
-
-/// dx; what looks for a wall near a particle looks no farther.
-constexpr double near_walls = 3.0;
 
 template <int Dim>
 PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
@@ -32,7 +30,7 @@ template <int Dim>
 Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model) {
   Walls<Dim> walls;
   walls.boundary = make_boundary<Dim>(spec);
-  walls.boundary.file_faces(near_walls * spec.particles.spacing);
+  walls.boundary.file_faces(search_distance * spec.particles.spacing);
   walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec));
   for (const int wall : walls.particles.wall) walls.friction.push_back(walls.boundary.walls[wall].friction);
   return walls;

@@ -7,7 +7,6 @@ namespace {
 
 constexpr double contact_distance = 0.5;  // dx
 constexpr double least_gap = 0.01;        // dx; from nearer, and from behind a wall, a move counts as starting here
-constexpr double search_distance = 3.0;   // dx
 
 template <int Dim>
 bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {

@@ -1,4 +1,4 @@
-// PressureSystem against a dense solve, its starting guess, its errors, and systems that determine differences only.
+// The solver against a dense solve, its starting guess, its errors, and systems that determine differences only.
 #include "support/pressure_system.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "linear/solver_choice.h"
 #include "support/particle_set.h"
 
 namespace tailwater {
@@ -149,6 +150,48 @@ TEST(PressureSystem, DividedDiagonalsAreThoseOfTheSystem) {
   small.diagonal[11] = 1.0;
   small.rhs[11] = 0.0;
   expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
+TEST(PressureSystem, RowsWithEqualColumnsAreSolvedLikeAnyOther) {
+  // Drops that fly apart: in each every unknown couples with every other, so whole blocks of rows have equal columns,
+  // for which PETSc has operations of its own.
+  constexpr std::size_t drop = 4;
+  SmallSystem small;
+  Noise noise(9);
+  for (std::size_t i = 0; i < 15 * drop; ++i) {
+    for (std::size_t k = 0; k < drop; ++k) {
+      const std::size_t j = i / drop * drop + k;
+      if (j == i) continue;
+      small.columns.push_back(static_cast<std::int32_t>(j));
+      small.weights.push_back(0.125 * noise());
+    }
+    small.row_begin.push_back(small.columns.size());
+    small.diagonal.push_back(1.0);
+    small.rhs.push_back(noise());
+  }
+  PressureSystem system(solver_settings(1e-10));
+  system.set_pattern(small.row_begin, small.columns);
+  small.pass_values_to(system);
+  std::vector<double> solution(small.size(), 0.0);
+  system.solve(solution);
+  expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
+}
+
+TEST(SolverChoice, TheRuleFillsInWhatTheCaseLeavesOpen) {
+  const PressureSolverTable open;
+  for (const std::int64_t unknowns : {small_system, large_system}) {
+    const SolverChoice choice = choose_solver(open, {.unknowns = unknowns});
+    EXPECT_NE(choice.method, KrylovMethod::automatic);
+    EXPECT_NE(choice.preconditioner, PreconditionerName::automatic);
+  }
+  EXPECT_EQ(choose_solver(open, {.unknowns = small_system}).preconditioner, PreconditionerName::ssor);
+  EXPECT_EQ(choose_solver(open, {.unknowns = large_system}).preconditioner, PreconditionerName::boomeramg);
+  PressureSolverTable chosen;
+  chosen.method = KrylovMethod::fgmres;
+  chosen.preconditioner = PreconditionerName::jacobi;
+  const SolverChoice choice = choose_solver(chosen, {.unknowns = large_system});
+  EXPECT_EQ(choice.method, KrylovMethod::fgmres);
+  EXPECT_EQ(choice.preconditioner, PreconditionerName::jacobi);
 }
 
 TEST(PressureSystem, ATinySourceIsSolvedLikeAnyOther) {
