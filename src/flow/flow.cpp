@@ -57,7 +57,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
       neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
                     setup.domain, ranks),
       pressure_rows(ranks),
-      pressure_solver(spec.pressure_solver),
+      pressure_solver(spec.pressure_solver, setup.rows_deep),
       walls(std::move(drawing.walls)) {
   Particles<Dim>& particles = state.particles;
   particles = make_particles(drawing.fluid, walls.particles, power<Dim>(setup.spacing));

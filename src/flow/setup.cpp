@@ -83,6 +83,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       spacing(spec.particles.spacing),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
       length(scheme.length > 0.0 ? scheme.length : fluid_height(drawing.fluid, gravity, spacing)),
+      rows_deep(fluid_height(drawing.fluid, gravity, spacing) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_model(drawing.wall_model),

@@ -41,6 +41,7 @@ struct Setup {
   double spacing;    ///< m
   Vec<Dim> gravity;  ///< m/s^2
   double length;     ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
+  double rows_deep;  ///< that height in particles
   PeriodicDomain<Dim> domain;
   bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;

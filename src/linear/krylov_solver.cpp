@@ -114,13 +114,13 @@ struct KrylovSolver::Petsc {
     check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
   }
 
-  void take_solver(const LinearSystem& system, const PressureSolverTable& settings) {
+  void take_solver(const LinearSystem& system, const PressureSolverTable& settings, double rows_deep) {
     const Communicator& ranks = system.ranks();
     if (ranks.any(solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
       configure(solver.get(), settings,
-                {.unknowns = system.size_of_all(), .constant_is_free = system.constant_is_free()}, ranks.is_alone());
+                {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free()}, ranks.is_alone());
     }
     check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
   }
@@ -141,8 +141,8 @@ struct KrylovSolver::Petsc {
   }
 };
 
-KrylovSolver::KrylovSolver(const PressureSolverTable& settings)
-    : settings_(settings), petsc_(std::make_unique<Petsc>()) {
+KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep)
+    : settings_(settings), rows_deep_(rows_deep), petsc_(std::make_unique<Petsc>()) {
   take_petsc_options(settings_);
 }
 
@@ -178,7 +178,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   }
   if (report.residual <= tolerance_wanted) return report;
 
-  petsc.take_solver(system, settings_);
+  petsc.take_solver(system, settings_, rows_deep_);
   KSP solver = petsc.solver.get();
   // Later solves with one pattern are of rows little changed: the set-up of multigrid costs as much as a solve.
   check_petsc(KSPSetReusePreconditioner(solver, pattern_is_new ? PETSC_FALSE : PETSC_TRUE));

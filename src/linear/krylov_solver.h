@@ -18,8 +18,9 @@ struct SolveReport {
 
 class KrylovSolver {
  public:
-  /// Throws InputError for petsc_options that PETSc does not know.
-  explicit KrylovSolver(const PressureSolverTable& settings);
+  /// For water so many rows of particles deep, by which `auto` chooses. Throws InputError for petsc_options that PETSc
+  /// does not know.
+  explicit KrylovSolver(const PressureSolverTable& settings, double rows_deep = 0.0);
   ~KrylovSolver();
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
@@ -37,6 +38,7 @@ class KrylovSolver {
   struct Petsc;
 
   PressureSolverTable settings_;
+  double rows_deep_;
   std::unique_ptr<Petsc> petsc_;
 };
 

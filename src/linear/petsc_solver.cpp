@@ -67,11 +67,11 @@ void ask_for_all_options(const PressureSolverTable& settings) {
   for (PetscInt i = 0; i < 2; ++i) check_petsc(MatSetValue(identity.get(), i, i, 1.0, INSERT_VALUES));
   check_petsc(MatAssemblyBegin(identity.get(), MAT_FINAL_ASSEMBLY));
   check_petsc(MatAssemblyEnd(identity.get(), MAT_FINAL_ASSEMBLY));
-  for (const std::int64_t unknowns : {small_system, large_system}) {
+  for (const double rows_deep : {shallow, deep}) {
     PetscKrylovSolver solver;
     check_petsc(KSPCreate(PETSC_COMM_SELF, solver.create()));
     check_petsc(KSPSetOperators(solver.get(), identity.get(), identity.get()));
-    configure(solver.get(), settings, {.unknowns = unknowns}, true);
+    configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = false}, true);
     check_petsc(KSPSetUp(solver.get()));
   }
 }

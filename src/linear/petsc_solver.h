@@ -9,8 +9,8 @@ namespace tailwater {
 /// Sets type, preconditioner, tolerances and the user's own options of `solver` for such a system on so many ranks.
 void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone);
 
-/// Hands petsc_options to PETSc. Throws InputError for options that neither a small nor a large system's solver asks
-/// for: PETSc itself ignores them in silence.
+/// Hands petsc_options to PETSc. Throws InputError for options that neither the solver of shallow nor that of deep water
+/// asks for: PETSc itself ignores them in silence.
 void take_petsc_options(const PressureSolverTable& settings);
 
 }  // namespace tailwater

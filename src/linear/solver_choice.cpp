@@ -3,20 +3,21 @@
 namespace tailwater {
 namespace {
 
-/// Below this many unknowns SSOR with BiCGStab costs less than algebraic multigrid with its set-up
-/// (docs/theory/linear.md gives the measurement).
-constexpr std::int64_t multigrid_pays_from = 40000;
+/// Rows of particles. In water less deep SSOR with BiCGStab costs less than algebraic multigrid with its set-up
+/// (docs/theory/linear.md gives the measurement): its iterations grow with the way to the surface, where p = 0, and the
+/// cost of both per unknown does not depend on their number.
+constexpr double multigrid_pays_from = 150.0;
 
 }  // namespace
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system) {
-  const bool is_small = system.unknowns < multigrid_pays_from;
+  const bool is_shallow = system.rows_deep < multigrid_pays_from;
   SolverChoice choice{settings.method, settings.preconditioner};
   if (choice.method == KrylovMethod::automatic) {
-    choice.method = is_small ? KrylovMethod::bicgstab : KrylovMethod::gmres;
+    choice.method = is_shallow ? KrylovMethod::bicgstab : KrylovMethod::gmres;
   }
   if (choice.preconditioner == PreconditionerName::automatic) {
-    choice.preconditioner = is_small ? PreconditionerName::ssor : PreconditionerName::boomeramg;
+    choice.preconditioner = is_shallow ? PreconditionerName::ssor : PreconditionerName::boomeramg;
   }
   return choice;
 }

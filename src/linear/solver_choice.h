@@ -2,15 +2,13 @@
 // be read and tested by itself, and a preconditioner of another library needs an enumerator and its line in the rule.
 #pragma once
 
-#include <cstdint>
-
 #include "case/spec.h"
 
 namespace tailwater {
 
 /// What the rule knows of a system.
 struct SystemTraits {
-  std::int64_t unknowns = 0;      ///< rows of all ranks
+  double rows_deep = 0.0;         ///< how many particles lie between the surface and the bottom
   bool constant_is_free = false;  ///< only differences are determined
 };
 
@@ -23,7 +21,7 @@ struct SolverChoice {
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system);
 
 /// Systems of which together the rule chooses all it can.
-inline constexpr std::int64_t small_system = 1;
-inline constexpr std::int64_t large_system = 1'000'000'000;
+inline constexpr double shallow = 1.0;
+inline constexpr double deep = 1e9;
 
 }  // namespace tailwater

@@ -179,17 +179,17 @@ TEST(PressureSystem, RowsWithEqualColumnsAreSolvedLikeAnyOther) {
 
 TEST(SolverChoice, TheRuleFillsInWhatTheCaseLeavesOpen) {
   const PressureSolverTable open;
-  for (const std::int64_t unknowns : {small_system, large_system}) {
-    const SolverChoice choice = choose_solver(open, {.unknowns = unknowns});
+  for (const double rows_deep : {shallow, deep}) {
+    const SolverChoice choice = choose_solver(open, {.rows_deep = rows_deep});
     EXPECT_NE(choice.method, KrylovMethod::automatic);
     EXPECT_NE(choice.preconditioner, PreconditionerName::automatic);
   }
-  EXPECT_EQ(choose_solver(open, {.unknowns = small_system}).preconditioner, PreconditionerName::ssor);
-  EXPECT_EQ(choose_solver(open, {.unknowns = large_system}).preconditioner, PreconditionerName::boomeramg);
+  EXPECT_EQ(choose_solver(open, {.rows_deep = shallow}).preconditioner, PreconditionerName::ssor);
+  EXPECT_EQ(choose_solver(open, {.rows_deep = deep}).preconditioner, PreconditionerName::boomeramg);
   PressureSolverTable chosen;
   chosen.method = KrylovMethod::fgmres;
   chosen.preconditioner = PreconditionerName::jacobi;
-  const SolverChoice choice = choose_solver(chosen, {.unknowns = large_system});
+  const SolverChoice choice = choose_solver(chosen, {.rows_deep = deep});
   EXPECT_EQ(choice.method, KrylovMethod::fgmres);
   EXPECT_EQ(choice.preconditioner, PreconditionerName::jacobi);
 }
