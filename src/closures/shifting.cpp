@@ -9,9 +9,6 @@
 namespace tailwater {
 namespace {
 
-/// A particle with fewer neighbours is spray: there is no evenness to keep.
-constexpr std::size_t fewest_neighbours = 8;
-
 template <int Dim>
 Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                         std::size_t i) {
@@ -55,7 +52,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
                           std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || pairs.end(i) - pairs.begin(i) < fewest_neighbours) return false;
+    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i)) return false;
     if (law.kind == ShiftingKind::lind) {
       shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind_direction(law, pairs, particles, i);
     } else {
@@ -64,7 +61,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     const double kept = law.kind == ShiftingKind::lind ? normal_share(pairs, particles, interior, i) : interior[i];
     if (kept < 1.0) {
       const double steepness = concentration_gradient[i].norm();
-      if (steepness * law.spacing > 1e-3) {
+      if (steepness > 0.0) {
         const Vec<Dim> normal = concentration_gradient[i] / steepness;
         shift[i] -= (1.0 - kept) * shift[i].dot(normal) * normal;
       }

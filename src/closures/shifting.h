@@ -1,17 +1,20 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W (Lind et al. 2012;
-//           the coefficient in the form of Skillen et al. 2013, but with the largest speed of the flow in the place of
-//           the particle's own: at stagnation points, where the strain lines particles up, the own speed is 0, and a
-//           Taylor-Green vortex dies of it; docs/theory/closures.md)
+//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W. Direction, 0.2, 4 are
+//           Lind et al.'s (2012). The coefficient has the form of Skillen et al. (2013), but takes the largest speed of
+//           the flow, not the particle's own: at a stagnation point the strain lines particles up while their own speed
+//           is 0, and a Taylor-Green vortex dies of it (docs/theory/closures.md). The minimum keeps this explicit
+//           diffusion stable at the long steps of the implicit integrator.
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
-// Both: no part along the free surface's normal where `interior` (free_surface.h) is 0, all of it where that is 1;
-// lind none wherever the surface is in reach, by `interior` of the neighbours too: there the gradient is the
-// surface's, and would drive water out of the inside. Nothing for particles with few neighbours, and a smooth bound,
-// dr/sqrt(1 + (dr/cap)^2): ordinary shifts are a hundredth of dx and hardly notice, the particles where two bodies of
-// water meet, whose neighbours are all on one side, would be thrown a quarter of dx. (F31) and (F32), the correction
-// of u and p by their gradients, belong to the published scheme and are done there.
+// Both keep of their part along the free surface's normal only a share: 0 where `interior` (free_surface.h) is 0, 1
+// where that is 1. With lind the share is 0 wherever the surface is within the support, judged by `interior` of the
+// neighbours: there the gradient is that of the surface and would drive water out of the inside.
+//
+// Both have a smooth bound, dr/sqrt(1 + (dr/cap)^2). Ordinary shifts are a hundredth of dx and hardly notice it. A
+// particle where two bodies of water meet has all its neighbours on one side and would be thrown a quarter of dx.
+//
+// (F31) and (F32), the correction of u and p by their gradients, are part of the published scheme (flow/shift.cpp).
 #pragma once
 
 #include <cstdint>

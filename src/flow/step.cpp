@@ -5,7 +5,6 @@ namespace tailwater {
 Interventions& Interventions::operator+=(const Interventions& other) {
   put_back += other.put_back;
   capped_shifts += other.capped_shifts;
-  clamped_pressures += other.clamped_pressures;
   fallback_rows += other.fallback_rows;
   restarted_solves += other.restarted_solves;
   return *this;

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdint>
 
 #include "base/for_each.h"
 #include "pressure/suction.h"
@@ -8,8 +7,8 @@
 namespace tailwater {
 namespace {
 
-/// Exponent of the solver's tolerance in that of the rough solve: rows whose rough pressure is within it of 0 may be
-/// told wrongly, and are cut.
+/// Exponent of the solver's tolerance in that of the rough solve. Rows whose rough pressure is that close to 0 may be
+/// taken for pulling, or not, by mistake.
 constexpr double roughness = 0.6;
 
 /// Whether particle i pulls and may not with all of it.
@@ -18,30 +17,15 @@ bool pulls(const Flow<Dim>& flow, std::size_t i) {
   return flow.state.particles.pressure[i] < 0.0 && suction_share(flow, i) < 1.0;
 }
 
-/// Limits suction in the equation where the present pressure asks for it. Returns 1 for each row held, by owned
-/// particle.
+/// Limits suction in the equation where the present pressure asks for it.
 template <int Dim>
-std::vector<std::uint8_t> hold_suction(Flow<Dim>& flow) {
+void hold_suction(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::uint8_t> is_held(particles.owned, 0);
   for_each(particles.owned, [&](std::size_t i) {
     if (!pulls(flow, i)) return;
     const double share = suction_share(flow, i);
     flow.pressure_rows.divide_diagonal(i, share);
     particles.pressure[i] *= share;
-    is_held[i] = 1;
-  });
-  return is_held;
-}
-
-/// Cuts what pulls all the same in rows that are not held. Returns how many.
-template <int Dim>
-std::size_t cut_suction(Flow<Dim>& flow, const std::vector<std::uint8_t>& is_held) {
-  Particles<Dim>& particles = flow.state.particles;
-  return count_each(particles.owned, [&](std::size_t i) {
-    if (is_held[i] || !particles.is_fluid(i) || !pulls(flow, i)) return false;  // walls follow the fluid
-    particles.pressure[i] *= suction_share(flow, i);
-    return true;
   });
 }
 
@@ -72,11 +56,10 @@ PressureReport solve(Flow<Dim>& flow, const WallDrive<Dim>& drive, const PosedEq
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
     const PressureReport rough =
         report_of(solver.solve(flow.pressure_rows, pressure, std::pow(solver.tolerance(), roughness)));
-    const std::vector<std::uint8_t> is_held = hold_suction(flow);
+    hold_suction(flow);
     report = report_of(solver.solve(flow.pressure_rows, pressure));
     report.iterations += rough.iterations;
     report.interventions += rough.interventions;
-    report.interventions.clamped_pressures = cut_suction(flow, is_held);
   } else {
     report = report_of(solver.solve(flow.pressure_rows, pressure));
   }

@@ -77,7 +77,6 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
       {"interventions",
        {{"put_back_from_walls", interventions_.put_back},
         {"capped_shifts", interventions_.capped_shifts},
-        {"clamped_pressures", interventions_.clamped_pressures},
         {"fallback_rows", interventions_.fallback_rows},
         {"restarted_solves", interventions_.restarted_solves},
         {"put_back_and_capped_per_particle_step",

@@ -25,7 +25,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;
   Interventions& counts = report.interventions;
-  flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.clamped_pressures, counts.fallback_rows);
+  flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);
   flow.state.time += dt;
   ++flow.state.step;

@@ -100,12 +100,11 @@ TEST(RunStatistics, CountInterventionsPerParticleAndStep) {
   RunStatistics statistics(with_energy(0.0, 1.0));
   StepReport report = step_of(0.1, 1, 1);
   report.interventions = {
-      .put_back = 3, .capped_shifts = 1, .clamped_pressures = 7, .fallback_rows = 2, .restarted_solves = 1};
+      .put_back = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
   statistics.add(report, with_energy(0.0, 1.0), 0);
   statistics.add(report, with_energy(0.0, 1.0), 0);
   const auto json = statistics.json(10, 10);
   EXPECT_EQ(json["interventions"]["put_back_from_walls"], 6);
-  EXPECT_EQ(json["interventions"]["clamped_pressures"], 14);
   EXPECT_EQ(json["interventions"]["fallback_rows"], 4);
   EXPECT_EQ(json["interventions"]["restarted_solves"], 2);
   EXPECT_DOUBLE_EQ(json["interventions"]["put_back_and_capped_per_particle_step"].get<double>(), 8.0 / 20.0);

@@ -162,7 +162,7 @@ def density_gate(bench):
     return Gate("density", "volume of the dam break", tuple(checks))
 
 
-INTERVENTIONS = ("put_back_from_walls", "capped_shifts", "clamped_pressures", "fallback_rows", "restarted_solves")
+INTERVENTIONS = ("put_back_from_walls", "capped_shifts", "fallback_rows", "restarted_solves")
 
 
 def pressure_gate(bench):
