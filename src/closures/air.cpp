@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// Points of the quadrature along one half of the support: factors are good to 1e-3.
+/// Quadrature points along the support radius; with these the factors are accurate to 1e-3.
 constexpr int points = 256;
 
 /// Integral of -dW/dr / r over the plane at distance `z` from the particle.

@@ -19,8 +19,8 @@ Vec<Dim> sum_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles
   return sum;
 }
 
-/// Mean of `field` over the fluid neighbours of particle i, weighted by the kernel, with the particle itself at weight
-/// `own_weight`; 0 where nothing has any weight. `field` must be up to date on ghosts.
+/// Kernel-weighted mean of `field` over the fluid neighbours of particle i and the particle itself, which has weight
+/// `own_weight`. 0 if all weights are 0. `field` must be up to date on ghosts.
 template <int Dim>
 double mean_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
                        std::span<const double> field, double own_weight) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double air_concentration = 0.85;
 constexpr double near_surface_distance = 2.0;  // dx
-/// Mean concentrations between which a particle counts as more and more inside.
+/// Between these mean concentrations `interior` rises from 0 to 1.
 constexpr double interior_begins = 0.94;
 constexpr double interior_is_full = 0.98;
 
@@ -22,14 +22,15 @@ constexpr int cone_fewest_neighbours = 5;
 const double cone_cosine = std::cos(0.5 * 105.0 * std::numbers::pi / 180.0);
 
 constexpr double f35_kernel_sum = 0.80;
-/// (F35 b): a flat regular surface reads 0.240 in 2D with the published kernel, 0.187 and more in 3D.
+/// (F35 b): on a flat regular surface the sum is 0.240 in 2D with the published kernel, 0.187 and more in 3D.
 template <int Dim>
 constexpr double f35_asymmetry = Dim == 2 ? 0.20 : 0.15;
-/// (F35 c): 14 in 2D; the interior value of S_B2 goes with Dim^2.
+/// (F35 c): 14 in 2D; the interior value of S_B2 is proportional to Dim^2.
 template <int Dim>
 constexpr double f35_b2_sum = 3.5 * Dim* Dim;
 
-/// Half of what a full lattice has within the published 2.4 dx: 20 in 2D, 56 in 3D; a flat surface has 12 and 38.
+/// Half the neighbours that a full lattice has within the published 2.4 dx: 20 in 2D, 56 in 3D. A flat surface has 12
+/// and 38.
 template <int Dim>
 constexpr int fewest_neighbours_inside = Dim == 2 ? 10 : 28;
 

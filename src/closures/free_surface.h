@@ -5,10 +5,11 @@
 //           C/C_0 < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. What worked in prototypes of the
 //           published scheme (method.md 3); the cone around the normal replaces their angular gap, which is 2D only.
 //   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
-//           (printed 0.25, but a flat regular surface reads 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
+//           (printed 0.25, but a flat regular surface gives 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
 //           singular (printed det B1 = 0)
-//   density (B21): C/C_0 < beta, C/C_0 being rho/rho_0; or fewer neighbours than half of a full lattice's: a clump in
-//           the air that is as dense as water would else have no p = 0 anywhere, and its equation no solution
+//   density (B21): C/C_0 < beta, where C/C_0 is rho/rho_0; or fewer than half the neighbours of a full lattice.
+//           Without the second condition a clump in the air that is as dense as water would have p = 0 nowhere, and
+//           its equation no solution
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@
 
 namespace tailwater {
 
-/// What the tests look at. `concentration` is C/C_0; `tensors` are needed by cone and farzin only.
+/// Input of the tests. `concentration` is C/C_0; only cone and farzin need `tensors`.
 template <int Dim>
 struct SurfaceInput {
   const Pairs<Dim>& pairs;
@@ -34,19 +35,19 @@ struct SurfaceInput {
   double least_density;  ///< beta of (B21)
 };
 
-/// Marks owned fluid particles on the free surface. Walls are never marked, but by `density` if theirs is low.
+/// Marks owned fluid particles on the free surface. Only the `density` test marks wall particles, where density is low.
 template <int Dim>
 void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, std::span<std::uint8_t> is_surface);
 
-/// How far inside the fluid each owned fluid particle is: 0 in the two outermost rows, 1 from the third row on (walls
-/// are 0), from the mean concentration Cm_i = sum W C_j/C_0 / sum W over the fluid, itself included: a smooth step from
-/// 0.94 to 0.98. A flat surface reads Cm = 0.83, 0.93, 0.99, 1.00 row by row (2D). Continuous in the positions.
-/// `concentration` must be up to date on ghosts.
+/// How far inside the fluid each owned fluid particle is: 0 in the two outermost rows, 1 from the third row on; 0 for
+/// walls. It is a smooth step, from 0.94 to 0.98, of the mean concentration Cm_i = sum W C_j/C_0 / sum W over the fluid
+/// including the particle itself. At a flat surface Cm = 0.83, 0.93, 0.99, 1.00 row by row (2D). Continuous in the
+/// positions. `concentration` must be up to date on ghosts.
 template <int Dim>
 void find_interior(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> concentration,
                    double W_0, std::span<double> interior);
 
-/// The same from surface marks, for the published surface tests: 0 on marked particles and within 2 dx of one, else 1.
+/// The same from surface marks, for the published surface tests: 0 on marked particles and within 2 dx of them, else 1.
 /// `is_surface` must be up to date on ghosts.
 template <int Dim>
 void find_interior_by_marks(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,

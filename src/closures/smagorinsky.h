@@ -2,8 +2,9 @@
 //
 //   tau/rho = 2 nu_t S - 2/3 k I,  nu_t = (c_s dx)^2 |S|,  |S| = sqrt(2 S:S),  k = (nu_t/(0.08 dx))^2
 //
-// S from the consistent gradient (F9) over fluid neighbours, 0 where that is unsound. The divergence is taken in
-// conservative form, sum_j w_j (tau_i + tau_j) . grad W, over fluid neighbours: momentum is conserved to round-off.
+// S comes from the consistent gradient (F9) over fluid neighbours; the stress is 0 where that is unsound. The
+// divergence has the conservative form sum_j w_j (tau_i + tau_j) . grad W over fluid neighbours, which conserves
+// momentum to round-off.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// What every particle sees around it at the present positions: where it is missing neighbours, where the surface is,
-// which walls are wet. `locate` fills it; all of it follows from the positions, so none of it is state.
+// The surroundings of every particle at the present positions: missing neighbours, the surface, wet walls. `locate`
+// fills it. All of it follows from the positions, so none of it is state.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace tailwater {
 
-/// One entry per particle, ghosts included; entries of ghosts are up to date where the comment says so.
+/// One entry per particle, ghosts included. Entries of ghosts are up to date only where the comment says "ghosts too".
 template <int Dim>
 struct Surroundings {
   std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
   std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m
   std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
-  std::vector<std::uint8_t> is_wet;              ///< wall particles that have fluid in reach; ghosts too
+  std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
   std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too
   std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;          ///< ghosts too

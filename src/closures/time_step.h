@@ -2,13 +2,14 @@
 //
 //   dt <= alpha dx / max(u_max, sqrt(2 g L)),    dt <= b dx^2 / nu_max
 //
-// b is 0.25/Dim, where the explicit two-point term still smooths, or 0.1 (B20), whose other half is the first rule.
-// With the density source (B17) the first rule feeds itself: to undo a density error in one step a particle gets a
-// speed that goes with 1/dt, which shortens the next step. There u_max counts up to `fastest` only.
+// b is 0.25/Dim, the limit up to which the explicit two-point term still smooths, or the 0.1 of (B20). The other half
+// of (B20) is the first rule. With the density source (B17) the first rule feeds itself: to undo a density error in one
+// step a particle needs a speed proportional to 1/dt, and that speed shortens the next step. So `fastest` caps u_max
+// there.
 //
-// The paper uses (F41) at the start only; kept throughout it costs nothing in violent flow, where u_max is larger, and
-// keeps quiet water from taking huge steps. The eddy viscosity of smagorinsky.h is at most of the order 0.01 u dx, far
-// below what would limit the step.
+// The paper uses (F41) at the start only. Here it always holds: it costs nothing in violent flow, where u_max is
+// larger, and prevents huge steps in quiet water. The eddy viscosity of smagorinsky.h is at most of the order
+// 0.01 u dx, far too small to limit the step.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +20,11 @@ namespace tailwater {
 struct TimeStepRule {
   double courant = 0.0;                                      ///< alpha
   double spacing = 0.0;                                      ///< m; dx
-  double fastest = std::numeric_limits<double>::infinity();  ///< m/s; what moves faster does not shorten the step
+  double fastest = std::numeric_limits<double>::infinity();  ///< m/s; cap of u_max
   double reference_speed = 0.0;                              ///< m/s; sqrt(2 g L)
   double viscous_share = 0.125;                              ///< b
 
-  /// Largest step [s]; infinite when nothing moves and nothing pulls.
+  /// Largest step [s]; infinite when nothing moves and no force acts.
   double largest(double speed, double viscosity) const {
     const double limiting_speed = std::max(std::min(speed, fastest), reference_speed);
     const double infinite = std::numeric_limits<double>::infinity();

@@ -25,7 +25,7 @@ double ViscosityLaw::side_wall_rate(double speed) const {
 
 namespace {
 
-/// Sum over fluid neighbours of c_ij (nu_i + nu_j)/2 (u_j - u_i), the weights c_ij [1/m^2] given by weight(i, j, k).
+/// Adds the sum over fluid neighbours of c_ij (nu_i + nu_j)/2 (u_j - u_i), where c_ij [1/m^2] is weight(i, j, k).
 template <int Dim, class Weight>
 void add_pair_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> viscosity,
                         std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration, Weight&& weight) {
@@ -84,7 +84,7 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
                          const Vec<Dim> difference = velocity[j] - velocity[i];
                          // r_j - r_i = -r e
                          Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
-                         // Written without a branch: the sign is a coin toss, and 0/0 cannot be.
+                         // No branch, because the sign is unpredictable. The divisor's lower bound prevents 0/0.
                          const double work = std::min(0.0, noise.dot(difference));
                          noise -=
                              work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;

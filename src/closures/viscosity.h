@@ -22,18 +22,18 @@ struct ViscosityLaw {
   double artificial = 0.0;     ///< m; c_a dx, times |u| gives nu_a
   double floor = 0.0;          ///< m^2/s; c_f dx sqrt(g L)
   double wall_distance = 0.0;  ///< m; y of the wall law
-  double channel_width = 0.0;  ///< m; b between two side walls, 0 without
+  double channel_width = 0.0;  ///< m; b between two side walls; 0 if there are none
 
   double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
 
-  /// Viscosity [m^2/s] with which no slip over `wall_distance` has the stress of a smooth wall: the laminar one up to
-  /// u y/nu_0 = 140 (y+ = 11.8), above it that of the power law u/u_tau = 8.3 (y u_tau/nu_0)^(1/7).
+  /// Viscosity [m^2/s] for which no slip over `wall_distance` gives the stress of a smooth wall: the laminar stress up
+  /// to u y/nu_0 = 140 (y+ = 11.8), above that the stress of the power law u/u_tau = 8.3 (y u_tau/nu_0)^(1/7).
   double at_wall(double speed) const;
 
-  /// Rate [1/s] at which the two side walls slow water of this speed, a mean over the width: 2 tau/(rho b u). tau/rho
-  /// is u_tau^2 of the same power law, of which the speed is the mean over half the width (y = 0 .. b/2, u = 7/8 of
-  /// that at b/2: Werner & Wengle's integral), or 6 nu u/b of laminar flow between plates, whichever is larger. 0
-  /// without side walls.
+  /// Rate [1/s] at which the two side walls slow water of this speed, averaged over the width: 2 tau/(rho b u). tau/rho
+  /// is the larger of two values: 6 nu u/b, laminar flow between plates, and u_tau^2 of the same power law. There
+  /// `speed` is the mean of the power law over y = 0 .. b/2, which is 7/8 of its value at b/2 (Werner & Wengle's
+  /// integral). 0 without side walls.
   double side_wall_rate(double speed) const;
 };
 
@@ -41,39 +41,38 @@ struct ViscosityLaw {
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity);
 
-/// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, c_ij the Morris
-/// weight; conserves momentum and never adds energy.
+/// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, where c_ij is the
+/// Morris weight. Conserves momentum and never adds energy.
 template <int Dim>
 void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                           std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
                           std::span<Vec<Dim>> acceleration);
 
-/// The same with the weights of (B8), as (B9) says: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours.
-/// `density` is that of each particle over the water's.
+/// The same sum with the weights of (B8), as in (B9). `density` is each particle's density over the water's.
 template <int Dim>
 void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
                            std::span<const double> density, std::span<const double> viscosity,
                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
 
-/// Friction of a 2D channel's side walls on fluid particles. Only slows down.
+/// Friction of a 2D channel's side walls on fluid particles. It only slows them.
 template <int Dim>
 void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
                             std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
 
-/// Dissipation of noise only: the two-point viscous force between fluid particles, not of the velocity difference
-/// itself but of what a linear field does not explain of it,
+/// Dissipates noise only: a two-point viscous force between fluid particles. It acts on the part of their velocity
+/// difference that a linear field does not explain,
 ///
 ///   d_ij = u_j - u_i - (grad u_i + grad u_j)/2 . (r_j - r_i),
 ///
-/// less its part along u_j - u_i where that would add energy. It vanishes for linear fields and is of fourth order in
-/// the wave number of a smooth one. Pairs are antisymmetric: momentum is conserved, and energy never grows.
+/// without its component along u_j - u_i where that would add energy. It vanishes for linear fields and is of fourth
+/// order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved, and energy never grows.
 /// `viscosity` [m^2/s] is one number for the whole flow; `gradient` [1/s] is needed on ghosts.
 template <int Dim>
 void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
                          std::span<Vec<Dim>> acceleration);
 
-/// nu_i lap u by the consistent operator (F12), by its two-point fallback where that is unsound.
+/// nu_i lap u by the consistent operator (F12), or by its two-point fallback where that operator is unsound.
 template <int Dim>
 void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                               std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,

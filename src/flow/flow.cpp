@@ -10,9 +10,9 @@
 namespace tailwater {
 namespace {
 
-/// Lists reach this far beyond the support [dx]: half of it is what the fastest particle moves in a step, so that a
-/// list lasts for about one and every pass of the implicit iteration. Wider lists cost more at each evaluation than
-/// they save searches (docs/theory/neighbours.md).
+/// [dx]; how far lists reach beyond the support. Half of it is the distance the fastest particle moves in a step, so a
+/// list lasts for about one step with all passes of the implicit iteration. Wider lists cost more at each evaluation
+/// than they save in searches (docs/theory/neighbours.md).
 constexpr double skin_over_spacing = 0.6;
 
 /// Fluid first, then walls; ids in that order.
@@ -35,7 +35,7 @@ Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallPartic
   return particles;
 }
 
-/// Leaves each rank an equal number of the particles that all have made.
+/// Every rank has made all particles; leaves each an equal number of them.
 template <int Dim>
 void keep_any_share(const Communicator& ranks, Neighbourhood<Dim>& neighbourhood, Particles<Dim>& particles) {
   if (ranks.is_alone()) return;

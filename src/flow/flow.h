@@ -1,6 +1,6 @@
-// A flow by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools that keep memory
-// between steps and can be made anew; and what is known of the present positions. Work fields of one step are values
-// that its verbs hand to each other (verbs.h).
+// A flow by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools, which keep memory
+// between steps and can be rebuilt; and what is known about the present positions. Work fields of one step are values
+// that its verbs pass to each other (verbs.h).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles of a case and its walls; of several ranks each keeps its share of the particles, and all have
-  /// all walls' faces. Collective. Throws InputError for an impossible geometry.
+  /// Builds the particles and walls of a case. Each rank keeps its share of the particles; all ranks have the faces of
+  /// all walls. Collective. Throws InputError for an impossible geometry.
   explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
 
   Setup<Dim> setup;
@@ -32,14 +32,14 @@ struct Flow {
   KrylovSolver pressure_solver;
 
   // Now.
-  Walls<Dim> walls;                  ///< where they are at the present positions
+  Walls<Dim> walls;                  ///< at their present positions
   Surroundings<Dim> here;            ///< as `locate` found them
-  std::vector<std::int16_t> end_of;  ///< the open end in whose stretch an owned particle is in this step, or -1
+  std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
 
-  /// Of a case already drawn.
+  /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
 
-  /// Goes on from `saved`, a state of the same case on as many ranks.
+  /// Continues from `saved`, a state of the same case on the same number of ranks.
   void restore(State<Dim> saved);
 
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
@@ -50,12 +50,12 @@ struct Flow {
     return {setup.density, setup.gravity, acceleration};
   }
 
-  /// Is owned particle i in the end stretch of an outlet, where nothing is solved for?
+  /// Whether owned particle i is in the end stretch of an outlet, where nothing is solved for.
   bool is_leaving(std::size_t i) const { return end_of[i] >= 0; }
   bool is_solved_for(std::size_t i) const { return state.particles.is_fluid(i) && !is_leaving(i); }
   /// Whether statistics of the bulk count particle i.
   bool is_inside(std::size_t i) const { return is_solved_for(i) && here.interior[i] > 0.5; }
-  /// Whether particle i has the fluid's pressure equation for its row.
+  /// Whether the row of particle i is the fluid's pressure equation.
   bool has_equation(std::size_t i) const {
     const Particles<Dim>& particles = state.particles;
     return particles.is_fluid(i) ||

@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// C/C_0 and its gradient of owned particles, the gradient of fluid only.
+/// C/C_0 of owned particles, and for fluid the gradient of C.
 template <int Dim>
 void find_concentration(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Particles<Dim>& particles = flow.state.particles;

@@ -24,7 +24,7 @@ struct EnergyAndDensity {
   }
 };
 
-/// Is particle i of the bulk? Nobody is before `locate`.
+/// Whether particle i is in the bulk. Before `locate` none is.
 template <int Dim>
 bool is_bulk(const Flow<Dim>& flow, std::size_t i) {
   return i < flow.here.interior.size() && flow.is_inside(i);

@@ -1,4 +1,4 @@
-// What is measured of the whole flow.
+// Measures of the whole flow.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);
 
-/// What is measured at the end of a step.
+/// The measures at the end of a step.
 struct FlowMeasures {
   double largest_speed = 0.0;       ///< m/s
   double kinetic_energy = 0.0;      ///< J (per metre of width in 2D)

@@ -9,17 +9,18 @@
 namespace tailwater {
 namespace {
 
-/// Less of gravity along the outlet is rounding.
+/// A smaller share of gravity along the outlet is rounding error.
 constexpr double least_gravity_share = 1e-9;
 constexpr double gauge_over_spacing = 2.0;
-/// Water shallower than this share of dx does not tell a level.
+/// Water shallower than this share of dx gives no reliable level.
 constexpr double least_depth_over_spacing = 0.1;
-/// For so many times as a long wave needs from the gauge into the end stretch is the mean of the invariant taken: long
-/// against the waves that shall leave, since what the mean follows is let back in (docs/theory/outlets.md).
+/// Time over which the invariant is averaged, in travel times of a long wave from the gauge into the end stretch. It is
+/// long compared with the waves that must leave, because whatever the mean follows is let back in
+/// (docs/theory/outlets.md).
 constexpr double memory = 100.0;
 
-/// Sums over the water before the end stretch, weighted by a tent of half width `gauge`: as wide as two columns of the
-/// lattice, it counts a lattice exactly wherever that stands.
+/// Sums over the water before the end stretch, weighted by a tent of half width `gauge`. With a half width of two
+/// lattice columns the tent counts a lattice exactly wherever it stands.
 struct Reading {
   double volume = 0.0;  ///< m^Dim
   double flux = 0.0;    ///< m^(Dim+1)/s; times the velocity along the outlet's normal
@@ -42,7 +43,7 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Particles<Dim>& particles) {
   return reading;
 }
 
-/// Brings the flow before the end stretch up to date and returns by how much its speed changed, m/s.
+/// Updates `state` from the flow before the end stretch and returns the change of its speed, m/s.
 template <int Dim>
 double read_flow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double dt, OpenEndState& state) {
   Reading reading = read_gauge(end, flow.state.particles);
@@ -76,7 +77,7 @@ double read_flow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double dt, Open
   return change;
 }
 
-/// Depth [m] at speed u of the flow whose invariant comes from beyond.
+/// Depth [m] of a flow with speed u and the invariant that comes from beyond.
 double depth_at_speed(const OpenEndState& state, double gravity, double u) {
   const double twice_celerity = std::max(0.0, u - state.invariant);
   return 0.25 * twice_celerity * twice_celerity / gravity;

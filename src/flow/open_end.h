@@ -1,9 +1,9 @@
 // What happens at an outlet (geometry/outlet.h): docs/theory/outlets.md.
 //
-// The last stretch before it, as long as the kernel's support, is the end stretch. Its particles are part of the flow
-// for their neighbours, but not solved for: they move along the outlet's normal, and their pressure is that of a
-// channel that goes on. So water upstream sees a whole support, no brink, and no wall. What has passed the outlet is
-// taken out and booked.
+// The last stretch before it, one dx longer than the kernel's support, is the end stretch. For their neighbours its
+// particles are part of the flow, but they are not solved for: they move along the outlet's normal, and their pressure
+// is that of a channel that continues. So water upstream has full support and sees no brink and no wall. Particles that
+// have passed the outlet are removed and booked.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,22 @@ namespace tailwater {
 struct Departed {
   std::int64_t particles = 0;
   double volume = 0.0;  ///< m^Dim
-  double energy = 0.0;  ///< J, kinetic and potential, when it left
+  double energy = 0.0;  ///< J; kinetic and potential, on leaving
 
   Departed& operator+=(const Departed& other);
 };
 
-/// The flow before the end stretch, and what is taken to come from beyond.
+/// The flow before the end stretch, and what is assumed to come from beyond.
 struct OpenEndState {
   bool is_wet = false;
-  double wet_time = 0.0;      ///< s; since it has been wet
+  double wet_time = 0.0;      ///< s; time since it became wet
   double speed = 0.0;         ///< m/s; mean along the normal
-  double speed_beyond = 0.0;  ///< m/s; the same as it arrives in the middle of the end stretch
+  double speed_beyond = 0.0;  ///< m/s; `speed` with the delay of its way to the middle of the end stretch
   double invariant = 0.0;     ///< m/s; u - 2 sqrt(g h), which comes from beyond where flow is subcritical
   Departed departed;
 };
 
-/// The place, which does not change.
+/// The place of an open end, which does not change.
 template <int Dim>
 struct OpenEnd {
   /// `support` [m] is the kernel's radius.
@@ -39,14 +39,14 @@ struct OpenEnd {
 
   Outlet<Dim> outlet;
   double stretch;  ///< m; length of the end stretch
-  double gauge;    ///< m; half the length of the stretch before it where the flow is measured
+  double gauge;    ///< m; half the length of the gauge, the stretch before it where the flow is measured
   double gravity;  ///< m/s^2; the part of gravity along the outlet's plane
-  Vec<Dim> up;     ///< against that part; 0 where there is none
+  Vec<Dim> up;     ///< opposite to that part; 0 if there is none
   double floor;    ///< m; height of the outlet's lowest point along `up`
   double width;    ///< m; of the outlet across `up`; 1 in 2D
 
   bool holds(const Vec<Dim>& x) const { return outlet.beyond(x) > -stretch && outlet.spans(x); }
-  /// Pressure [Pa] of a channel that goes on, at a place in the end stretch.
+  /// Pressure [Pa] of a channel that continues, at a place in the end stretch.
   double pressure_at(const OpenEndState& state, const Vec<Dim>& x, double density) const;
 };
 

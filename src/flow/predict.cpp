@@ -31,7 +31,7 @@ void add_viscosity(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
   }
 }
 
-/// Adds the friction of walls, beside the water and on its sides.
+/// Adds the friction of the case's walls and of a channel's side walls.
 template <int Dim>
 void add_friction(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
   const Setup<Dim>& setup = flow.setup;
@@ -99,7 +99,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   predicted.velocity.assign(particles.size(), Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    if (flow.is_leaving(i)) acceleration[i].setZero();  // nothing but gravity, which the end's pressure holds
+    if (flow.is_leaving(i)) acceleration[i].setZero();  // only gravity acts, and the end's pressure balances it
     predicted.velocity[i] = start.velocity[i] + dt * (acceleration[i] + gravity);
   });
   show_walls<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);

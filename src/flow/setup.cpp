@@ -10,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// With the density source: speeds beyond this multiple of sqrt(2 g L) are those of particles thrown out.
+/// With the density source, only particles thrown out are faster than this multiple of sqrt(2 g L).
 constexpr double fastest_counted_over_reference = 2.0;
 
 /// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).

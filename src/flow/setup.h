@@ -18,7 +18,7 @@
 
 namespace tailwater {
 
-/// The walls and the water of a case at its start. All ranks draw the whole case.
+/// The walls and the water of a case at the start. All ranks draw the whole case.
 template <int Dim>
 struct Drawing {
   /// Throws InputError for an impossible geometry.
@@ -40,8 +40,8 @@ struct Setup {
   double density;    ///< kg/m^3
   double spacing;    ///< m
   Vec<Dim> gravity;  ///< m/s^2
-  double length;     ///< m; L of (F41): the fluid's height along gravity at the start, or the case's own
-  double rows_deep;  ///< that height in particles
+  double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start
+  double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
   bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;
@@ -57,9 +57,9 @@ struct Setup {
   ShiftingLaw shifting_law;
   TimeStepRule time_step_rule;
 
-  /// Whether there is a surface where missing neighbours are air: then nothing pulls near it.
+  /// Whether missing neighbours count as air, so that nothing pulls near the surface.
   bool has_air() const { return scheme.surface == SurfaceTreatment::air && !is_closed; }
-  /// Viscosity [m^2/s] with which noise is dissipated while this is the largest speed.
+  /// Viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
   double noise_viscosity(double speed) const {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }

@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-/// (F31), (F32): u and p move along with their gradients, where those are sound.
+/// (F31), (F32): corrects u and p of shifted particles by their gradients, inside the fluid where those are sound.
 template <int Dim>
 void carry_fields_along(Flow<Dim>& flow, const std::vector<Vec<Dim>>& shift) {
   Particles<Dim>& particles = flow.state.particles;

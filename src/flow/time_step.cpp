@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-/// [s]; where neither water nor gravity limits the step, walls must not slip to and fro within it.
+/// [s]; even where neither water nor gravity limits the step, a wall must not move out and back within it.
 constexpr double longest_step_of_walls = 0.01;
 
 }  // namespace
@@ -16,8 +16,8 @@ double next_time_step(const Flow<Dim>& flow) {
   const double speed = largest_speed(flow);
   double dt = setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed));
   if (setup.wall_motion.moving().empty()) return dt;
-  // What holds for the water holds for walls: alpha dx in a step. The way, not the speed, since a gate may start within
-  // the step.
+  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
+  // gate may start within the step.
   dt = std::min(dt, longest_step_of_walls);
   const double longest_way = setup.time_step_rule.courant * setup.spacing;
   const double time = flow.state.time;

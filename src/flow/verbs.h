@@ -1,8 +1,7 @@
-// The verbs of a step that have nothing to do with pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020).
-// Each does one thing; what it takes is what it needs, and what it returns is what later verbs need, so the signatures
-// tell the order. The verbs of the pressure are in pressure/verbs.h; explicit_projection.cpp, implicit_projection.cpp
-// and two_step.cpp in schemes put all of them in order. On several ranks all call them together; what they return of
-// the whole flow is the same on all.
+// The verbs of a step that do not involve the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020).
+// Each does one thing. It takes what it needs and returns what later verbs need, so the signatures show the order. The
+// verbs of the pressure are in pressure/verbs.h; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp in
+// schemes put all of them in order. Verbs are collective; a result about the whole flow is the same on all ranks.
 #pragma once
 
 #include "flow/flow.h"
@@ -12,26 +11,26 @@
 
 namespace tailwater {
 
-/// Finds neighbours, ghosts, kernel values and `flow.here` at the present positions. With `keep_marks` the surface
-/// marks stay as they are (later passes of the implicit iteration freeze them).
+/// Finds neighbours, ghosts, kernel values and `flow.here` at the present positions. `keep_marks` keeps the surface
+/// marks as they are; later passes of the implicit iteration freeze them.
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks = false);
 
-/// Wraps the particles into a periodic domain and keeps r^n, u^n and their energy: lists reach only a skin beyond the
+/// Wraps the particles into a periodic domain and returns r^n, u^n and their energy. Lists reach only a skin beyond the
 /// domain, so no particle may stay outside for more than a step.
 template <int Dim>
 StepStart<Dim> remember(Flow<Dim>& flow);
 
-/// Where moving walls are driven in a step of dt from `start`: to their mean velocity over the step, so that what they
-/// sweep is what the water leaves; with `displacement = "mean-velocity"` to that at its end.
+/// How moving walls are driven in a step of dt from `start`: to their mean velocity over the step, so that the water
+/// leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at its end.
 template <int Dim>
 WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// The same to the velocity at the end of the step.
+/// The same, to the velocity at the end of the step.
 template <int Dim>
 WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// Puts moving walls, faces and particles, where they are at `time`.
+/// Moves the faces and particles of moving walls to their places at `time`.
 template <int Dim>
 void place_walls(Flow<Dim>& flow, double time);
 
@@ -39,42 +38,42 @@ void place_walls(Flow<Dim>& flow, double time);
 template <int Dim>
 WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 
-/// Sets the wall entries of `velocity` to what the walls, moving at `V` by row of their table, show to the water, and
-/// brings ghosts up to date.
+/// Sets the wall entries of `velocity` to the velocity that the walls show to the water, and brings ghosts up to date.
+/// `V` is the walls' own velocity, one entry per row of their table.
 template <int Dim>
 void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity);
 
-/// Finds what holds at the open ends in this step: which particles are in an end stretch, their velocity, the level
+/// Finds the conditions at the open ends in this step: the particles in end stretches, their velocity, the level
 /// beyond. Call once per step, at the positions where it starts.
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);
 
-/// Takes out and books the particles that have passed an outlet. Returns whether this rank had any; then its indices
+/// Removes and books the particles that have passed an outlet. Returns whether this rank had any; if so, its indices
 /// have changed and its lists are gone. Call between steps only.
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
 
-/// Hands particles to the ranks that own their places, which are chosen anew when work is shared too unevenly, and
-/// sorts those of each rank for the cache: indices change. Call between steps only.
+/// Hands particles to the ranks that own their places and sorts those of each rank for the cache. Cuts space again when
+/// work is shared too unevenly. Indices change; call between steps only.
 template <int Dim>
 Sharing share_out(Flow<Dim>& flow);
 
-/// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), derivatives of the present velocity at the
-/// present positions.
+/// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), with derivatives of the present velocity at
+/// the present positions.
 ///
-/// The papers' predictors hold dt g. Here u_star does so only where the wall model says so (wall_model.h): a uniform
-/// vector has no divergence, and the rows of the other wall models ask for grad p . n = rho g . n, so the pressure is
-/// the same, and `correct` adds dt g. The divergence of u_star is then small, so less cancels.
+/// The papers' predictors include dt g. Here u_star includes it only where the wall model says so (wall_model.h).
+/// Otherwise `correct` adds dt g, and the pressure is the same: a uniform vector has no divergence, and the wall rows
+/// prescribe grad p . n = rho g . n. The divergence of u_star is then small, so fewer digits cancel.
 template <int Dim>
 Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive, double dt);
 
-/// (B13): r = r^n + dt u_star, where the pressure equation of the two-step scheme is posed; walls move too. `move`
-/// starts from r^n again.
+/// (B13): r = r^n + dt u_star; walls move too. The two-step scheme poses its pressure equation there. `move` starts
+/// from r^n again.
 template <int Dim>
 void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt);
 
-/// r = r^n + dt u, or as published (F17), (F25), (B19): r = r^n + dt/2 (u^n + u); walls move too, and nobody passes
-/// one. Returns how many particles would have.
+/// r = r^n + dt u, or as published (F17), (F25), (B19): r = r^n + dt/2 (u^n + u). Walls move too. Particles are kept in
+/// front of walls; returns how many would have passed one.
 template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
@@ -82,7 +81,7 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 template <int Dim>
 Interventions shift(Flow<Dim>& flow, double dt);
 
-/// The largest allowed step [s] for the present velocities and the walls' ways.
+/// The largest allowed step [s] for the present velocities and the motion of the walls.
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow);
 

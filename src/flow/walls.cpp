@@ -4,7 +4,7 @@
 namespace tailwater {
 namespace {
 
-/// With the acceleration that leads from the velocity at the start of the step to `velocity` at its end.
+/// Adds the acceleration that takes the walls from their velocity at the start of the step to `velocity` after dt.
 template <int Dim>
 WallDrive<Dim> drive_to(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>> velocity, double dt) {
   WallDrive<Dim> drive{std::move(velocity), {}};

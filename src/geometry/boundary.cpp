@@ -20,7 +20,7 @@ double friction_of(const WallTable& wall) {
   return 0.0;
 }
 
-/// The body of wall `w`: walls with the same motion, as it is written, are one.
+/// The body of wall `w`. Walls whose motion is written alike are one body.
 int body_of(const CaseSpec& spec, std::size_t w) {
   const WallTable& wall = spec.walls[w];
   const auto varies = [](const Varying& value) { return std::holds_alternative<std::string>(value); };
@@ -84,7 +84,7 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   }
 }
 
-/// One face of a box: the low (`side` 0) or high (1) one across `axis`, seen from the fluid.
+/// One face of a box: the low (`side` 0) or high (1) one across `axis`, with corners ordered as seen from the fluid.
 template <int Dim>
 void append_box_face(const std::array<Vec<Dim>, 2>& ends, int axis, int side, bool fluid_is_inside, int wall,
                      std::vector<WallFace<Dim>>& faces) {

@@ -38,12 +38,12 @@ Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& t
   return from + before / (before - face.height(to)) * (to - from);
 }
 
-/// Does the path from `from` to `to` pass through the face? An end nearer to its plane than `tolerance` (m) does not
-/// count as having passed; a path within `tolerance` of the face's rim does.
+/// Whether the path from `from` to `to` passes through the face. An end nearer to its plane than `tolerance` (m) has
+/// not passed; a path within `tolerance` of the face's rim has.
 template <int Dim>
 bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
 
-/// The body of all walls that rest.
+/// The body that all resting walls belong to.
 inline constexpr int resting_body = 0;
 
 /// What a wall does to the fluid that touches it.
@@ -68,8 +68,8 @@ struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
 
-  /// Files the faces of walls that rest by place, for searches up to `reach` (m); faces may not be added afterwards,
-  /// and only those of moving walls may change.
+  /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
+  /// only faces of moving walls may change.
   void file_faces(double reach);
   double filed_reach() const { return resting_.reach(); }
 
@@ -83,7 +83,7 @@ struct Boundary {
   std::vector<int> moving_;  ///< faces, when others are filed
 };
 
-/// "wall 'gate'": how messages call a wall.
+/// "wall 'gate'": the name of a wall in messages.
 template <int Dim>
 std::string wall_label(const Boundary<Dim>& boundary, int wall) {
   return "wall '" + boundary.walls[wall].name + "'";
@@ -92,9 +92,9 @@ std::string wall_label(const Boundary<Dim>& boundary, int wall) {
 /// Two points nearer than this share of dx are the same corner.
 inline constexpr double corner_tolerance = 1e-6;
 
-/// The walls of a case. The sides left and right of a polygon are meant as one walks along its points; a box is walked
-/// counter-clockwise, so its left is its inside. Throws InputError, which names the wall and the point, for a wall with
-/// no extent or no normal, repeated points, points of the wrong dimension, or a face to leave open that does not exist.
+/// The walls of a case. Left and right of a polygon are as seen when walking along its points. A box is walked
+/// counter-clockwise, so its left is its inside. Throws InputError, which names the wall and the point, for a wall
+/// without extent or normal, repeated points, points of the wrong dimension, or an open face that does not exist.
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec);
 

@@ -99,7 +99,7 @@ template <int Dim>
 int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
   if (!near_wall_[index(c)]) return -1;
   Cell beside = c;
-  beside[axis] += step;  // beyond a periodic end as well: faces have no images
+  beside[axis] += step;  // also beyond a periodic end: faces have no images
   return face_between(centre(c), centre(beside));
 }
 

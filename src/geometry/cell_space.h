@@ -1,4 +1,4 @@
-// Where water can get to in a case: cells that cover it, and the walls between them.
+// Where water can get to in a case: cells that cover the case, and the walls between them.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace tailwater {
 
-/// Cells that cover `faces` and `water`. They are as large as dx, or larger so that there are not more than `most`:
-/// whether a path meets a wall does not depend on their size.
+/// Cells that cover `faces` and `water`. Their size is dx, or larger to limit their number to `most`. Whether a path
+/// meets a wall does not depend on their size.
 template <int Dim>
 class CellSpace {
  public:
@@ -26,19 +26,19 @@ class CellSpace {
   std::size_t index(const Cell& c) const;
   Vec<Dim> centre(const Cell& c) const;
   Cell cell_of(const Vec<Dim>& x) const;
-  /// The neighbour of a cell; empty outside of all cells.
+  /// The neighbour of a cell; empty if it is outside all cells.
   std::optional<Cell> next(Cell c, int axis, int step) const;
 
   const std::vector<WallFace<Dim>>& faces() const { return faces_; }
-  /// Puts other faces in the place of the present ones, as when walls have moved.
+  /// Replaces the faces, as when walls have moved.
   void set_faces(std::vector<WallFace<Dim>> faces);
 
-  /// Does the way from one place to another pass the face? A place exactly on it is before it, so that no way can pass
-  /// a wall by resting on it.
+  /// Whether the way from one place to another passes the face. A place exactly on it counts as in front, so that no
+  /// way can pass a wall by resting on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// A face that the way passes; -1 if none.
   int face_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// The same from a cell to the next one (which may be outside), quickly.
+  /// The same from a cell to the next one, which may be outside; faster.
   int face_beside(const Cell& c, int axis, int step) const;
 
   /// Calls visit(cell) for all cells in the box around two faces, and those beside it.
@@ -70,22 +70,22 @@ class CellSpace {
   std::vector<bool> near_wall_;  ///< cells from which one step may meet a face
 };
 
-/// The cells that water gets to.
+/// The cells that water reaches.
 template <int Dim>
 struct Spread {
-  std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it gets there
-  std::optional<Vec<Dim>> way_out;  ///< the last place inside of water that leaves the case; the search ends there
-  std::vector<bool> met;            ///< by face: is it one that held the water?
-  std::size_t sides = 0;            ///< of the cells, at faces
+  std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it reaches them
+  std::optional<Vec<Dim>> way_out;  ///< the last place inside, if water leaves the case; the search ends there
+  std::vector<bool> met;            ///< by face: whether it held the water
+  std::size_t sides = 0;            ///< sides of the cells that are at faces
 };
 
-/// Lets water run from cell to cell, from those of `start`, until it is at rest or leaves the case: anywhere if `down`
-/// is 0, else (a unit vector) sideways and down, never up.
+/// Lets water run from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
+/// runs in all directions, else (a unit vector) sideways and down, never up.
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down);
 
-/// The cells of water at `positions`, but those that a wall parts from the middle of their cell.
+/// The cells of water at `positions`, without positions that a wall separates from the centre of their cell.
 template <int Dim>
 std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, std::span<const Vec<Dim>> positions);
 

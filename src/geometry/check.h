@@ -1,4 +1,4 @@
-// What is wrong with a case's geometry, found before anything runs.
+// Finds errors in a case's geometry before anything runs.
 #pragma once
 
 #include "case/spec.h"

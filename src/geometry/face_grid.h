@@ -1,4 +1,4 @@
-// Wall faces filed by place, so that those near a point are found without looking at all of them.
+// Wall faces filed by place, so that faces near a point are found without looking at all of them.
 #pragma once
 
 #include <span>
@@ -35,7 +35,7 @@ class FaceGrid {
     }
   }
 
-  /// All faces within reach of `x`, and some beyond, in the order in which they were added.
+  /// All faces within reach of `x`, and some farther away, in the order in which they were added.
   std::span<const int> near(const Vec<Dim>& x) const {
     const auto found = faces_.find(cell_key<Dim>(cell_of<Dim>(x, reach_)));
     return found == faces_.end() ? std::span<const int>() : std::span<const int>(found->second);

@@ -1,4 +1,4 @@
-// What a check has to say. Every message names the object, the value and the remedy.
+// What a check found. Every message names the object, the value and the remedy.
 #pragma once
 
 #include <fmt/format.h>

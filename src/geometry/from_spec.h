@@ -1,4 +1,4 @@
-// Small helpers shared by everything here that turns tables of the case file into shapes.
+// Small helpers for turning tables of the case file into shapes.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 
 namespace tailwater {
 
-/// `name`, or "wall3" for the nameless third wall.
+/// `name`, or for the third wall, if it has no name, "wall3".
 inline std::string name_or_number(const std::string& name, std::string_view what, std::size_t index) {
   return name.empty() ? fmt::format("{}{}", what, index + 1) : name;
 }
 
-/// "fluid 'column'": how messages call a block.
+/// "fluid 'column'": the name of a block in messages.
 inline std::string fluid_label(const CaseSpec& spec, std::size_t block) {
   return fmt::format("fluid '{}'", name_or_number(spec.fluid[block].name, "fluid", block));
 }
@@ -39,7 +39,7 @@ Vec<Dim> gravity_of(const CaseSpec& spec) {
   return to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity");
 }
 
-/// "(0.5, 1.25)": how messages show a place, to the picometre, so that round-off is not shown.
+/// "(0.5, 1.25)": a place in messages, to the picometre, so that round-off is not shown.
 template <int Dim>
 std::string place(Vec<Dim> x) {
   for (double& coordinate : x) coordinate = std::abs(coordinate) < 1e-12 ? 0.0 : coordinate;

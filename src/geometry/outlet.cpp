@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// Sine of the least angle between an outlet's plane and its direction: below it, which side is outside is unclear.
+/// Least sine of the angle between an outlet's plane and its direction. Below it the outer side is not clear.
 constexpr double least_sine = 0.1;
 
 std::array<Vec<2>, 1> edges_between(const Vec<2>& from, const Vec<2>& to, double, const std::string&) {

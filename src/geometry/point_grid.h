@@ -1,4 +1,4 @@
-// Points filed by place, so that those near another point are found without looking at all of them.
+// Points filed by place, so that points near a place are found without looking at all of them.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using Cell = std::array<std::int64_t, Dim>;
 
 template <int Dim>
 Cell<Dim> cell_of(const Vec<Dim>& x, double edge) {
-  constexpr double beyond = 1e15;  // a runaway's place need not fit an integer
+  constexpr double beyond = 1e15;  // the place of a runaway particle may not fit an integer
   Cell<Dim> c;
   for (int axis = 0; axis < Dim; ++axis) {
     c[axis] = static_cast<std::int64_t>(std::clamp(std::floor(x[axis] / edge), -beyond, beyond));

@@ -75,7 +75,7 @@ struct View {
   double bottom() const { return top + scale * (high[1] - low[1]); }
 };
 
-/// 1, 2 or 5 times a power of ten: the least step whose ticks stand at least `least` metres apart.
+/// The smallest step of at least `least` metres that is 1, 2 or 5 times a power of ten.
 double tick_step(double least) {
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -106,7 +106,7 @@ class Svg {
       fmt::format_to(std::back_inserter(points), "{:.2f},{:.2f} ", corner[0], corner[1]);
     add(R"(<polygon points="{}" fill="{}" fill-opacity="0.35" stroke="{}"/>)", points, fill, stroke);
   }
-  /// Round dots, all in one path: pieces without length and with round caps.
+  /// Round dots in one path: segments of length 0 with round caps.
   template <int Dim>
   void dots(const std::vector<Vec<Dim>>& points, const View& view, std::string_view colour, double diameter) {
     std::string path;
@@ -188,7 +188,7 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
   return rows;
 }
 
-/// Outlets, each with an arrow the way the water leaves and its name.
+/// Outlets, each with its name and an arrow in the direction in which the water leaves.
 template <int Dim>
 void draw_outlets(Svg& svg, const std::vector<Outlet<Dim>>& outlets, const View& view) {
   constexpr double arrow = 20.0;  // px
@@ -213,7 +213,7 @@ void draw_outlets(Svg& svg, const std::vector<Outlet<Dim>>& outlets, const View&
   }
 }
 
-/// All that the picture must show.
+/// The extent of all that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
                  const std::vector<Outlet<Dim>>& outlets, const std::vector<Marker>& markers) {
@@ -236,7 +236,7 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
   return extent;
 }
 
-/// The scale at which the plot fits, with its left edge; its top depends on what stands above it.
+/// The scale at which the plot fits, and its left edge. Its top is not set: it depends on what stands above the plot.
 View fitted_view(const Extent& extent, double dx) {
   View view;
   view.low = extent.low.array() - 1.5 * dx;

@@ -1,4 +1,4 @@
-// A picture of a case as it starts, for the eye to check what numbers cannot.
+// A picture of a case at its start: the eye checks what numbers cannot.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace tailwater {
 
 /// An SVG document: walls with the particles behind them, the fluid, probes with their names, axes in metres, title,
-/// spacing and counts. In 3D it is the projection on x and z. Above 40 000 fluid (or wall) particles the outlines of
-/// the blocks (or the wall alone) stand for them.
+/// spacing and counts. In 3D it is the projection on x and z. Above 40 000 fluid (or wall) particles it shows the
+/// outlines of the blocks (or the wall alone) instead.
 template <int Dim>
 std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
                         const WallParticles<Dim>& walls);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 
-/// Number in [-1, 1) that depends on nothing but its arguments (SplitMix64, Steele, Lea & Flood 2014). The standard
-/// library's distributions differ between machines.
+/// Number in [-1, 1) that depends only on the arguments (SplitMix64, Steele, Lea & Flood 2014). The standard library's
+/// distributions differ between machines.
 double random_number(std::uint64_t seed, std::uint64_t particle, int axis) {
   std::uint64_t z = (seed * 0x9e3779b97f4a7c15) ^ (particle * 3 + static_cast<std::uint64_t>(axis));
   for (int round = 0; round < 2; ++round) {
@@ -30,7 +30,7 @@ double random_number(std::uint64_t seed, std::uint64_t particle, int axis) {
 
 enum class Where { outside, on_outline, inside };
 
-/// Where `x` is in a polygon whose outline is `tolerance` thick: parity of the edges to the right of it.
+/// Where `x` is relative to a polygon whose outline is `tolerance` thick, by the parity of the edges to its right.
 Where where_in(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
   bool is_inside = false;
   for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
@@ -144,15 +144,16 @@ class StartVelocity {
   std::vector<Component> varying_;
 };
 
-/// Is the lattice of `block` fitted to this face? Elsewhere a misfit is the case file's, and check_geometry reports it.
+/// Whether the lattice of `block` is fitted to this face. Elsewhere a misfit is the case file's, and check_geometry
+/// reports it.
 template <int Dim>
 bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
   const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
   return block.shape == BlockShape::polygon || !is_axis_parallel;
 }
 
-/// Is `x` a lattice place that no fluid particle takes, because a wall particle stands there or because it is behind
-/// the wall?
+/// Whether no fluid particle takes the lattice place `x`, because a wall particle stands there or because it is behind
+/// the wall.
 template <int Dim>
 bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const Vec<Dim>& x) {
   const double dx = spec.particles.spacing;
@@ -164,10 +165,10 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
 }
 
-/// `x`, or the place least_wall_distance before the wall that it is too near to.
+/// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
 template <int Dim>
 Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x, double dx) {
-  // In a corner, moving away from one wall may approach the next: as many moves as walls can meet.
+  // In a corner, a move away from one wall may approach the next. At most Dim walls meet, so Dim moves are enough.
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
     const double missing = least_wall_distance * dx - wall.signed_distance;
@@ -177,14 +178,14 @@ Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, 
   return x;
 }
 
-/// Chooses the places of a block's lattice that are in the block: all of a box; of a polygon those inside, and every
-/// second one on its outline.
+/// Chooses the places of a block's lattice that are in the block. In a box these are all, in a polygon those inside and
+/// every second one on its outline.
 template <int Dim>
 class InBlock {
  public:
   InBlock(const Lattice<Dim>& lattice, double dx) : lattice_(lattice), tolerance_(corner_tolerance * dx) {}
 
-  /// To be called for each place once, in order.
+  /// Call once for each place, in order.
   bool operator()(const Vec<Dim>& x) {
     if constexpr (Dim == 2) {
       if (!lattice_.outline.empty()) {

@@ -1,6 +1,6 @@
-// Wall particles in 3D. Walls are boxes, and wall particles are the nodes of the box's own lattice outside it (inside
-// it for a body that stands in the water): cells of the lattice behind the wall, or its corners where the first layer
-// stands on the wall.
+// Wall particles in 3D. Walls are boxes. Wall particles are nodes of the box's own lattice, continued outside the box,
+// or inside it for a body that stands in the water. Nodes are the centres of lattice cells behind the wall, or their
+// corners if the first layer stands on the wall.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-/// A 3D box wall put together again from its triangles.
+/// A 3D box wall reassembled from its triangles.
 struct Box {
   Vec<3> low = Vec<3>::Constant(std::numeric_limits<double>::max());
   Vec<3> high = Vec<3>::Constant(std::numeric_limits<double>::lowest());
@@ -43,7 +43,7 @@ Box box_of(const Boundary<3>& boundary, int wall) {
       [[maybe_unused]] const double length = face.normal.cwiseAbs().maxCoeff(&axis);
       TAILWATER_ASSERT(length > 1.0 - 1e-9, "3D walls are boxes");
       const bool points_up = face.normal[axis] > 0.0;
-      // A lone face has no opposite one to be told from: it is then the floor of what it faces.
+      // A lone face has no opposite face to compare with. It then counts as the floor of the space it faces.
       const bool is_flat = box.high[axis] <= box.low[axis];
       const bool is_low = is_flat ? points_up : face.corners[0][axis] < 0.5 * (box.low[axis] + box.high[axis]);
       box.closed[axis][is_low ? 0 : 1] = true;
@@ -91,8 +91,8 @@ struct BoxLattice {
   }
 };
 
-/// How many steps a node is behind the box's closed faces (0: on one), and the normals that act there; no normals where
-/// no wall particle can stand.
+/// How many steps a node is behind the box's closed faces (0: on one), and the normals that act there. No normals if no
+/// wall particle can stand there.
 struct NodePlace {
   double depth = 0.0;
   std::vector<Vec<3>> normals;
@@ -100,7 +100,7 @@ struct NodePlace {
 
 NodePlace place_of(const BoxLattice& lattice, const Eigen::Vector3i& index) {
   const Box& box = lattice.box;
-  const double direction = box.fluid_is_inside ? -1.0 : 1.0;  // of growing depth, from the low face on
+  const double direction = box.fluid_is_inside ? -1.0 : 1.0;  // in which depth grows from the low face
   NodePlace place;
   if (!box.fluid_is_inside) place.depth = std::numeric_limits<double>::max();
   for (int axis = 0; axis < 3; ++axis) {
@@ -164,7 +164,7 @@ WallParticles<3> sample_boxes(const Boundary<3>& body, const WallLayers& layers)
     for (const int wall : walls) add_nodes(body, wall, layers, 0.5, layers.count - 0.5, collector);
     return std::move(collector).particles();
   }
-  // Layer by layer: what stands on one wall goes before what would stand there behind another.
+  // Layer by layer: a particle on one wall takes precedence over one behind another wall at the same place.
   for (int layer = 0; layer < layers.count; ++layer) {
     for (const int wall : walls) add_nodes(body, wall, layers, layer, layer, collector);
     if (layer == 0) collector.end_of_places_on_wall();

@@ -1,5 +1,5 @@
-// Wall particles in 2D. The faces form chains; a chain is cut at its sharp corners into runs, and each row of particles
-// follows the runs at its own distance behind the wall, its corners where the shifted faces meet (mitres).
+// Wall particles in 2D. The faces form chains. A chain is cut into runs at its sharp corners. Each row of particles
+// follows the runs at its own distance behind the wall; its corners are where the shifted faces meet (mitres).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +10,8 @@
 namespace tailwater {
 namespace {
 
-constexpr double farthest_share = 1.5;       // of the layers' depth: what is left of a sharp mitre
-constexpr double least_way_to_tip = 0.3;     // dx, of the particles in the tip of a crest
+constexpr double farthest_share = 1.5;       // of the layers' depth; a sharp mitre is cut off there
+constexpr double least_way_to_tip = 0.3;     // dx, for the particles in the tip of a crest
 constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
 constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
@@ -21,8 +21,8 @@ struct Joints {
   std::vector<int> chain;  ///< number of the connected chain each face belongs to
 };
 
-/// Joins each face to the one that bounds the same sector of fluid at its corner 1. Where several meet there, that is
-/// the one across the smallest angle of fluid.
+/// Joins each face to the one that bounds the same sector of fluid at its corner 1. If several faces meet there, this
+/// is the face across the smallest angle of fluid.
 Joints join_faces(const Boundary<2>& boundary, double tolerance) {
   const std::vector<WallFace<2>>& faces = boundary.faces;
   const int count = static_cast<int>(faces.size());
@@ -67,8 +67,7 @@ bool is_sharp(const Boundary<2>& boundary, int from, int to) {
   return boundary.faces[from].normal.dot(boundary.faces[to].normal) < sharp_turn_cosine;
 }
 
-/// A run: faces joined without a sharp corner. Its ends are sharp corners, free ends, or nothing (a smooth closed
-/// curve).
+/// A run: faces joined without a sharp corner. It ends at sharp corners or free ends; a smooth closed curve has none.
 struct Run {
   std::vector<int> faces;
   int before = -1;  ///< face across the sharp corner at its start; -1: a free end
@@ -113,7 +112,7 @@ Vec<2> mitre(const WallFace<2>& from, const WallFace<2>& to, double depth) {
   return from.corners[1] - depth / (1.0 + from.normal.dot(to.normal)) * (from.normal + to.normal);
 }
 
-/// The places of one row along a run, `depth` behind it, the last `free_end` steps from a free end. A sharp corner
+/// The places of one row along a run, `depth` behind it; the last is `free_end` steps from a free end. A sharp corner
 /// belongs to the run that starts there.
 std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing,
                               double free_end) {
@@ -155,9 +154,9 @@ std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, doubl
   return places;
 }
 
-/// The tip of a crest sharper than a right angle, before which the first row stops: particles every dx/2 from the row's
-/// corner towards the tip. Without them a particle that comes to stand on the tip, a whole dx from the next one, finds
-/// nothing there that holds it off.
+/// The first row stops short of the tip of a crest sharper than a right angle. This adds particles every dx/2 from the
+/// row's corner towards the tip. Without them nothing would hold off a fluid particle on the tip, a whole dx away from
+/// the nearest wall particle.
 void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& layers,
                WallParticleCollector<2>& collector) {
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
@@ -185,7 +184,7 @@ std::vector<std::vector<int>> faces_by_chain(const Joints& joints) {
   return chains;
 }
 
-/// `x` with the point of the chain nearest to it, and the normals of all the chain's faces that are as near.
+/// `x` with the nearest point of the chain and the normals of all faces of the chain at that distance.
 WallPlace<2> place_behind(const Boundary<2>& body, const std::vector<int>& chain, const Vec<2>& x, double tolerance) {
   WallPlace<2> place{x, x, {}, -1};
   double nearest = std::numeric_limits<double>::max();
@@ -220,7 +219,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
       const int chain = joints.chain[run.faces.front()];
       for (const Vec<2>& x : place_row(body, run, depth, layers.spacing, free_end)) {
         const WallPlace<2> place = place_behind(body, chains[chain], x, tolerance);
-        // Nearer to the chain than its row: the row has folded over itself inside a convex corner.
+        // A place nearer to the chain than its row: the row has folded over itself inside a convex corner.
         const double distance = (x - place.foot).norm();
         if (distance < depth - 2.0 * tolerance || distance > farthest) continue;
         collector.add_unless_behind_another(place, [&](std::size_t f) { return joints.chain[f] == chain; });

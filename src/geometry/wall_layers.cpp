@@ -7,7 +7,7 @@ namespace {
 
 constexpr double least_distance = 0.5;  // dx, between wall particles
 
-/// What walls with these normals block together: the eigenvalues of the sum of n n^T clipped at 1.
+/// Projector onto the directions that walls with these normals block: the sum of n n^T, eigenvalues clipped at 1.
 template <int Dim>
 Mat<Dim> blocked_by(const std::vector<Vec<Dim>>& normals) {
   Mat<Dim> sum = Mat<Dim>::Zero();

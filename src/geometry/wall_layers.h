@@ -1,6 +1,6 @@
-// What every kind of wall has in common on the way to its particles. A kind of wall geometry is one file: a function
-// that proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps those
-// that are free. It is declared at the end of this file and called in wall_particles.cpp.
+// Common parts of making wall particles for every kind of wall geometry. Each kind is one file with one function. The
+// function proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps the
+// free ones. It is declared at the end of this file and called in wall_particles.cpp.
 #pragma once
 
 #include <utility>
@@ -16,7 +16,7 @@ namespace tailwater {
 struct WallLayers {
   double spacing;
   int count;
-  bool starts_on_wall;  ///< the first layer stands on the wall; else spacing/2 behind it
+  bool starts_on_wall;  ///< whether the first layer stands on the wall; else it is spacing/2 behind it
 
   double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
 };
@@ -26,11 +26,11 @@ template <int Dim>
 struct WallPlace {
   Vec<Dim> position;
   Vec<Dim> foot;                  ///< the point of its own wall nearest to it
-  std::vector<Vec<Dim>> normals;  ///< of the faces that act there: several at a corner
+  std::vector<Vec<Dim>> normals;  ///< of the faces that act there; several at a corner
   int wall = 0;                   ///< index into Boundary::walls
 };
 
-/// The particles of one body, first come, first kept: none stands nearer than spacing/2 to another.
+/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept.
 template <int Dim>
 class WallParticleCollector {
  public:
@@ -41,8 +41,8 @@ class WallParticleCollector {
     if (!taken_.has_near(place.position)) keep(place);
   }
 
-  /// The same, unless a face that is not the place's own (is_own(f), f an index into Boundary::faces) lies between the
-  /// place and its foot: then it is behind another wall.
+  /// The same, unless a face that is not the place's own lies between the place and its foot; the place is then behind
+  /// another wall. is_own(f) says whether Boundary::faces[f] is the place's own.
   template <class IsOwn>
   void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
     if (taken_.has_near(place.position)) return;
@@ -52,7 +52,7 @@ class WallParticleCollector {
     keep(place);
   }
 
-  /// To be called when all places on the wall itself have been proposed, before those behind it.
+  /// Call after all places on the wall itself have been proposed, before those behind it.
   void end_of_places_on_wall() { particles_.on_wall = particles_.size(); }
 
   WallParticles<Dim> particles() && { return std::move(particles_); }

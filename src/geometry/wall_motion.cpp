@@ -11,8 +11,8 @@
 namespace tailwater {
 namespace {
 
-/// Half of the interval [s] that stands for an instant: positions of metres then give velocities to 1e-9 m/s, and no
-/// path of a wall changes within it.
+/// Half of the interval [s] that represents an instant. Positions of metres then give velocities accurate to 1e-9 m/s,
+/// and no path of a wall changes within it.
 constexpr double instant = 1e-6;
 
 }  // namespace

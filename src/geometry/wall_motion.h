@@ -1,4 +1,4 @@
-// Walls that move on a prescribed path, as rigid bodies: where each is at a time, and how fast.
+// Walls that move as rigid bodies on a prescribed path: the place and velocity of each at a given time.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct AffineMap {
   Vec<Dim> operator()(const Vec<Dim>& x) const { return linear * x + constant; }
 };
 
-/// From where a rigid motion has brought a body by `before` to where it has brought it by `after`.
+/// The motion of a body from its place under `before` to its place under `after`.
 template <int Dim>
 AffineMap<Dim> way_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
   const Mat<Dim> turn = after.linear * before.linear.transpose();
@@ -43,17 +43,17 @@ class WallPath {
   /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
   WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
-  /// From where the wall is drawn to where it is at `time` [s], at least 0. It may be infinite or not a number.
+  /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
   AffineMap<Dim> at(double time) const;
 
-  /// Velocity [m/s] of what is drawn at x, as the mean over a time [s].
+  /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
   AffineMap<Dim> mean_velocity(double from, double to) const;
 
  private:
   /// A number, or an expression of t.
   struct Component {
     double number = 0.0;
-    mutable std::vector<Formula> formula;  ///< at most one; evaluating it writes the time into it
+    mutable std::vector<Formula> formula;  ///< at most one; mutable because evaluating writes the time into it
     double at(double time) const;
   };
   static Component make_component(const CaseSpec& spec, const Varying& value);
@@ -67,8 +67,8 @@ class WallPath {
 template <int Dim>
 class WallMotion {
  public:
-  /// Where a moving wall slides along a periodic direction, its image before it is added to the faces, so that the two
-  /// together always cover the domain.
+  /// For a moving wall that slides along a periodic direction, adds its image one period back to the faces, so that the
+  /// two together always cover the domain.
   WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles);
 
   struct MovingWall {
@@ -78,15 +78,15 @@ class WallMotion {
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
-  /// Puts the faces and the particles of moving walls where they are at `time`.
+  /// Moves the faces and the particles of moving walls to their places at `time`.
   void place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
 
-  /// Sets the entries of the particles of moving walls to their mean velocity [m/s] over a time [s].
+  /// Sets the entries of the particles of moving walls to their mean velocity [m/s] between two times [s].
   void get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const;
   /// The same at an instant.
   void get_velocity(double time, std::span<Vec<Dim>> velocity) const;
 
-  /// The farthest [m] that a corner of a wall gets from one time to the other.
+  /// The largest distance [m] that a corner of a wall moves from one time to the other.
   double farthest_way(double from, double to) const;
 
  private:

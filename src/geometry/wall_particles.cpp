@@ -10,11 +10,11 @@
 namespace tailwater {
 namespace {
 
-// What samples which walls.
+// Which function samples the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers) { return sample_chains(body, layers); }
 WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers) { return sample_boxes(body, layers); }
 
-/// Puts the entries `from` to `to` of `part` behind those of `all`.
+/// Appends the entries `from` to `to` of `part` to `all`.
 template <int Dim>
 void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::size_t from, std::size_t to) {
   const auto put = [&](auto& into, const auto& entries) {
@@ -26,8 +26,7 @@ void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::
   put(all.wall, part.wall);
 }
 
-/// The walls of one body after the other, each sampled as if it were alone: bodies part. All that stand on a wall come
-/// first.
+/// Samples each body as if it were alone, because bodies separate. Particles on a wall come first.
 template <int Dim>
 WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers& layers) {
   std::set<int> bodies;

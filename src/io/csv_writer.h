@@ -1,4 +1,4 @@
-// A table that grows while the run goes. Every line reaches the file at once, so a killed run leaves whole lines.
+// A table that grows during the run. Every line reaches the file at once, so a killed run leaves whole lines.
 #pragma once
 
 #include <cstdio>

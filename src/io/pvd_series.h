@@ -1,4 +1,4 @@
-// The field files of a run and the list of them with their times (ParaView's .pvd). The list is rewritten whole after
+// The field files of a run and a list of them with their times (ParaView's .pvd). The whole list is rewritten after
 // every file, so a killed run leaves a series that opens.
 #pragma once
 
@@ -15,7 +15,7 @@ class PvdSeries {
   /// Files FOLDER/NAME_00000.vtp, ... listed in FOLDER/NAME.pvd; zlib level `compression`, 0 to 9.
   PvdSeries(std::filesystem::path folder, std::string name, int compression);
 
-  /// Adds the fields at `time` [s], each rank its own particles; collective. Throws IoError, on all ranks.
+  /// Adds the fields at `time` [s]; each rank gives its own particles. Collective. Throws IoError, on all ranks.
   template <int Dim>
   void write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks = {});
 

@@ -60,7 +60,7 @@ bool is_result_folder(const fs::path& path) {
   return is_one_of(result_folders, path.filename()) && fs::is_directory(fs::symlink_status(path));
 }
 
-/// What an earlier run wrote into `folder`. Links are not followed.
+/// The files that an earlier run wrote into `folder`. Links are not followed.
 std::vector<fs::path> earlier_results(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const fs::path& path : entries(folder)) {
@@ -91,7 +91,8 @@ void remove_earlier_results(const fs::path& folder) {
   }
 }
 
-/// Permission bits do not tell: they do not bind root, and a file system may be read-only or full.
+/// Writes a file to find out. Permission bits do not tell: they do not bind root, and a file system may be read-only or
+/// full.
 void require_writable(const fs::path& folder) {
   const fs::path trial = folder / ".tailwater-write-test";
   write_text_file(trial, "can this folder be written?\n");

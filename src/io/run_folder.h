@@ -1,4 +1,4 @@
-// The folder a run writes into, and the names of what is in it.
+// The folder a run writes into, and the names of its contents.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ inline constexpr std::string_view effective_case_name = "case.effective.toml";
 
 class RunFolder {
  public:
-  /// Makes the folder with its empty probes/ and fields/. Nothing is changed unless all of it can be.
+  /// Makes the folder with empty probes/ and fields/. Changes nothing unless it can do all of it.
   /// InputError: `path` is a file, or a folder that is not empty and `force` is not given. IoError: it cannot be made,
-  /// read or written. With `force` the results of an earlier run go, and a request to stop it; what no run writes
-  /// stays, wherever it lies.
-  /// Collective: the root makes it, its error is thrown on all ranks.
+  /// read or written. `force` removes the results of an earlier run and a request to stop it. Files that no run writes
+  /// stay, wherever they are.
+  /// Collective: the root makes the folder; its error is thrown on all ranks.
   static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
 
   const std::filesystem::path& path() const { return path_; }
@@ -30,7 +30,7 @@ class RunFolder {
   std::filesystem::path fields() const { return path_ / "fields"; }
   /// The file by which a user asks the run to end (run/requests.h).
   std::filesystem::path stop() const { return path_ / stop_file_name; }
-  /// Where a run that fails leaves its last good fields; made here, at the first call. Throws IoError.
+  /// The folder for the last good fields of a failed run. The first call makes it. Throws IoError.
   std::filesystem::path make_failure() const;
 
  private:

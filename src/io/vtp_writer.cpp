@@ -68,7 +68,7 @@ constexpr std::string_view vtk_type() {
   }
 }
 
-/// Encodes `values` at the end of `piece` and describes where they are.
+/// Appends the encoded `values` to `piece` and returns their description.
 template <class Value>
 EncodedPiece::Array append_array(EncodedPiece& piece, std::string name, int components,
                                  const std::vector<Value>& values, int compression) {
@@ -93,7 +93,7 @@ std::vector<Value> three_components(std::span<const Vec<Dim>> vectors) {
   return values;
 }
 
-/// The values as they go into the file, for each kind of field.
+/// The values as stored in the file, for each kind of field.
 std::vector<float> stored(std::span<const double> values) {
   std::vector<float> result(values.size());
   std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<float>(v); });
@@ -152,7 +152,7 @@ void append_piece_xml(std::string& xml, const EncodedPiece& piece, std::size_t p
 
 template <int Dim>
 EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression) {
-  // The fields of a failed run may exceed Float32; infinities in the file then tell so.
+  // The fields of a failed run may exceed Float32. They become infinities in the file.
   const SuspendFpTraps suspend;
   EncodedPiece piece;
   piece.count = particles.position.size();
@@ -175,7 +175,7 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
 
 void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece, int compression,
                const Communicator& ranks) {
-  // VTK reads no file without a piece.
+  // VTK cannot read a file without a piece.
   const bool all_are_empty = !ranks.any(piece.count > 0);
   const bool is_shown = piece.count > 0 || (all_are_empty && ranks.is_root());
   const std::string_view bytes = is_shown ? std::string_view(piece.bytes) : std::string_view();

@@ -3,8 +3,8 @@
 // optionally zlib blocks (VTK file formats, "XML file formats"). Points are Float64, fields Float32, integers Int64; in
 // 2D the third coordinate is 0.
 //
-// Why VTP files listed by a PVD and not VTKHDF: the VTKHDF reader of Debian 12's ParaView (5.11) knows no time steps,
-// while PVD and VTP open alike there and in the newest one.
+// Why VTP files listed by a PVD and not VTKHDF: the VTKHDF reader of Debian 12's ParaView (5.11) does not support time
+// steps. PVD and VTP work there and in the newest ParaView.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +19,23 @@
 
 namespace tailwater {
 
-/// One named quantity, a value per particle. Borrows its values.
+/// One named quantity with a value per particle. Borrows its values.
 template <int Dim>
 struct ParticleField {
   std::string name;
   std::variant<std::span<const double>, std::span<const Vec<Dim>>, std::span<const std::int64_t>> values;
 };
 
-/// What one field file shows of a set of particles. Borrows its values.
+/// The content of one field file: a set of particles with fields. Borrows its values.
 template <int Dim>
 struct ParticleFields {
   std::span<const Vec<Dim>> position;  ///< m
   std::vector<ParticleField<Dim>> fields;
-  int corners = 1;  ///< so many consecutive points are a vertex (1), a line (2) or a triangle (3)
+  int corners = 1;  ///< consecutive points per cell: a vertex (1), a line (2) or a triangle (3)
 };
 
 /// A <Piece> ready to be written: its arrays' descriptions and their encoded bytes. Offsets count from the first byte
-/// of this piece: where a rank's piece lies in the file is known when all are made.
+/// of this piece, because its place in the file is known only when the pieces of all ranks are made.
 struct EncodedPiece {
   struct Array {
     std::string name;
@@ -57,8 +57,8 @@ template <int Dim>
 EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression);
 
 /// Writes one file at time `time` [s]. Collective: a piece per rank, all with the same fields and encoded with the same
-/// `compression`; every rank writes its own into the file. Empty ones are left out, unless all are. Throws IoError, on
-/// all ranks; never leaves half a file.
+/// `compression`. Every rank writes its own piece into the file. Empty pieces are left out, unless all are empty.
+/// Throws IoError, on all ranks; never leaves half a file.
 void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece, int compression,
                const Communicator& ranks = {});
 

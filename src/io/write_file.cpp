@@ -34,10 +34,10 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
   return error_number;
 }
 
-/// As much as one call of MPI-IO gets: its counts are ints.
+/// Most bytes in one call of MPI-IO, whose counts are ints.
 constexpr std::size_t largest_write = std::size_t{1} << 30;
 
-/// What MPI says about `code`; nothing for success.
+/// MPI's message for `code`; empty for success.
 std::string reason_of(int code) {
   if (code == MPI_SUCCESS) return "";
   char reason[MPI_MAX_ERROR_STRING] = {};
@@ -46,8 +46,8 @@ std::string reason_of(int code) {
   return reason;
 }
 
-/// Returns why it failed, or nothing. Every rank by itself: its bytes are one long stretch, and Open MPI's collective
-/// calls do not tell of a full disk.
+/// Returns why it failed, or an empty text. Not a collective MPI call: the bytes of a rank are contiguous, and Open
+/// MPI's collective calls do not report a full disk.
 std::string write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts) {
   for (std::string_view rest : parts) {
     while (!rest.empty()) {
@@ -72,7 +72,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   std::int64_t size = 0;
   for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
   const std::int64_t offset = ranks.sum_before(size);
-  // Makes the file, or empties what a killed run has left, with the system's own words if it cannot.
+  // Makes the file, or empties one that a killed run has left. The system calls give the reason if that fails.
   do_on_root(ranks, [&] {
     const int error_number = write_parts(temporary, {});
     if (error_number != 0) throw_io_error("write", path, error_number);
@@ -84,7 +84,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   };
   try {
     MPI_File file = MPI_FILE_NULL;
-    // Where only some ranks can open it the others keep it open: closing is collective.
+    // If only some ranks can open the file, they leave it open, because closing is collective.
     require_none(reason_of(MPI_File_open(ranks.handle(), temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file)));
     const std::string failure = write_parts(file, offset, parts);
     const std::string close_failure = reason_of(MPI_File_close(&file));

@@ -1,5 +1,5 @@
-// Whole files, written in one go: first under a temporary name beside the target, then renamed over it, so that a run
-// killed at any moment leaves either the old file or the new one.
+// Writes whole files: first under a temporary name beside the target, then renamed over it. A run killed at any moment
+// leaves either the old file or the new one.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace tailwater {
 /// Ending of the temporary name; a killed run may leave one such file.
 inline constexpr std::string_view temporary_ending = ".part";
 
-/// Writes `parts` one after the other as the file `path`. Collective: those of all ranks, by rank, make one file, into
-/// which every rank writes its own (MPI-IO). Throws IoError with the path and the system's reason, on all ranks; the
-/// file that stood there before is then untouched.
+/// Writes `parts` one after the other as the file `path`. Collective: the parts of all ranks, by rank, make one file;
+/// every rank writes its own parts (MPI-IO). Throws IoError with the path and the system's reason, on all ranks; an
+/// existing file is then untouched.
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts,
                 const Communicator& ranks = {});
 

@@ -15,26 +15,26 @@
 namespace tailwater {
 namespace {
 
-/// Norm of the right-hand side below which the answer is zero pressure: nothing drives it, and squares underflow soon.
+/// Below this norm of the right-hand side the answer is zero pressure: nothing drives it, and squares soon underflow.
 constexpr double vanishing_rhs = 1e-100;
 
-/// PETSc gives up on a guess whose residual is 1e5 of the source. Below that a guess helps even where its residual is
-/// larger than that of 0: what is left is rough, and smoothed away first.
+/// PETSc gives up on a guess whose residual is 1e5 times the source. Below that a guess helps even if its residual is
+/// larger than that of 0: its error is rough, and rough errors are smoothed away first.
 constexpr double hopeless_guess = 1e4;
 
 static_assert(sizeof(PetscInt) == sizeof(int), "the CSR arrays are shared with PETSc");
 static_assert(sizeof(PetscScalar) == sizeof(double), "the values are shared with PETSc");
 
-/// Numbers divided by one that happens to vanish, not slow progress.
+/// Whether the method divided by a number that happened to vanish. Slow convergence is no breakdown.
 bool is_breakdown(KSPConvergedReason reason) {
   return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
          reason == KSP_DIVERGED_NANORINF;
 }
 
-/// y = D x, D the diagonal, which is 1.
+/// y = D x, where the diagonal D is 1.
 PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
 
-/// A vector of PETSc's that shares `values`.
+/// Makes a PETSc vector that shares `values`.
 void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vector) {
   const auto rows = static_cast<PetscInt>(values.size());
   check_petsc(ranks.is_alone()
@@ -42,7 +42,7 @@ void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vect
                   : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
 }
 
-/// About twelve of the residuals on the way, the first of which was `first`.
+/// About twelve residuals of the history, scaled so that the first is `first`.
 std::vector<double> shown_residuals(KSP solver, double first) {
   const PetscReal* history = nullptr;
   PetscInt length = 0;
@@ -55,17 +55,17 @@ std::vector<double> shown_residuals(KSP solver, double first) {
 
 }  // namespace
 
-/// PETSc's objects, and for which system they are.
+/// PETSc's objects, and the system they belong to.
 struct KrylovSolver::Petsc {
   PetscMatrix matrix;
-  std::vector<int> column_of_others;  ///< PETSc's own, which it renumbers
+  std::vector<int> column_of_others;  ///< a copy for PETSc, which renumbers it
   PetscVector rhs;
   PetscVector solution;
   PetscVector residual;
   PetscKrylovSolver solver;
   PetscNullSpace constants;
   std::uint64_t pattern_number = 0;        ///< of the matrix
-  std::optional<std::size_t> solver_size;  ///< rows of this rank; none: it is not the settings' method
+  std::optional<std::size_t> solver_size;  ///< rows of this rank; none after a restart with another method
 
   /// Returns whether the pattern is new.
   bool take_matrix(LinearSystem& system) {
@@ -74,7 +74,7 @@ struct KrylovSolver::Petsc {
       make_matrix(system);
       pattern_number = system.pattern_number();
     }
-    // The values in the arrays it shares were changed; and operations are chosen at an assembly.
+    // The values in the shared arrays have changed, and PETSc chooses the matrix's operations at an assembly.
     check_petsc(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     check_petsc(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
     if (!system.ranks().is_alone()) provide_diagonal();
@@ -97,8 +97,8 @@ struct KrylovSolver::Petsc {
           column_of_others.data(), system.values_of_others().data(), matrix.create()));
     }
     check_petsc(MatSetOption(matrix.get(), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
-    // Where many rows share their columns, as in drops that fly apart, PETSc treats them in blocks; SSOR in Eisenstat's
-    // form then reads a diagonal of blocks that nobody has made (PETSc 3.18).
+    // Where many rows have equal columns, as in separate drops, PETSc treats them in blocks. SSOR in Eisenstat's form
+    // then reads a block diagonal that was never built (PETSc 3.18).
     check_petsc(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
     check_petsc(MatCreateVecs(matrix.get(), nullptr, residual.create()));
     if (system.constant_is_free()) {
@@ -107,7 +107,8 @@ struct KrylovSolver::Petsc {
     }
   }
 
-  /// SSOR of several ranks in Eisenstat's form asks for an operation that PETSc 3.18 lacks, and drops at each assembly.
+  /// On several ranks, SSOR in Eisenstat's form needs an operation that PETSc 3.18 lacks. PETSc drops the one provided
+  /// here at each assembly.
   void provide_diagonal() const {
     Mat own = nullptr;
     check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
@@ -125,7 +126,7 @@ struct KrylovSolver::Petsc {
     check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
   }
 
-  /// From 0 with GMRES; the next solve has the method of the settings again.
+  /// Restarts from 0 with GMRES. The next solve uses the method of the settings again.
   void begin_again() {
     check_petsc(VecZeroEntries(solution.get()));
     check_petsc(KSPSetType(solver.get(), KSPGMRES));
@@ -180,7 +181,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
 
   petsc.take_solver(system, settings_, rows_deep_);
   KSP solver = petsc.solver.get();
-  // Later solves with one pattern are of rows little changed: the set-up of multigrid costs as much as a solve.
+  // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
   check_petsc(KSPSetReusePreconditioner(solver, pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
   double tolerance = tolerance_wanted;
   while (report.residual > tolerance_wanted) {
@@ -194,7 +195,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
     report.iterations += static_cast<int>(iterations);
     report.residual = petsc.residual_norm() / rhs_norm;
     if (reason > 0) {
-      // The solver measures the preconditioned residual; where that ends too early it goes on from there.
+      // The solver measures the preconditioned residual. If that made it stop too early, it continues from there.
       tolerance *= 0.5 * tolerance_wanted / report.residual;
       continue;
     }

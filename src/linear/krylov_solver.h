@@ -1,4 +1,4 @@
-// Solves a LinearSystem by PETSc, whose matrix and vectors share its arrays.
+// Solves a LinearSystem with PETSc, whose matrix and vectors share the system's arrays.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace tailwater {
 
 struct SolveReport {
   int iterations = 0;
-  std::size_t restarts = 0;  ///< after a breakdown of the Krylov method
+  std::size_t restarts = 0;  ///< after breakdowns of the Krylov method
   double residual = 0.0;     ///< |b - A x| / |b|, rows scaled, computed from x
 };
 
@@ -25,10 +25,10 @@ class KrylovSolver {
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
 
-  /// Solves; `solution` is the starting guess on entry, unless it is hopelessly far. Where the Krylov method breaks
-  /// down it begins again from 0, once, with GMRES, which cannot. Where a constant is free the solution gets mean 0.
-  /// Throws SolverError with the residual history when the tolerance is not reached. `tolerance` overrides the
-  /// settings' own. Collective.
+  /// On entry `solution` is the starting guess; a guess with a huge residual is replaced by 0. If the Krylov method
+  /// breaks down, the solve restarts once, from 0 with GMRES, which cannot break down. Where a constant is free the
+  /// solution gets mean 0. Throws SolverError with the residual history when the tolerance is not reached. `tolerance`
+  /// overrides that of the settings. Collective.
   SolveReport solve(LinearSystem& system, std::span<double> solution, std::optional<double> tolerance = {});
 
   /// Relative residual at which a solve ends.

@@ -52,7 +52,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
       entries.push_back({number[columns[k]], static_cast<std::ptrdiff_t>(k)});
     }
     if (!has_diagonal) entries.push_back(diagonal);
-    // Most rows are in order: neighbours come in that of their indices.
+    // Most rows are sorted already, because neighbours are listed by ascending index.
     if (!std::is_sorted(entries.begin(), entries.end())) std::sort(entries.begin(), entries.end());
     for (const Entry& entry : entries) {
       const std::int64_t column = entry.number - first;

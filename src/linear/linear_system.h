@@ -1,7 +1,7 @@
-// The rows of a sparse linear system: pattern, values and right-hand side, without any solver. One row per owned
-// particle; the pattern is set when neighbours change, values are written in place. Rows are scaled to unit diagonal,
-// so that wall rows and fluid rows weigh alike. On several ranks the rows are numbered rank after rank; each rank
-// writes its own rows, and no entry is sent.
+// The rows of a sparse linear system: pattern, values and right-hand side, without any solver. There is one row per
+// owned particle. The pattern is set when neighbours change; values are written in place. Rows are scaled to unit
+// diagonal, so that wall rows and fluid rows have equal weight. On several ranks the rows are numbered rank after rank.
+// Each rank writes its own rows, and no entry is sent.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace tailwater {
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
 class LinearSystem {
  public:
-  /// The entries of all rows whose columns are of one kind, in compressed rows.
+  /// The entries of all rows in one kind of column (own() or others()), in compressed rows.
   struct Block {
     std::vector<int> begin;   ///< rows + 1
     std::vector<int> column;  ///< ascending in each row
@@ -35,7 +35,7 @@ class LinearSystem {
    public:
     /// Weight of the k-th unknown of the pattern's row.
     void set_weight(std::size_t k, double weight) { value_[slot_[k]] = weight; }
-    /// Every weight: that of the pattern's entry k, columns[k], is weight(k). Returns their sum.
+    /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns their sum.
     template <class Weight>
     double set_weights(Weight&& weight) {
       double sum = 0.0;
@@ -46,9 +46,9 @@ class LinearSystem {
       }
       return sum;
     }
-    /// Completes the row; every weight must have been set, `diagonal` must not be 0.
+    /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);
-    /// Makes it x_i = 0, whatever was set.
+    /// Makes the row x_i = 0, whatever was set before.
     void finish_as_zero();
 
    private:
@@ -63,20 +63,20 @@ class LinearSystem {
   };
   Row row(std::size_t i) { return {*this, i}; }
 
-  /// Changes the right-hand side of a finished row, whose weights stay; a row that was finished as zero stays zero.
+  /// Changes the right-hand side of a finished row and keeps its weights. A row finished as zero stays zero.
   void set_rhs(std::size_t i, double rhs) { rhs_[i] = scale_[i] * rhs; }
 
-  /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = 0) to 1; the other entries stay. x_i becomes
-  /// that share of what its neighbours and its right-hand side would make of it.
+  /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = 0) to 1, and keeps the other entries. x_i
+  /// becomes that share of the value that its neighbours and right-hand side would give it.
   void divide_diagonal(std::size_t i, double share);
 
   /// Declares that only differences of x are determined: no surface, no air.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }
   bool constant_is_free() const { return constant_is_free_; }
-  /// Where a constant is free: changes the right-hand side so that a solution exists. Collective.
+  /// For systems with a free constant: changes the right-hand side so that a solution exists. Collective.
   void make_rhs_consistent();
 
-  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, of each rank's rows alone.
+  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, over each rank's own block.
   void sweep(std::span<double> solution) const;
 
   std::size_t size() const { return rhs_.size(); }
@@ -104,8 +104,8 @@ class LinearSystem {
   Block others_;
   std::vector<double> value_;  ///< of own_, then of others_
   std::vector<std::size_t> pattern_begin_;
-  std::vector<int> slot_;           ///< where the k-th entry of the pattern stands in value_
-  std::vector<int> diagonal_slot_;  ///< and the diagonal of row i
+  std::vector<int> slot_;           ///< index in value_ of the k-th entry of the pattern
+  std::vector<int> diagonal_slot_;  ///< index in value_ of the diagonal of row i
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };

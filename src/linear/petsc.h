@@ -7,7 +7,7 @@
 
 namespace tailwater {
 
-/// Throws SolverError with PETSc's own words when `code` says that a call failed.
+/// Throws SolverError with PETSc's own message when `code` says that a call failed.
 void check_petsc(PetscErrorCode code);
 
 /// Owns a PETSc object and destroys it. Destroy is the PETSc function for its type.
@@ -28,7 +28,7 @@ class PetscHandle {
     if (handle_ != nullptr) Destroy(&handle_);
   }
   Handle get() const { return handle_; }
-  /// For PETSc's creating functions; what was held before is destroyed.
+  /// For PETSc's functions that create objects. Destroys the present object first.
   Handle* create() {
     reset();
     return &handle_;

@@ -15,7 +15,8 @@ namespace {
 /// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
 constexpr double ssor_factor = 1.35;
 
-/// PETSc's own absolute tolerance would call any residual below it converged, however large relative to the source.
+/// With PETSc's default absolute tolerance any residual below it would count as converged, however large relative to
+/// the source.
 constexpr double no_absolute_tolerance = 0.0;
 
 constexpr int longest_history = 2000;
@@ -36,7 +37,7 @@ KSPType krylov_type(KrylovMethod method) {
 PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant_is_free) {
   switch (name) {
     case PreconditionerName::ilu:
-      return is_alone ? PCILU : PCBJACOBI;  // whose blocks, one per rank, get ILU
+      return is_alone ? PCILU : PCBJACOBI;  // one block per rank, each with ILU
     case PreconditionerName::boomeramg:
       return PCHYPRE;
     case PreconditionerName::gamg:
@@ -47,12 +48,13 @@ PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant
     case PreconditionerName::automatic:
       break;
   }
-  // Eisenstat's form solves for another unknown, whose null space is not the constants: then plain SSOR.
+  // With a free constant: plain SSOR, because Eisenstat's form has another unknown, whose null space is not constants.
   return constant_is_free ? PCSOR : PCEISENSTAT;
 }
 
-/// BoomerAMG eliminates on its coarsest level, which with a free constant is singular: noise of any size comes back.
-/// Only the options' database can tell it otherwise; the user's own word stands.
+/// By default BoomerAMG solves its coarsest level by elimination. With a free constant that level is singular, and the
+/// result is noise of any size. Only PETSc's options database can change this; an option set by the user takes
+/// precedence.
 void relax_coarsest_level() {
   constexpr const char* option = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
   PetscBool is_set = PETSC_FALSE;
@@ -60,7 +62,7 @@ void relax_coarsest_level() {
   if (!is_set) check_petsc(PetscOptionsSetValue(nullptr, option, "symmetric-SOR/Jacobi"));
 }
 
-/// Sets up a solver for each kind of system, so that PETSc asks for every option that a run can ask for.
+/// Sets up a solver for each kind of system, so that PETSc queries every option that a run can query.
 void ask_for_all_options(const PressureSolverTable& settings) {
   PetscMatrix identity;
   check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, 2, 2, 1, nullptr, identity.create()));
@@ -76,7 +78,7 @@ void ask_for_all_options(const PressureSolverTable& settings) {
   }
 }
 
-/// Of the user's options those that nobody asked for.
+/// The user's options that PETSc has not queried.
 std::vector<std::string> unused_options(const PressureSolverTable& settings) {
   PetscInt count = 0;
   char** names = nullptr;
@@ -103,7 +105,8 @@ void configure(KSP solver, const PressureSolverTable& settings, const SystemTrai
   check_petsc(PCEisenstatSetNoDiagonalScaling(preconditioner, PETSC_TRUE));  // it is 1 already
   check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
   check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
-  // From the right PETSc does not take the free constant out of what multigrid returns, and it grows without bound.
+  // With right preconditioning PETSc does not remove the free constant from multigrid's result, and it grows without
+  // bound.
   const bool is_singular_multigrid = system.constant_is_free && choice.preconditioner == PreconditionerName::boomeramg;
   const bool can_be_left = choice.method != KrylovMethod::fgmres;
   check_petsc(KSPSetPCSide(solver, is_singular_multigrid && can_be_left ? PC_LEFT : PC_RIGHT));

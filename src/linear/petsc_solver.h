@@ -1,4 +1,4 @@
-// A PETSc Krylov solver, set up as the choice and the user's own options ask.
+// Sets up a PETSc Krylov solver by the choice of solver_choice.h and the user's own options.
 #pragma once
 
 #include "linear/petsc.h"
@@ -6,11 +6,11 @@
 
 namespace tailwater {
 
-/// Sets type, preconditioner, tolerances and the user's own options of `solver` for such a system on so many ranks.
+/// Sets type, preconditioner, tolerances and the user's own options of `solver`. `is_alone`: the run has one rank.
 void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone);
 
-/// Hands petsc_options to PETSc. Throws InputError for options that neither the solver of shallow nor that of deep water
-/// asks for: PETSc itself ignores them in silence.
+/// Hands petsc_options to PETSc. Throws InputError for options that neither the solver of shallow nor that of deep
+/// water asks for, because PETSc ignores them silently.
 void take_petsc_options(const PressureSolverTable& settings);
 
 }  // namespace tailwater

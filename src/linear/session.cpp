@@ -13,7 +13,7 @@
 namespace tailwater {
 namespace {
 
-/// MPI keeps what it allocates at its start until the process ends; the leak checker need not tell.
+/// MPI keeps what it allocates at its start until the process ends. The leak checker need not report that.
 struct IgnoreLeaks {
 #ifdef __SANITIZE_ADDRESS__
   IgnoreLeaks() { __lsan_disable(); }

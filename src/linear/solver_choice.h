@@ -1,12 +1,13 @@
-// Which Krylov method and preconditioner solve a system: the case's own choice, or a rule. No PETSc here: the rule can
-// be read and tested by itself, and a preconditioner of another library needs an enumerator and its line in the rule.
+// Which Krylov method and preconditioner solve a system: the case's own choice, or a rule. There is no PETSc here, so
+// the rule can be read and tested by itself. A preconditioner of another library needs an enumerator and a line in the
+// rule.
 #pragma once
 
 #include "case/spec.h"
 
 namespace tailwater {
 
-/// What the rule knows of a system.
+/// What the rule knows about a system.
 struct SystemTraits {
   double rows_deep = 0.0;         ///< how many particles lie between the surface and the bottom
   bool constant_is_free = false;  ///< only differences are determined
@@ -20,7 +21,7 @@ struct SolverChoice {
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system);
 
-/// Systems of which together the rule chooses all it can.
+/// Depths [rows] for which the rule makes its two different choices.
 inline constexpr double shallow = 1.0;
 inline constexpr double deep = 1e9;
 

@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// Directions by how far the positions spread along them (standard deviation, which a single particle does not turn),
-/// the farthest first.
+/// Directions sorted by the spread of the positions along them, largest first. The spread is the standard deviation,
+/// which a single distant particle does not dominate.
 template <int Dim>
 std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
   const Vec<Dim> zero = Vec<Dim>::Zero();
@@ -40,7 +40,7 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
   origin_ = low;
   axis_ = axes_by_spread<Dim>(positions);
 
-  // A few far particles must not make the grid huge: coarser cells are slower there, never wrong.
+  // A few distant particles must not make the grid huge. Coarser cells are slower, never wrong.
   const double most_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
   for (;; edge_ *= 2.0) {
     double cells = 1.0;
@@ -55,7 +55,7 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
     cells *= count_[d];
   }
 
-  // A counting sort: cells of the particles, particles of each cell, and where each cell begins.
+  // A counting sort: find each particle's cell, count the particles of each cell, and place them.
   std::vector<std::int64_t> cell(positions.size());
   for_each(positions.size(), [&](std::size_t i) { cell[i] = flat_index(positions[i]); });
   cell_begin_.assign(cells + 1, 0);
@@ -74,7 +74,7 @@ template <int Dim>
 std::array<std::int64_t, Dim> CellGrid<Dim>::cell_of(const Vec<Dim>& place) const {
   std::array<std::int64_t, Dim> cell;
   for (int d = 0; d < Dim; ++d) {
-    // Clamped before the cast: a place far outside has no cell, and its index need not fit an integer.
+    // Clamped before the cast: a place far outside has no cell, and its index may not fit an integer.
     const double index = std::floor((place[axis_[d]] - origin_[axis_[d]]) / edge_);
     constexpr double beyond = cells_per_reach + 1.0;
     cell[d] = static_cast<std::int64_t>(std::clamp(index, -beyond, static_cast<double>(count_[d]) + beyond));

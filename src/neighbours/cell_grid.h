@@ -1,5 +1,5 @@
-// Particles sorted into the cells of a regular grid, so that everything within reach of a place is found in the cells
-// around it. The same order is the best one for the particles in memory (docs/theory/neighbours.md).
+// Particles sorted into the cells of a regular grid: all particles within reach of a place are in the cells around it.
+// The cell order is also the best order of the particles in memory (docs/theory/neighbours.md).
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ class CellGrid {
  public:
   CellGrid() = default;
 
-  /// Sorts `positions` into cells of a third of `reach` [m], or larger where a few far particles would otherwise make
-  /// the grid much larger than the set.
+  /// Sorts `positions` into cells of a third of `reach` [m]. Cells are larger if a few distant particles would
+  /// otherwise make the grid much larger than the set.
   CellGrid(std::span<const Vec<Dim>> positions, double reach);
 
-  /// As asked for, or larger.
+  /// The reach asked for, or larger.
   double reach() const { return cells_per_reach * edge_; }
 
-  /// Particle indices cell by cell: by slabs across the direction in which the set spreads most, in a slab by rows.
+  /// Particle indices cell by cell: slab by slab along the direction of largest spread, and row by row in a slab.
   std::span<const std::int32_t> order() const { return order_; }
 
-  /// Calls body(j) for every particle in the cells around `place`: all within reach(), and some beyond.
+  /// Calls body(j) for every particle in the cells around `place`: all within reach(), and some farther away.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {
     const auto centre = cell_of(place);
@@ -52,7 +52,7 @@ class CellGrid {
   }
 
  private:
-  /// Cells of a third: a search looks at half as many particles as with cells of the whole reach.
+  /// With three, a search looks at half as many particles as with cells of the whole reach.
   static constexpr int cells_per_reach = 3;
 
   std::array<std::int64_t, Dim> cell_of(const Vec<Dim>& place) const;
@@ -60,7 +60,7 @@ class CellGrid {
 
   Vec<Dim> origin_ = Vec<Dim>::Zero();
   double edge_ = 1.0;
-  std::array<int, Dim> axis_{};            ///< directions, the one across the slabs first, that along the rows last
+  std::array<int, Dim> axis_{};            ///< directions: first the one across the slabs, last the one along the rows
   std::array<std::int64_t, Dim> count_{};  ///< cells along each axis_
   std::vector<std::int32_t> cell_begin_;
   std::vector<std::int32_t> order_;

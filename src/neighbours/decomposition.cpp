@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// Entries that came in take the place of those that were there.
+/// Replaces the owned entries by those received.
 template <class Value>
 void keep_arrivals(std::size_t owned, std::vector<Value>& field) {
   field.erase(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned));

@@ -1,5 +1,5 @@
-// Who owns which particle: each rank those in its part of space. Particles that left it are handed over, and space is
-// cut anew when work is shared too unevenly.
+// Decides which rank owns which particle: each rank owns those in its part of space. Particles that leave it are handed
+// over. Space is cut again when work is shared too unevenly.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace tailwater {
 
-/// What sharing out did.
+/// The result of sharing out.
 struct Sharing {
-  double imbalance = 0.0;    ///< work of the busiest rank over the mean, less 1, before
-  bool is_cut_anew = false;  ///< space
-  std::int64_t moved = 0;    ///< particles that got another owner, all ranks
+  double imbalance = 0.0;    ///< work of the busiest rank over the mean, minus 1, before sharing out
+  bool is_cut_anew = false;  ///< whether space was cut again
+  std::int64_t moved = 0;    ///< particles that changed owner, on all ranks
 };
 
 template <int Dim>
@@ -23,8 +23,8 @@ class Decomposition {
  public:
   Decomposition(const Communicator& ranks, const ParallelTable& settings);
 
-  /// Hands every owned particle to the rank in whose part it is. `work` says what each costs. Ghosts go; indices
-  /// change. Collective.
+  /// Hands every owned particle to the rank in whose part it lies. `work` is the cost of each. Drops the ghosts;
+  /// indices change. Collective.
   Sharing share_out(Particles<Dim>& particles, std::span<const double> work);
 
  private:

@@ -22,7 +22,7 @@ Box<Dim> box_around(const Particles<Dim>& particles, double margin) {
   return box;
 }
 
-/// 0, and every way by one period in one or more directions.
+/// The zero shift, and every shift by one period in one or more directions.
 template <int Dim>
 std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain) {
   std::vector<Vec<Dim>> shifts{Vec<Dim>::Zero()};

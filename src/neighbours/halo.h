@@ -1,5 +1,5 @@
-// Which ghosts copy which owned particles, and how a field gets to them. Ghosts are particles of other ranks and
-// periodic images.
+// Which owned particle each ghost copies, and how ghosts get their field values. Ghosts are particles of other ranks
+// and periodic images.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@
 
 namespace tailwater {
 
-/// For each direction the interval that repeats, or none.
+/// For each direction the interval that repeats, if any.
 template <int Dim>
 using PeriodicDomain = std::array<std::optional<std::pair<double, double>>, Dim>;
 
 template <int Dim>
 struct Halo {
   ExchangePlan plan;
-  std::vector<Vec<Dim>> shift;  ///< m; added to the position of each particle sent; empty when nothing is shifted
+  std::vector<Vec<Dim>> shift;  ///< m; added to the position of each particle sent; empty without a periodic direction
 
-  /// Brings the ghosts' entries of fields up to date, in one message per rank; each field gets owned + ghosts entries.
+  /// Brings the ghosts' entries of fields up to date, in one message per rank. Each field gets owned + ghosts entries.
   template <class... Value>
   void exchange(std::vector<Value>&... fields) const {
     plan.exchange(fields...);
@@ -32,16 +32,16 @@ struct Halo {
   void exchange_positions(std::vector<Vec<Dim>>& position) const;
 };
 
-/// The place inside a periodic domain that `position` stands for.
+/// The equivalent of `position` inside a periodic domain.
 template <int Dim>
 Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position);
 
-/// Moves owned particles that left a periodic domain back in at its other end.
+/// Moves owned particles that left a periodic domain in again at its other end.
 template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles);
 
-/// Gives `particles` the ghosts that lie within `margin` [m] of the box around the owned ones, and copies every field
-/// to them. Collective.
+/// Gives `particles` the ghosts within `margin` [m] of the box around the owned ones and copies every field to them.
+/// Collective.
 template <int Dim>
 Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain, double margin,
                     Particles<Dim>& particles);

@@ -7,10 +7,10 @@
 namespace tailwater {
 namespace {
 
-/// Two particles nearer than this share of dx count as this far apart: directions stay defined, weights finite.
+/// Share of dx; particles nearer than this count as this far apart, so directions stay defined and weights finite.
 constexpr double least_distance_over_spacing = 1e-6;
 
-/// Cost of a row and of a wall's pair, in pairs of the fluid (docs/scaling.md).
+/// Cost of a row and of a wall particle's pair, in pairs of a fluid particle (docs/scaling.md).
 constexpr double row_cost = 10.0;
 constexpr double wall_pair_cost = 0.3;
 
@@ -21,7 +21,7 @@ void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
   field.swap(picked);
 }
 
-/// In ascending order; quick where it nearly is.
+/// Insertion sort, ascending: rows are nearly sorted.
 void sort_row(std::int32_t* row, std::size_t count) {
   for (std::size_t n = 1; n < count; ++n) {
     const std::int32_t j = row[n];

@@ -1,5 +1,5 @@
-// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions, at least cost: lists reach a
-// skin beyond the support and are made anew only when some particle has moved half of it.
+// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions at low cost: lists reach a skin
+// beyond the support and are rebuilt only when some particle has moved half a skin.
 #pragma once
 
 #include <vector>
@@ -11,45 +11,44 @@
 
 namespace tailwater {
 
-/// Which rows wall particles get: none of the wall-wall pairs (dummies look only at fluid), or all.
+/// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
 enum class WallRows { fluid_only, all };
 
 template <int Dim>
 class Neighbourhood {
  public:
-  /// `radius` [m] is the kernel's support, `skin` [m] what lists reach beyond it.
+  /// `skin` [m] is how far lists reach beyond the kernel's support.
   Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain,
                 Communicator ranks = {});
 
-  /// Brings everything up to date with particles.position. Collective. Returns true when the lists (and so the number
-  /// of ghosts) are new; pairs() and their order may change at every call.
+  /// Brings everything up to date with particles.position. Collective. Returns whether the lists, and with them the
+  /// number of ghosts, are new. pairs() and their order may change at every call.
   bool update(Particles<Dim>& particles);
 
-  /// Moves particles that left a periodic domain back in at its other end. Call between steps only.
+  /// Moves particles that left a periodic domain in again at its other end. Call between steps only.
   void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }
 
-  /// The place inside a periodic domain that `position` stands for.
+  /// The equivalent of `position` inside a periodic domain.
   Vec<Dim> wrapped(const Vec<Dim>& position) const { return tailwater::wrapped<Dim>(domain_, position); }
 
-  /// Sorts the owned particles by slabs across the fluid's longest extent, wrapped, and forgets lists and ghosts: near
-  /// in space is near in memory, and an incomplete factorisation in this order needs the fewest iterations. Call
-  /// between steps only: indices change.
+  /// Wraps the owned particles, sorts them in the order of a cell grid (slabs across the direction of largest spread),
+  /// and forgets lists and ghosts. Particles near in space are then near in memory, and an incomplete factorisation in
+  /// this order needs the fewest iterations. Call between steps only: indices change.
   void reorder(Particles<Dim>& particles);
 
-  /// Forgets lists and ghosts: the next `update` makes them anew, as if there never were any.
+  /// Forgets lists and ghosts; the next `update` builds them as if for the first time.
   void forget(Particles<Dim>& particles);
 
-  /// Leaves only these owned particles, in this order, and forgets lists and ghosts. Call between steps only: indices
+  /// Keeps only these owned particles, in this order, and forgets lists and ghosts. Call between steps only: indices
   /// change.
   void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);
 
-  /// What a step costs for each owned particle, in pairs, while indices are those of the present lists; else 1 for
-  /// each.
+  /// Cost of a step for each owned particle, in pairs; 1 for each if the lists are not of the present indices.
   std::vector<double> work(const Particles<Dim>& particles) const;
 
   const Pairs<Dim>& pairs() const { return pairs_; }
   const Halo<Dim>& halo() const { return halo_; }
-  /// All particles, ghosts included, as they were when the lists were made: search up to half a skin farther.
+  /// All particles, ghosts included, as they were when the lists were built: search half a skin farther.
   const CellGrid<Dim>& grid() const { return grid_; }
   const Kernel<Dim>& kernel() const { return kernel_; }
   std::size_t rebuilds() const { return rebuilds_; }

@@ -15,8 +15,8 @@ void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> positio
   pairs.e.resize(list.j.size());
   pairs.r.resize(list.j.size());
 
-  // Rows are packed one behind the other, so this loop goes in order. It keeps by overwriting: whether a candidate is
-  // within the support is a coin toss that no processor predicts.
+  // Rows are packed one behind the other, so this loop goes in order. A rejected candidate is overwritten by the next
+  // one, without a branch: whether a candidate is within the support is unpredictable.
   const double radius = kernel_radius(kernel);
   const double radius_squared = radius * radius;
   const double least_squared = least_distance * least_distance;

@@ -1,5 +1,5 @@
-// The interacting pairs: compact neighbour rows, and for each pair what every operator needs. Operators never see the
-// kernel's name, only its values here.
+// The interacting pairs: compact neighbour rows, and for each pair the values every operator needs. Operators see the
+// kernel only through these values.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace tailwater {
 
-/// Row i holds the neighbours of owned particle i, all nearer than the support: entries row_begin[i] ..
-/// row_begin[i + 1] of the arrays below.
+/// Row i holds the neighbours of owned particle i within the support: entries row_begin[i] .. row_begin[i + 1] of the
+/// arrays below.
 template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
@@ -27,15 +27,16 @@ struct Pairs {
   std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
 };
 
-/// Who may come within the support of owned particle i while the list is valid: j[row_begin[i]] .. j[row_begin[i + 1]].
+/// Particles that may come within the support of owned particle i while the list is valid: j[row_begin[i]] ..
+/// j[row_begin[i + 1]].
 struct NeighbourList {
   std::vector<std::size_t> row_begin{0};  ///< owned + 1 entries
   std::vector<std::int32_t> j;            ///< owned or ghost, ascending in each row
 };
 
-/// Makes the pairs of those in the list that are within the support at the positions given, in the list's order. Two
-/// particles at one place get r = `least_distance` and an arbitrary direction, opposite for the two (their `id`s say),
-/// so that they can part again.
+/// Makes pairs of the list's entries that are within the support at the given positions, in the list's order. Two
+/// particles at one place get r = `least_distance` and an arbitrary direction, opposite for the two (by their `id`s),
+/// so that they can separate.
 template <int Dim>
 void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, std::span<const std::int64_t> id,
                     double least_distance, const NeighbourList& list, Pairs<Dim>& pairs);

@@ -1,5 +1,5 @@
-// The ranks of a run and what they tell each other. One rank is the default and needs no MPI. Functions are collective:
-// all ranks call them in the same order.
+// The ranks of a run and their communication. One rank is the default and needs no MPI. Functions are collective: all
+// ranks call them in the same order.
 #pragma once
 
 #include <mpi.h>
@@ -14,7 +14,7 @@
 
 namespace tailwater {
 
-/// What a rank has exchanged with others since the start; times include waiting for them.
+/// What a rank has exchanged with others since the start. Times include waiting for them.
 struct Traffic {
   double exchange_seconds = 0.0;   ///< halo and migration
   double reduction_seconds = 0.0;  ///< sums, maxima
@@ -28,7 +28,7 @@ class Communicator {
   /// One rank.
   Communicator() = default;
 
-  /// All ranks of the program. MPI must be running (linear/session.h) for as long as the copies of this value are used.
+  /// All ranks of the program. MPI must run (linear/session.h) as long as copies of this value are used.
   static Communicator world();
 
   int rank() const { return rank_; }
@@ -42,7 +42,7 @@ class Communicator {
     reduce(&value, 1, mpi_type<Number>(), MPI_SUM);
     return value;
   }
-  /// Each of the numbers in place, in one message; counts up to 2^53.
+  /// Sums each of the numbers in place, in one message. Counts are exact up to 2^53.
   template <class... Number>
   void sum_each(Number&... number) const {
     reduce_each(MPI_SUM, number...);
@@ -67,7 +67,7 @@ class Communicator {
   /// Sum over the ranks before this one.
   std::int64_t sum_before(std::int64_t value) const;
 
-  /// What each rank gave, by rank, on all ranks. For plain values.
+  /// The value of each rank, by rank, on all ranks. For plain values.
   template <class Value>
   std::vector<Value> all_gather(const Value& value) const {
     std::vector<Value> all(static_cast<std::size_t>(size_));
@@ -75,13 +75,13 @@ class Communicator {
     return all;
   }
 
-  /// counts[q] goes to rank q; returns what each rank had for this one.
+  /// Sends counts[q] to rank q; returns the count that each rank sent to this one.
   std::vector<std::int64_t> transpose(std::span<const std::int64_t> counts) const;
 
-  /// What each rank gave, by rank, on the root; empty on the others.
+  /// The text of each rank, by rank, on the root; empty on the others.
   std::vector<std::string> gather(const std::string& text) const;
 
-  /// The same entries of all ranks one behind the other, by rank, on the root; empty on the others. For plain values.
+  /// The values of all ranks concatenated by rank, on the root; empty on the others. For plain values.
   template <class Value>
   std::vector<Value> gather(const std::vector<Value>& values) const {
     if (is_alone()) return values;
@@ -94,13 +94,13 @@ class Communicator {
     return all;
   }
 
-  /// The text that rank `source` gave, on all ranks.
+  /// The text of rank `source`, on all ranks.
   std::string broadcast(std::string text, int source = 0) const;
 
-  /// All ranks are here.
+  /// Waits until all ranks are here.
   void meet() const;
 
-  /// Counts from the start of the program; null on one rank.
+  /// Counts since the start of the program; null on one rank.
   Traffic* traffic() const { return traffic_.get(); }
 
  private:

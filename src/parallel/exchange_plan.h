@@ -1,6 +1,6 @@
-// Which owned entries of a field go to which rank, and where those that come in are put: behind the owned ones, as
-// ghosts. Made once, executed for any field of plain values. A rank may send to itself (periodic images). The plan has
-// no state: several exchanges may follow one another in any order.
+// Which owned entries of a field go to which rank. Received entries are ghosts and stand behind the owned ones. A plan
+// is made once and executed for any field of plain values. A rank may send to itself (periodic images). The plan has no
+// state: exchanges may follow one another in any order.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ class ExchangePlan {
  public:
   ExchangePlan() = default;
 
-  /// `sent[q]` are the owned entries that rank q gets, in this order; an entry may go to several ranks, and more than
-  /// once. Collective. Ghosts come in the order of the ranks that sent them.
+  /// `sent[q]` are the owned entries that rank q gets, in this order. An entry may go to several ranks, and more than
+  /// once to one. Ghosts are in the order of the ranks that sent them. Collective.
   ExchangePlan(const Communicator& ranks, std::size_t owned, const std::vector<std::vector<std::int32_t>>& sent);
 
   std::size_t owned() const { return owned_; }
@@ -27,7 +27,7 @@ class ExchangePlan {
   /// The owned entries that are sent, message by message. On one rank ghost k copies entry sent()[k].
   std::span<const std::int32_t> sent() const { return sent_; }
 
-  /// Brings the ghosts' entries of the fields up to date, in one message per rank; each field gets owned + ghosts
+  /// Brings the ghosts' entries of the fields up to date, in one message per rank. Each field gets owned + ghosts
   /// entries.
   template <class... Value>
   void exchange(std::vector<Value>&... fields) const {
@@ -47,7 +47,7 @@ class ExchangePlan {
     }
   }
 
-  /// Sends what is no copy of an entry: packed[k] in the place of sent()[k]. `field` gets owned + ghosts entries.
+  /// Sends packed[k] in place of the owned entry sent()[k]. `field` gets owned + ghosts entries.
   template <class Value>
   void deliver(std::span<const Value> packed, std::vector<Value>& field) const {
     TAILWATER_ASSERT(packed.size() == sent_.size(), "one value per entry sent");
@@ -58,7 +58,7 @@ class ExchangePlan {
   }
 
  private:
-  /// `count` entries for or from `rank`, from `first` on: of sent_, or of the ghosts.
+  /// `count` entries from `first` on: those of sent_ for `rank`, or the ghosts from `rank`.
   struct Message {
     int rank;
     std::size_t first;

@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// What Zoltan asks for while it cuts.
+/// Input that Zoltan queries while it cuts.
 template <int Dim>
 struct Points {
   std::span<const Vec<Dim>> place;
@@ -21,7 +21,7 @@ struct Points {
   static void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float* weights, int* error) {
     const Points& points = *static_cast<Points*>(data);
     for (std::size_t i = 0; i < points.place.size(); ++i) {
-      global[i] = local[i] = i;  // no lists are asked for: names need not differ between ranks
+      global[i] = local[i] = i;  // Zoltan returns no lists, so ids need not differ between ranks
       weights[i] = static_cast<float>(points.weight[i]);
     }
     *error = ZOLTAN_OK;

@@ -1,5 +1,5 @@
-// Cuts space into one part per rank, so that each holds an equal share of weighted points: Zoltan's recursive
-// coordinate bisection or Hilbert space-filling curve (Devine et al. 2002).
+// Cuts space into one part per rank with an equal share of weighted points in each: Zoltan's recursive coordinate
+// bisection or Hilbert space-filling curve (Devine et al. 2002).
 #pragma once
 
 #include <memory>
@@ -20,12 +20,12 @@ class SpaceCuts {
   SpaceCuts(SpaceCuts&&) noexcept;
   SpaceCuts& operator=(SpaceCuts&&) noexcept;
 
-  /// Makes the parts anew from the points [m] of all ranks and their weights. Collective; throws SolverError.
+  /// Makes new parts from the points [m] of all ranks and their weights. Collective; throws SolverError.
   void cut(std::span<const Vec<Dim>> points, std::span<const double> weights);
 
   bool are_made() const;
 
-  /// The rank in whose part `place` lies, also for places where no point was.
+  /// The rank in whose part `place` lies. Works for any place, with or without points.
   int part_of(const Vec<Dim>& place) const;
 
  private:

@@ -1,4 +1,4 @@
-// Work that may fail on some ranks, such as writing a file: if it does, all ranks fail alike.
+// Work that may fail on some ranks, such as writing a file. If it does, all ranks fail with the same error.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace tailwater {
 
-/// Does `work` on every rank; collective, `work` need not be. When a rank throws a UserError, all ranks throw that of
-/// the first such rank: the same type, the same message.
+/// Does `work` on every rank. The call is collective; `work` need not be. When ranks throw a UserError, all ranks throw
+/// that of the first of them, with the same type and message.
 void do_together(const Communicator& ranks, const std::function<void()>& work);
 
-/// Does `work` on the root, as above.
+/// Does `work` on the root only; errors as above.
 void do_on_root(const Communicator& ranks, const std::function<void()>& work);
 
 }  // namespace tailwater

@@ -1,13 +1,13 @@
-// The scheme's choice of gradient and divergence, which share pairs and volumes: where both are the default they are
-// negative adjoints of each other.
+// The scheme's choice of gradient and divergence. Both use the same pairs and volumes; the two defaults are negative
+// adjoints of each other.
 #pragma once
 
 #include "flow/flow.h"
 
 namespace tailwater {
 
-/// Gradient of any field of pressure at fluid particle i [1/m of it]; 0 where the consistent operator is chosen and
-/// does not exist: spray falls freely.
+/// Gradient of a pressure field at fluid particle i [its unit/m]. 0 where the consistent operator is chosen and does
+/// not exist, so that spray falls freely.
 template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
 
@@ -19,7 +19,7 @@ double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec
 template <int Dim>
 std::vector<double> find_divergence(Flow<Dim>& flow);
 
-/// rms of a field of owned entries over bulk fluid particles of all ranks. Collective.
+/// rms of a field (owned entries) over the bulk fluid particles of all ranks. Collective.
 template <int Dim>
 double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field);
 

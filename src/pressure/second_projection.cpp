@@ -1,6 +1,6 @@
-// Minimal-residual iteration (Orthomin(1): Vinsome 1976) for D G dp = rho/dt D u, where D is the divergence and G the
-// pressure gradient of the scheme, whatever they are, and the pressure equation's matrix is the preconditioner. A step
-// of length 1, as if the Laplacian were D G, diverges: D G exceeds twice the Laplacian in places.
+// Minimal-residual iteration (Orthomin(1): Vinsome 1976) for D G dp = rho/dt D u. D and G are the scheme's divergence
+// and pressure gradient; the pressure equation's matrix is the preconditioner. Steps of length 1, as if the Laplacian
+// were D G, diverge: D G exceeds twice the Laplacian in places.
 #include <cmath>
 
 #include "base/for_each.h"
@@ -11,10 +11,11 @@
 namespace tailwater {
 namespace {
 
-/// Of the first correction, which finds what the move changed at large scale; the others are about single particles.
+/// Tolerance of the first correction, which finds the large-scale change due to the move. The later corrections act at
+/// the scale of single particles.
 constexpr double coarse_tolerance = 0.03;
 
-/// One correction of the pressure and what it does; owned entries count.
+/// One correction of the pressure and its effect. Only owned entries count.
 template <int Dim>
 struct Correction {
   std::vector<double> pressure;    ///< dp, Pa
@@ -28,12 +29,12 @@ struct Correction {
   }
 };
 
-/// Over owned entries, of which alone sources have any but 0.
+/// Dot product of two sources over all ranks. Ghosts add nothing: their entries are 0.
 double dot(const Communicator& ranks, const std::vector<double>& a, const std::vector<double>& b) {
   return ranks.sum(sum_over(a.size(), 0.0, [&](std::size_t i) { return a[i] * b[i]; }));
 }
 
-/// Velocity and source of `correction` from its pressure.
+/// Sets velocity and source of `correction` from its pressure.
 template <int Dim>
 void follow(const Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls_at_rest, Correction<Dim>& correction) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -51,8 +52,8 @@ void follow(const Flow<Dim>& flow, double dt, const std::vector<Vec<Dim>>& walls
   });
 }
 
-/// Near the surface nothing holds the particles together: `correction`, added to the pressure, leaves of suction there
-/// the share `interior`, and of a dummy's nothing. Suction would do work (docs/theory/robustness.md).
+/// Limits `correction` so that the corrected pressure keeps only the share of a suction that suction.h allows. Near the
+/// surface nothing holds the particles together, and suction would do work (docs/theory/robustness.md).
 template <int Dim>
 void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
   if (!flow.setup.has_air()) return;
@@ -111,7 +112,7 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
     const double last_square = dot(ranks, last.source, last.source);
     if (last_square > 0.0) add(-dot(ranks, next.source, last.source) / last_square, last, next);
     const double square = dot(ranks, next.source, next.source);
-    if (square == 0.0) break;  // nothing is left
+    if (square == 0.0) break;  // nothing left to correct
     const double length = dot(ranks, source, next.source) / square;
     for_each(particles.owned, [&](std::size_t i) {
       source[i] -= length * next.source[i];

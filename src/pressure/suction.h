@@ -1,12 +1,12 @@
-// How far a particle may pull where there is air.
+// How much suction (pressure below 0) a particle may keep where there is air.
 #pragma once
 
 #include "flow/flow.h"
 
 namespace tailwater {
 
-/// What owned particle i may keep of a pressure below 0 where there is air: fluid the share of it that is inside, walls
-/// what their model says.
+/// Share of a pressure below 0 that owned particle i may keep where there is air: `interior` for fluid, 1 for fluid in
+/// an end stretch, 1 or 0 for walls as their model says.
 template <int Dim>
 double suction_share(const Flow<Dim>& flow, std::size_t i) {
   if (flow.is_solved_for(i)) return flow.here.interior[i];

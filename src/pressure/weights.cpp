@@ -3,14 +3,16 @@
 //   sum_j c_ij (p_i - p_j) + a_i p_i = source_i        (source.cpp)
 //
 // c_ij   weights of the Laplacian: Morris, consistent (F23), or (B8)
-// a_i    closes the row where neighbours are missing. Near the surface the weight of the air (air.h): what is missing
-//        of A_0, sum_j c_ij on a full lattice, counts as p = 0 on the surface (the idea of Nair & Tomar 2014), so the
-//        equation needs no surface detection. Inside 4 |grad C_i|^2, by `interior`: the force of a uniform pressure p
-//        on disordered particles is -2 p grad C_i, so div grad p has the part -4 |grad C|^2 p, and without it in the
-//        matrix pressures of deep disordered water overshoot from step to step (docs/theory/robustness.md); and a
-//        little softness. 0 where the surface is marked, whose rows are p = 0
+// a_i    closes the row. It blends two values by `interior`:
+//        - Near the surface, the weight of the air (air.h). The weight missing from A_0, the sum_j c_ij of a full
+//          lattice, counts as p = 0 on the surface (the idea of Nair & Tomar 2014). The equation needs no surface
+//          detection.
+//        - Inside, 4 |grad C_i|^2 and a little softness. The force of a uniform pressure p on disordered particles is
+//          -2 p grad C_i, so div grad p contains -4 |grad C|^2 p. Without this term in the matrix, pressures of deep
+//          disordered water overshoot from step to step (docs/theory/robustness.md).
+//        Where the scheme marks the surface instead, a_i = 0 and rows of marked particles are p = 0.
 //
-// Rows of wall particles are the wall model's (walls/wall_model.h). Dry walls: p = 0.
+// The wall model writes the rows of wall particles (walls/wall_model.h). Dry walls: p = 0.
 #include <cmath>
 
 #include "base/for_each.h"
@@ -22,8 +24,8 @@
 namespace tailwater {
 namespace {
 
-/// [1/dx^2]; weight of every row inside, as if sound went 100 dx per step. Nothing else holds the mean pressure of
-/// ordered water that fills its box; under a surface it compresses the bottom by 0.03 % (0.1 % at the implicit step).
+/// [1/dx^2]; weight in every row inside, as if sound travelled 100 dx per step. Nothing else fixes the mean pressure of
+/// ordered water that fills its box. Under a surface it compresses the bottom by 0.03 % (0.1 % at the implicit step).
 constexpr double softness = 1e-4;
 
 /// Sets the weights of row i and returns their sum.
@@ -79,7 +81,7 @@ double full_sum(const Setup<Dim>& setup) {
   return setup.lattice.morris;
 }
 
-/// a_i of a row whose weights sum to `sum`: air near the surface (and on walls), disorder inside.
+/// a_i of a row whose weights sum to `sum`: air near the surface and on walls, disorder and softness inside.
 template <int Dim>
 double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.setup.air_law.weight(sum, full_sum(flow.setup));
@@ -88,7 +90,7 @@ double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   return std::lerp(air, disorder + softness / (spacing * spacing), flow.here.interior[i]);
 }
 
-/// The pressure equation without its source. Returns whether the row had to fall back to two-point weights.
+/// Writes row i without its source. Returns whether it had to fall back to two-point weights.
 template <int Dim>
 bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   const Setup<Dim>& setup = flow.setup;
@@ -109,7 +111,7 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   const double sum = set_laplacian_weights(flow, i, row, fell_back);
   const double own = setup.has_air() ? closing_weight(flow, i, sum) : 0.0;
   if (sum + own <= 0.0) {
-    row.finish_as_zero();  // a lone particle: nothing around it, no pressure
+    row.finish_as_zero();  // a lone particle has no pressure
     return fell_back;
   }
   row.finish(sum + own, 0.0);

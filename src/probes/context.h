@@ -1,4 +1,4 @@
-// What a probe sees of a flow at one moment, and what it hands back.
+// What a probe sees of a flow at one moment, and what it returns.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,18 @@
 
 namespace tailwater {
 
-/// Sums over the whole flow, all ranks, which the scheme keeps anyway. In 2D per metre of width.
+/// Measures of the whole flow on all ranks. In 2D per metre of width.
 struct FlowTotals {
   double kinetic_energy = 0.0;      ///< J
   double potential_energy = 0.0;    ///< J; relative to the origin
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 away from the surface
   double density_error_rms = 0.0;
-  double volume_out = 0.0;  ///< m^Dim; what has left through outlets
+  double volume_out = 0.0;  ///< m^Dim; volume that has left through outlets
 };
 
-/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, with cells that exceed the
-/// kernel's support by as much as any has moved since the grid was made: a neighbourhood's grid leaves room for its
-/// skin.
+/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them. Its reach must exceed the kernel's
+/// support by the largest distance a particle has moved since the grid was made; the grid of a Neighbourhood exceeds it
+/// by the skin.
 template <int Dim>
 struct ProbeContext {
   const Particles<Dim>& particles;
@@ -59,7 +59,7 @@ void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&&
 
 using Row = std::vector<double>;
 
-/// What a probe looks at: the places within `margin` of a segment, and all places in the direction `along` from these.
+/// Where a probe looks: all places within `margin` of a segment, and all places in the direction `along` from these.
 template <int Dim>
 struct Region {
   Vec<Dim> from;
@@ -76,20 +76,20 @@ struct Region {
     return (offset - share * stretch).norm();
   }
 
-  /// Is `x` in it, or at most `reach` [m] away?
+  /// Whether `x` is in the region or at most `reach` [m] away.
   bool contains(const Vec<Dim>& x, double reach) const { return distance(x) <= margin + reach; }
 
  private:
   Vec<Dim> across(const Vec<Dim>& v) const { return v - v.dot(along) * along; }
 };
 
-/// A kind of measurement, set up for one place: its columns after "time_s" and how to take it, as one or more rows.
+/// A measurement set up for one place: its columns after "time_s", and how to take it, as one or more rows.
 template <int Dim>
 struct Reading {
   std::vector<std::string> columns;
   std::function<std::vector<Row>(const ProbeContext<Dim>&)> take;
-  /// On several ranks the root takes it, from the particles of all ranks that lie within the kernel's support of this
-  /// region at `time` [s]. Empty: every rank takes it, from its own particles; the root's rows count.
+  /// On several ranks the root takes the measurement, from the particles of all ranks within the kernel's support of
+  /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
   std::function<Region<Dim>(double time)> region = {};
 };
 

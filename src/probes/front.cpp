@@ -21,7 +21,7 @@ bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
 
 constexpr double nowhere = -std::numeric_limits<double>::max();
 
-/// The edge of the foremost particle and of the foremost connected one, among those of this rank.
+/// The edges of the foremost particle and of the foremost connected particle of this rank.
 struct Front {
   double all = nowhere;
   double connected = nowhere;
@@ -38,7 +38,7 @@ Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   std::make_heap(heap.begin(), heap.end());
   const double half = 0.5 * context.spacing;
   const double front = heap.front().first + half;
-  // The foremost few are looked at one by one until one is connected.
+  // Checks the foremost particles one by one until one is connected.
   while (!heap.empty()) {
     if (is_connected(context, heap.front().second)) return {front, heap.front().first + half};
     std::pop_heap(heap.begin(), heap.end());

@@ -1,5 +1,5 @@
-// How far the water has come in a direction: the edge of the foremost fluid particle, dx/2 beyond its centre, of all
-// fluid and of connected fluid alone. A particle is connected when Dim + 3 fluid particles lie within its support.
+// How far the water has come in a direction: the edge of the foremost fluid particle, dx/2 beyond its centre, once for
+// all fluid and once for connected fluid. A particle is connected when Dim + 3 fluid particles lie within its support.
 #pragma once
 
 #include "case/spec.h"
@@ -7,8 +7,8 @@
 
 namespace tailwater {
 
-/// Columns front_m, front_connected_m: coordinates along `direction`, 0 where there is no such fluid. Throws InputError
-/// for a direction without length.
+/// Columns front_m, front_connected_m: coordinates along `direction`, 0 if there is no such fluid. Throws InputError
+/// for a direction of length 0.
 template <int Dim>
 Reading<Dim> front_reading(const ProbeTable& probe);
 

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// What probes read of a particle, as it is sent.
+/// The values of a particle that probes read, as sent between ranks.
 template <int Dim>
 struct Sample {
   std::int64_t id;
@@ -19,7 +19,7 @@ struct Sample {
   double volume;
   ParticleKind kind;
 
-  /// Copies of a particle on several ranks are alike; its periodic images differ by their place.
+  /// Copies of a particle on several ranks have equal keys; periodic images differ in position.
   auto key() const { return std::tie(id, position); }
 };
 

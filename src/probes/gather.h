@@ -1,4 +1,4 @@
-// The particles around probes, brought from all ranks to the root.
+// Brings the particles around probes from all ranks to the root.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace tailwater {
 
-/// On the root all particles, ghosts included, that lie within the kernel's support of one of the regions, each once
-/// and in the order of ids; none on other ranks. All are `owned`. Collective.
+/// On the root: all particles, ghosts included, within the kernel's support of one of the regions, each once and in the
+/// order of ids. On other ranks: none. All count as `owned`. Collective.
 template <int Dim>
 Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions);
 

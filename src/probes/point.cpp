@@ -7,8 +7,8 @@ namespace tailwater {
 namespace {
 
 /// On a lattice with support 3 dx the reciprocal condition number of M is 0.07 to 0.10 inside the fluid, above 0.01 on
-/// a flat surface and above 0.007 in a corner of one; far below that the weights of single particles, and so their
-/// noise, grow without bound.
+/// a flat surface and above 0.007 in a corner of one. Far below that the weights of single particles, and with them
+/// their noise, grow without bound.
 constexpr double least_reciprocal_condition = 1e-3;
 
 template <int Dim>
@@ -38,7 +38,7 @@ Basis<Dim> fit(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
                                                       : Basis<Dim>(first / moments(0, 0));
 }
 
-/// f at `x`, where there is fluid; `zero` is the sum of nothing.
+/// f at `x`, where there is fluid; `zero` is the initial value of the sum.
 template <int Dim, class Value>
 Value interpolate(const ProbeContext<Dim>& context, const Vec<Dim>& x, const std::vector<Value>& f, const Value& zero) {
   const Basis<Dim> a = fit(context, x);

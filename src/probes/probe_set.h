@@ -1,4 +1,4 @@
-// The probes of a case, and the files they write while the run goes.
+// The probes of a case, and the files they write during the run.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace tailwater {
 
-/// A probe before its run: what it reads and when.
+/// A probe: what it reads and when.
 template <int Dim>
 struct Probe {
   std::string name;
@@ -21,8 +21,8 @@ struct Probe {
   std::vector<double> times;  ///< s, ascending; if any, they replace the interval
 };
 
-/// The case's probes. Throws InputError, which names the probe, for a place it cannot measure at; names and keys are
-/// checked when the case is read.
+/// The case's probes. Throws InputError, which names the probe, for a place where it cannot measure. Names and keys are
+/// already checked when the case is read.
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -32,7 +32,7 @@ class ProbeSet {
   /// Starts one file per probe, probes/NAME.csv, on the root. Throws IoError, on all ranks.
   ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks = {});
 
-  /// Does any probe want to look at the flow at `time` [s]?
+  /// Whether any probe is due at `time` [s].
   bool is_due(double time) const;
 
   /// Appends to the files of all probes that are due. Collective; throws IoError, on all ranks.

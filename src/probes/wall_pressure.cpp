@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// A point of a wall, which goes where the wall goes.
+/// A point of a wall, which moves with the wall.
 template <int Dim>
 struct PointOnWall {
   Vec<Dim> drawn;
@@ -32,7 +32,7 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   return {nearest.point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 
-/// Around the points, which need not lie on one line.
+/// The region around the points, which need not lie on one line.
 template <int Dim>
 Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) {
   Region<Dim> region{points.front().at(time), points.back().at(time)};

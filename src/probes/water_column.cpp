@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-/// A wall face that the line passes.
+/// A wall face that the line crosses.
 template <int Dim>
 struct Crossing {
   double height;  ///< m above the origin
@@ -26,7 +26,7 @@ std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const V
   std::vector<Crossing<Dim>> crossings;
   for (const WallFace<Dim>& face : boundary.faces) {
     const double slope = face.normal.dot(up);
-    if (std::abs(slope) < 1e-6) continue;  // the line runs along it
+    if (std::abs(slope) < 1e-6) continue;  // the line is parallel to the face
     const Vec<Dim> hit = place - face.height(place) / slope * up;
     if ((closest_point(face, hit) - hit).norm() <= corner_tolerance * spacing) {
       crossings.push_back({hit.dot(up), face.normal});
@@ -47,7 +47,7 @@ struct Line {
 /// Where the straight line from (0, `low`) to (`step`, `high`) passes the surface share.
 double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
 
-/// The column on the bed `bed`, of which c is known to be interesting up to the height `top`.
+/// The water column on `bed`; c is sampled up to the height `top`.
 template <int Dim>
 WaterColumn column_on(const ProbeContext<Dim>& context, const Line<Dim>& line, const Crossing<Dim>& bed, double top) {
   const Vec<Dim> bed_point = line.foot + bed.height * line.up;
@@ -91,7 +91,7 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line,
       continue;
     }
     const WaterColumn candidate = column_on(context, line, crossing, ceiling);
-    // A dry line reads 0 above its highest bed.
+    // A dry line has depth 0 above its highest bed.
     if (!found_bed || candidate.highest > 0.0) column = candidate;
     found_bed = true;
     if (candidate.highest > 0.0) break;
@@ -99,7 +99,7 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line,
   return column;
 }
 
-/// A height [m] that all water the context knows lies below.
+/// A height [m] above all water in the context.
 template <int Dim>
 double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
   constexpr double nowhere = -std::numeric_limits<double>::max();

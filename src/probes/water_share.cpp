@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-/// `is_water(j)` for fluid and what stands for it; every other particle is wall.
+/// is_water(j) says whether particle j counts as water; all others are wall.
 template <int Dim, class IsWater>
 double share(const ProbeContext<Dim>& context, const Vec<Dim>& x, IsWater&& is_water) {
   double water = 0.0;

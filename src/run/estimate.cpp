@@ -20,13 +20,13 @@
 namespace tailwater {
 namespace {
 
-/// The first step is not counted: it builds lists and patterns and has no pressure to start from.
+/// Without the first step, which builds lists and patterns and has no pressure to start from.
 constexpr int trial_steps = 3;
 
-/// At a millisecond per step, which is little, this many take twelve days.
+/// At a millisecond per step, which is fast, this many take twelve days.
 constexpr double most_steps = 1e9;
 
-/// bytes; what a run takes without any particle, libraries included
+/// bytes; memory of a run without any particle, libraries included
 constexpr double program_memory = 5e7;
 
 }  // namespace
@@ -69,8 +69,8 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   constexpr double pair = index + (Dim + 3) * number + 3.0 * index + 2.0 * number;
   // Rows of dummies hold the fluid's half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
-  // Lists grow by doubling and libraries keep buffers: summary.json's peak, less the program, is 1.8 times the arrays
-  // for cases/zhou1999 at dx = 0.003 m (422 MB) and 1.3 times for a 3D tank of 12 800 fluid particles (322 MB).
+  // Lists grow by doubling, and libraries keep buffers. The peak in summary.json, less the program, is 1.8 times the
+  // arrays for cases/zhou1999 at dx = 0.003 m (422 MB) and 1.3 times for a 3D tank of 12 800 fluid particles (322 MB).
   constexpr double slack = 1.9;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }
@@ -90,7 +90,7 @@ Findings check_memory(const CaseSpec& spec, double available) {
   const ParticleCount count = expected_particle_count<Dim>(spec);
   const double needed = memory_estimate<Dim>(count, neighbours_in_support<Dim>(spec.scheme.support));
   if (needed <= available) return {};
-  // The particles' memory grows like dx^-Dim.
+  // The particles' memory is proportional to dx^-Dim.
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
   return {Finding::error(
@@ -101,7 +101,7 @@ Findings check_memory(const CaseSpec& spec, double available) {
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   const double largest_step = rule.largest(0.0, 0.0);
-  // Not a quotient: for a mistyped end time it may overflow.
+  // Not a quotient, which may overflow for a mistyped end time.
   if (spec.time.end > most_steps * largest_step) {
     throw InputError(fmt::format(
         "time.end = {:g} s is out of reach: steps of at most {:.3g} s make more than {:g} of them; give the end in "

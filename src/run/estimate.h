@@ -1,4 +1,4 @@
-// What a run will take, known before it is started: particles, memory, time steps, hours.
+// What a run will need, estimated before it starts: particles, memory, time steps, hours.
 #pragma once
 
 #include "case/spec.h"
@@ -7,14 +7,14 @@
 
 namespace tailwater {
 
-/// Particles to come, counted from the shapes' measures; a double, since a mistyped spacing asks for more than an
-/// integer can hold.
+/// Expected particles, from the lengths, areas and volumes of the shapes. Doubles, because a mistyped spacing may give
+/// more than an integer can hold.
 struct ParticleCount {
   double fluid = 0.0;
   double wall = 0.0;
 };
 
-/// Throws InputError like make_boundary and make_fluid_particles do, but makes no particle.
+/// Throws InputError as make_boundary and make_fluid_particles do, but makes no particles.
 template <int Dim>
 ParticleCount expected_particle_count(const CaseSpec& spec);
 
@@ -22,15 +22,15 @@ ParticleCount expected_particle_count(const CaseSpec& spec);
 template <int Dim>
 double neighbours_in_support(double support);
 
-/// Memory of a run [bytes] with `count` particles that have `neighbours` each on average. An estimate from above of
-/// what is held at once: fields, neighbour lists with kernel values, matrix and preconditioner.
+/// Memory of a run [bytes] with `count` particles that have `neighbours` each on average. An upper estimate of what is
+/// held at once: fields, neighbour lists with kernel values, matrix and preconditioner.
 template <int Dim>
 double memory_estimate(const ParticleCount& count, double neighbours);
 
-/// Memory that programs can still take on this machine, bytes (MemAvailable of /proc/meminfo). Throws IoError.
+/// Memory that is still free for programs on this machine, bytes (MemAvailable of /proc/meminfo). Throws IoError.
 double available_memory();
 
-/// To be called before any particle is made: an error when the case needs more than `available` bytes.
+/// Call before any particle is made. Error: the case needs more than `available` bytes.
 template <int Dim>
 Findings check_memory(const CaseSpec& spec, double available);
 
@@ -38,10 +38,10 @@ struct RunEstimate {
   ParticleCount particles;
   double memory = 0.0;   ///< bytes
   double steps = 0.0;    ///< to the end, if speeds stay near those of free fall through the fluid's height
-  double seconds = 0.0;  ///< of this machine, from trial steps
+  double seconds = 0.0;  ///< on this machine, from trial steps
 };
 
-/// Throws InputError if the end time is one that no run reaches, however quiet its flow.
+/// Throws InputError if no run can reach the end time, however quiet its flow.
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule);
 
 /// Runs a few trial steps of `flow`, which was made from `spec`.

@@ -43,7 +43,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
                    double last_good_time, std::optional<std::size_t> culprit, const std::string& message) {
   std::filesystem::path failure;
   do_together(flow.setup.ranks, [&] { failure = folder.make_failure(); });
-  // Plain positions, velocities and pressures only: the work fields are those of the failed step.
+  // Only positions, velocities and pressures: the work fields are those of the failed step.
   const FluidFields<Dim> fields(flow, last_good, {"pressure", "velocity", "id"});
   write_vtp(failure / "last_good.vtp", last_good_time, encode_piece(fields.view(), 1), 1, flow.setup.ranks);
 

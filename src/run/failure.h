@@ -1,4 +1,4 @@
-// What a run that fails leaves behind: which particle went wrong, what surrounds it, and the last good fields.
+// What a failed run leaves behind: the particle that went wrong, its surroundings, and the last good fields.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace tailwater {
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow);
 
-/// Collective; `culprit` on the rank that has it. Writes failure/last_good.vtp (the state before the failed step) and
-/// failure/report.txt: `message`, and if it is known the `culprit` with its neighbours. `flow` is the state after the
-/// step, or, if the step was not taken, before it; its particles are in the order of those in `last_good`. Throws
+/// Writes failure/last_good.vtp (the state before the failed step) and failure/report.txt: `message` and, if known, the
+/// `culprit` with its neighbours. `culprit` is set on the rank that has it. `flow` is the state after the step, or
+/// before it if the step was not taken. Its particles are in the order of those in `last_good`. Collective. Throws
 /// IoError.
 template <int Dim>
 void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particles<Dim>& last_good,

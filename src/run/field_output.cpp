@@ -13,7 +13,7 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
   std::vector<std::size_t> fluid = indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
   std::sort(fluid.begin(), fluid.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
-  // Before the first step there are no work fields yet: the start is a lattice with no marks.
+  // Before the first step there are no work fields: the start is a lattice without marks.
   const bool has_work_fields = !flow.here.concentration.empty();
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);

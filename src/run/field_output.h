@@ -1,4 +1,4 @@
-// The fluid's fields at one instant, in the order of the particles' ids, as the case asks for them; and the walls.
+// The fluid's fields at one instant, as the case asks for them, in the order of the particles' ids; and the walls.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// One line about how the run stands, on standard error: rewritten in place on a terminal, plain lines now and then
-// elsewhere.
+// One line about the progress of the run, on standard error. On a terminal it is rewritten in place; elsewhere plain
+// lines are written now and then.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,10 @@ class Progress {
  public:
   Progress(double end_time, bool quiet);
 
-  /// Shows the state after a step, if it is time for a new line.
+  /// Shows the state after a step if a new line is due.
   void show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures);
 
-  /// Ends the line in place, so that what follows starts on a line of its own.
+  /// Ends the line that is rewritten in place, so that the next output starts on a new line.
   void finish();
 
  private:
@@ -32,7 +32,8 @@ class Progress {
   double last_share_ = -1.0;
 };
 
-/// What the line says after `elapsed` seconds of work; the most wanted first, since a narrow terminal cuts its end off.
+/// The line after `elapsed` seconds of work. The most important comes first, because a narrow terminal cuts off the
+/// end.
 std::string progress_line(double time, double end_time, double elapsed, std::int64_t step, const StepReport& report,
                           const FlowMeasures& measures);
 

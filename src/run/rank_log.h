@@ -1,5 +1,5 @@
-// How evenly a run is shared out among its ranks, and what they tell each other: ranks.csv, a line each time particles
-// are handed over, and a block of summary.json.
+// How evenly a run is shared among its ranks, and what they exchange: ranks.csv, with one line each time particles are
+// handed over, and a block of summary.json.
 #pragma once
 
 #include <chrono>
@@ -18,11 +18,11 @@ class RankLog {
   /// Starts the file on the root. Throws IoError.
   RankLog(const Communicator& ranks, const std::filesystem::path& path);
 
-  /// Books what sharing out did and what was exchanged since the last time. Collective. Throws IoError.
+  /// Logs the result of sharing out and the traffic since the last call. Collective. Throws IoError.
   template <int Dim>
   void write(const Flow<Dim>& flow, const Sharing& sharing);
 
-  /// Block "ranks" of the summary. Collective; of use on the root.
+  /// Block "ranks" of the summary. Collective; valid on the root.
   nlohmann::ordered_json json() const;
 
  private:
@@ -38,7 +38,7 @@ class RankLog {
   std::int64_t moved_ = 0;
   double ghosts_sum_ = 0.0;  ///< of all ranks
   double imbalance_sum_ = 0.0;
-  double imbalance_largest_ = 0.0;  ///< after the first line, which is of the start
+  double imbalance_largest_ = 0.0;  ///< without the first line, which is that of the start
 };
 
 }  // namespace tailwater

@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Seldom enough for a file system that a whole cluster shares.
+/// Long enough for a file system that a whole cluster shares.
 constexpr auto time_between_looks = std::chrono::milliseconds(100);
 
 volatile std::sig_atomic_t signal_has_come = 0;
@@ -63,7 +63,7 @@ bool StopSender::send() {
   return true;
 }
 
-/// When no run has been there, the earliest time there is.
+/// When the last run in the folder became ready; the earliest possible time if there was none.
 std::filesystem::file_time_type StopSender::last_start() const {
   std::error_code error;
   return std::filesystem::last_write_time(effective_case_, error);

@@ -1,5 +1,5 @@
-// What can be asked of a run while it goes: to stop, by a signal or by a file in its folder. A signal may reach all
-// ranks, some or none (not every mpirun hands signals on); the file is seen wherever the run was started.
+// Requests to a run in progress: to stop, by a signal or by a file in its folder. A signal may reach all ranks, some or
+// none (not every mpirun forwards signals); the file works wherever the run was started.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@
 
 namespace tailwater {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGUSR1 (batch systems) asks this run to stop, and a second one of the
-/// same kind ends the program at once. The file STOP in the run's folder asks for the same.
+/// While this object lives, the first SIGINT, SIGTERM or SIGUSR1 (batch systems) asks the run to stop; a second one of
+/// the same kind ends the program at once. The file STOP in the run's folder also asks the run to stop.
 class Requests {
  public:
   Requests(const RunFolder& folder, const Communicator& ranks);
@@ -20,7 +20,7 @@ class Requests {
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
 
-  /// Whether any rank has been asked to stop, on all ranks; collective. The file is removed when it is found.
+  /// Whether any rank has been asked to stop; the same on all ranks. Removes the file when it finds it. Collective.
   bool stop_is_asked();
 
  private:
@@ -36,17 +36,17 @@ class Requests {
   struct sigaction old_user_ {};
 };
 
-/// Asks a run to stop, from the process that started it.
+/// Asks a run to stop; used in the process that started it.
 class StopSender {
  public:
-  /// Call before the run is started that writes into `folder`, which need not exist yet.
+  /// Call before starting the run that writes into `folder`, which need not exist yet.
   explicit StopSender(const std::filesystem::path& folder);
-  /// Takes back a request that came too late for the run, which has ended.
+  /// Removes the file again if the run has ended without seeing it.
   ~StopSender();
   StopSender(const StopSender&) = delete;
   StopSender& operator=(const StopSender&) = delete;
 
-  /// Makes the file STOP. Returns false, and makes nothing, when the run has not begun to write or the file cannot be
+  /// Makes the file STOP. Returns false, without making it, if the run has not begun to write or the file cannot be
   /// made.
   bool send();
 
@@ -54,7 +54,7 @@ class StopSender {
   std::filesystem::file_time_type last_start() const;
 
   std::filesystem::path stop_file_;
-  std::filesystem::path effective_case_;  ///< which a run writes when it is ready
+  std::filesystem::path effective_case_;  ///< a run writes it when it is ready
   std::filesystem::file_time_type start_before_;
   bool is_sent_ = false;
 };

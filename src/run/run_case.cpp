@@ -16,8 +16,8 @@
 namespace tailwater {
 namespace {
 
-/// Particles drift away from cache order, and out of their rank's part of space, slowly: sorting and sharing them out
-/// this seldom keeps its cost below notice.
+/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and sharing them out at
+/// this interval costs next to nothing.
 constexpr std::int64_t steps_between_sorts = 5;
 
 template <int Dim>
@@ -63,14 +63,14 @@ class Run {
     guard_.require_sound_step(dt);
     rearrange();
     StepReport report;
-    // The last step is not cut to the end time: the density source goes with 1/dt^2, and a tiny step would kick the
-    // water.
+    // The last step is not cut to the end time: the density source is proportional to 1/dt^2, and a tiny step would
+    // kick the water.
     guard_.attempt([&] { report = advance(flow_, std::min(dt, end_)); });
     output_.record_step(flow_, report);
   }
 
-  /// What gives particles other indices: now and then all are shared out and sorted, and those that have passed an
-  /// outlet are taken out.
+  /// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
+  /// have passed an outlet are removed.
   void rearrange() {
     const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
     if (is_shared_out) output_.record_sharing(flow_, share_out(flow_));

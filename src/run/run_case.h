@@ -8,13 +8,13 @@
 
 namespace tailwater {
 
-/// The case's geometry as `check` sees it; called by `run` before anything is written. Warnings go to standard error.
-/// Throws InputError with all errors found.
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings go to standard
+/// error. Throws InputError with all errors found.
 void require_sound_geometry(const CaseSpec& spec, bool quiet);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
-/// InputError and IoError before anything is written, SolverError when a step fails; summary.json then says so, and
-/// failure/ holds the last good fields. An IoError of later is thrown only on the rank that met it.
+/// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
+/// and failure/ holds the last good fields. A later IoError is thrown only on the rank that met it.
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {});
 
 }  // namespace tailwater

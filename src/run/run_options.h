@@ -1,4 +1,4 @@
-// What the command line says about a run, beside its case.
+// Options of a run from the command line, apart from its case.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 namespace tailwater {
 
 struct RunOptions {
-  std::filesystem::path case_file;  ///< named in the summary
+  std::filesystem::path case_file;  ///< as named in the summary
   std::filesystem::path out;
   bool force = false;  ///< replace the results of an earlier run
   bool quiet = false;  ///< no progress lines

@@ -1,4 +1,4 @@
-// What a run writes and says while it goes and when it ends: fields, probes, tables, progress, summary. Functions are
+// All output of a run, during the run and at its end: fields, probes, tables, progress, summary. Functions are
 // collective.
 #pragma once
 
@@ -25,23 +25,23 @@ namespace tailwater {
 template <int Dim>
 class RunOutput {
  public:
-  /// Last in the row of checks: throws InputError for a probe in the wrong place, an end out of reach or a folder that
-  /// cannot be taken, and leaves nothing behind then. From here on there are traces. Borrows `spec` and `options`.
+  /// The last check of a case: throws InputError for a probe in the wrong place, an end time out of reach or an
+  /// unusable folder, and then leaves nothing behind. Otherwise creates the folder. Borrows `spec` and `options`.
   RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow);
 
   const RunFolder& folder() const { return folder_; }
 
-  /// Fields, when their time has come.
+  /// Writes fields if they are due.
   void write_due_fields(const Flow<Dim>& flow);
-  /// Probes that are due.
+  /// Records the probes that are due.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
   void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
-  /// Everything that is written and told after each step.
+  /// Writes and shows everything that follows a step.
   void record_step(const Flow<Dim>& flow, const StepReport& report);
 
-  /// The last fields and the summary.
+  /// Writes the last fields and the summary.
   void finish(const Flow<Dim>& flow, ExitCode code);
-  /// The summary of a run that failed.
+  /// Writes the summary of a failed run.
   void finish_failed(const Flow<Dim>& flow, const std::string& message);
 
  private:
@@ -54,7 +54,7 @@ class RunOutput {
   const CaseSpec& spec_;
   const RunOptions& options_;
   Communicator ranks_;
-  bool tells_;                          ///< speaks to the user: the root, unless it shall be quiet
+  bool tells_;                          ///< whether to print for the user: on the root, unless quiet
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;

@@ -1,4 +1,4 @@
-// What a run adds up over its steps, for summary.json.
+// Statistics of a run over its steps, for summary.json.
 #pragma once
 
 #include <algorithm>
@@ -32,14 +32,14 @@ class RunStatistics {
   double density_error_squares_ = 0.0;
   double energy_start_;
   double energy_end_;
-  double energy_out_ = 0.0;  ///< J; with the water that left: no loss
+  double energy_out_ = 0.0;  ///< J; energy of the water that left, which is not a loss
   double brought_by_walls_ = 0.0;
   double viscous_work_ = 0.0;
-  double energy_least_;  ///< J; the least of what is inside and what left, without what walls brought
+  double energy_least_;  ///< J; least energy so far, inside plus out, minus what walls brought
   double energy_rise_ = 0.0;
   double density_work_ = 0.0;
   double density_share_sum_ = 0.0;
-  double unexplained_least_;  ///< of the energy less density_work_
+  double unexplained_least_;  ///< least energy so far, minus density_work_
   double unexplained_rise_ = 0.0;
   std::size_t most_escaped_ = 0;
   std::size_t escaped_ = 0;

@@ -13,11 +13,11 @@
 namespace tailwater {
 namespace {
 
-/// A step below this share of the rule's own reference means some particle has run away: better an error now than a run
-/// that never ends.
+/// A step below this share of the rule's own reference means that some particle has run away. An error now is better
+/// than a run that never ends.
 constexpr double collapsed_step = 1e-5;
 
-/// Of this rank; none if it owns none.
+/// The fastest particle of this rank; none if the rank owns none.
 template <int Dim>
 std::optional<std::size_t> fastest_particle(const Particles<Dim>& particles) {
   std::optional<std::size_t> fastest;
@@ -55,7 +55,7 @@ void StepGuard<Dim>::attempt(const std::function<void()>& work) {
   try {
     work();
   } catch (const SolverError& error) {
-    failure = error.what();  // on all ranks: what throws is collective
+    failure = error.what();  // on all ranks: the functions that throw are collective
   }
   const std::optional<std::size_t> culprit = find_non_finite(flow_);
   if (flow_.setup.ranks.any(culprit.has_value())) {
@@ -67,8 +67,8 @@ void StepGuard<Dim>::attempt(const std::function<void()>& work) {
   if (!failure.empty()) fail(failure, std::nullopt);
 }
 
-/// Ends the run for the particle that went wrong, on the first rank that has one: `describe` says what did. The run's
-/// instability is named as the cause.
+/// Fails the run because of a particle that went wrong, on the first rank that has one. `describe` says what went wrong
+/// with it. The message names instability as the cause.
 template <int Dim>
 template <class Describe>
 void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& describe) {
@@ -83,7 +83,7 @@ void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& d
        culprit);
 }
 
-/// `culprit`: on the rank that has it.
+/// `culprit` is set on the rank that has it.
 template <int Dim>
 void StepGuard<Dim>::fail(const std::string& reason, std::optional<std::size_t> culprit) {
   const std::string message =

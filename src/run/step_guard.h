@@ -1,5 +1,5 @@
-// Watches over the steps of a run: what it solves for must stay finite, and its time step must not collapse. Keeps the
-// last good state for the report of a run that fails. Functions are collective.
+// Watches over the steps of a run: the solution must stay finite, and the time step must not collapse. Keeps the last
+// good state for the report of a failed run. Functions are collective.
 #pragma once
 
 #include <functional>
@@ -17,15 +17,15 @@ class StepGuard {
   /// Borrows both.
   StepGuard(Flow<Dim>& flow, const RunFolder& folder) : flow_(flow), folder_(folder) {}
 
-  /// The present state is good. An index must mean the same particle in it and after the step: to be called again where
-  /// indices change.
+  /// Keeps the present state as good. Indices must mean the same particles in it and after the step, so call it again
+  /// after indices have changed.
   void remember_good();
 
-  /// Fails the run if the next step of `dt` [s] is so short that some particle must have run away.
+  /// Fails the run if the next step `dt` [s] is so short that some particle must have run away.
   void require_sound_step(double dt);
 
-  /// Does a part of the solution; fails the run if `work` throws a SolverError or leaves a value that is not finite. A
-  /// particle that is not finite is told before what followed from it.
+  /// Does a part of the solution. Fails the run if `work` throws a SolverError or leaves a value that is not finite. If
+  /// both happen it reports the particle with that value, because the error follows from it.
   void attempt(const std::function<void()>& work);
 
  private:

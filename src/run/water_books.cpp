@@ -14,7 +14,7 @@ nlohmann::ordered_json json_of(const Water& water) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}};
 }
 
-/// Empty when there are no walls.
+/// The box around all walls; empty if there are none.
 template <int Dim>
 Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
   Eigen::AlignedBox<double, Dim> box;

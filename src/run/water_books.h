@@ -1,4 +1,4 @@
-// Where the water of a run is: what there was at the start, what is inside, what left through outlets.
+// The water balance of a run: the water at the start, the water inside, and the water that left through outlets.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct Water {
   std::string text() const;  ///< "50 particles (0.5 m^3)"
 };
 
-/// Inside, on all ranks; collective.
+/// The water inside, over all ranks; collective.
 template <int Dim>
 Water water_in(const Flow<Dim>& flow);
 
-/// What left through all outlets since the start.
+/// The water that left through all outlets since the start.
 template <int Dim>
 Water water_out(const Flow<Dim>& flow);
 
@@ -29,8 +29,8 @@ Water water_out(const Flow<Dim>& flow);
 template <int Dim>
 nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow);
 
-/// Number of fluid particles, of all ranks, beyond the box around all walls: they are still computed, but left the case
-/// over its rim. What is on its way out through an outlet did not. Collective.
+/// Number of fluid particles, on all ranks, outside the box around all walls. They are still computed, but have left
+/// the case over its rim. Particles on their way out through an outlet do not count. Collective.
 template <int Dim>
 std::size_t count_outside(const Flow<Dim>& flow);
 

@@ -1,4 +1,4 @@
-// What a run asks of a scheme, whichever the case chose.
+// What a run asks of any scheme.
 #pragma once
 
 #include "flow/flow.h"
@@ -6,12 +6,11 @@
 
 namespace tailwater {
 
-/// Finds the pressure at the start, so that the first measurements show it and the first step starts from it. Nothing
-/// moves.
+/// Finds the pressure at the start, for the first measurements and as the guess of the first step. Nothing moves.
 template <int Dim>
 void start(Flow<Dim>& flow);
 
-/// A step by the scheme and integrator that the case chose; advances the time and the number of the step.
+/// Takes a step with the scheme and integrator of the case. Advances the time and the number of the step.
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt);
 

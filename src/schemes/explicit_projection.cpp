@@ -9,7 +9,7 @@ template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = project(flow, start, dt);  // (F14)-(F16)
   const std::vector<double> divergence_old = find_divergence(flow);
-  report.divergence_old = bulk_rms(flow, divergence_old);  // (F18): what is left at the old positions
+  report.divergence_old = bulk_rms(flow, divergence_old);  // (F18): the remainder at the old positions
   report.interventions.put_back += move(flow, start, dt);  // (F17)
   locate(flow);
   report_divergence(flow, divergence_old, report);

@@ -10,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// Surface marks may still change in the second pass; later they would keep the iteration from settling.
+/// Surface marks may change up to the second pass. Later changes would keep the iteration from settling.
 constexpr int passes_with_new_marks = 2;
 
 /// x <- x_before + factor (x - x_before) on owned entries.
@@ -20,7 +20,7 @@ void relax(double factor, const std::vector<Value>& before, std::vector<Value>& 
   for_each(before.size(), [&](std::size_t i) { field[i] = before[i] + factor * (field[i] - before[i]); });
 }
 
-/// rms of the difference over the rms of `field`, owned entries of all ranks.
+/// rms of the difference divided by the rms of `field`, over the owned entries of all ranks.
 double relative_change(const Communicator& ranks, const std::vector<double>& before, const std::vector<double>& field) {
   double difference =
       sum_over(before.size(), 0.0, [&](std::size_t i) { return (field[i] - before[i]) * (field[i] - before[i]); });
@@ -45,9 +45,9 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   flow.state.wall_velocity = drive.velocity;
   const PressureReport second = reproject(flow, drive, dt);
   ++report.passes;
-  report.iterations += second.iterations;  // the residual reported is that of the first, which is solved to tolerance
+  report.iterations += second.iterations;  // the residual stays that of the first solve, which reaches the tolerance
   report.interventions += second.interventions;
-  report.work.walls = wall_work(flow, dt);  // of the pressure of both
+  report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
   report.divergence_old = bulk_rms(flow, find_divergence(flow));
   report.divergence_new = report.divergence_old;  // the last solve was at the new positions
   report.interventions += shift(flow, dt);
@@ -83,7 +83,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     relax(scheme.relax_position, position_before, particles.position);
     place_walls(flow, flow.state.time + dt);  // walls are not relaxed
 
-    // The first pass comes from the step before, not from an iterate of this one.
+    // The first pass starts from the previous step, not from an iterate of this one.
     settled = report.passes > 1 && report.pressure_change < scheme.pass_tolerance;
   }
   locate(flow);

@@ -12,7 +12,7 @@ void start(Flow<Dim>& flow) {
   hold_open_ends(flow, 0.0);
   const StepStart<Dim> start = remember(flow);
   locate(flow);
-  if (!std::isfinite(dt)) return;  // nothing moves and nothing pulls: no pressure either
+  if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   if (flow.setup.scheme.name == SchemeName::farmani2020) {
     predict_pressure(flow, start, drive, dt);

@@ -7,7 +7,7 @@
 
 namespace tailwater {
 
-/// The pressure at the predicted positions, and what it was made from.
+/// Report of the pressure at the predicted positions, with the prediction and the equation it was found from.
 template <int Dim>
 struct PredictedPressure {
   Prediction<Dim> predicted;
@@ -15,13 +15,14 @@ struct PredictedPressure {
   PressureReport solved;
 };
 
-/// (B10)-(B17): predicts, moves the particles there, leaves them there, and finds the pressure.
+/// (B10)-(B17): predicts, moves the particles to the predicted positions, and finds the pressure there. The particles
+/// stay there.
 template <int Dim>
 PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive,
                                         double dt);
 
-/// Two fractional steps (B10)-(B19): the particles move as if there were no pressure, and the pressure then undoes the
-/// compression which that caused. Densities are summed anew from the positions wherever particles have moved.
+/// Two fractional steps (B10)-(B19): the particles move as if there were no pressure; the pressure then undoes the
+/// compression this caused. Densities are summed again from the positions after every move.
 template <int Dim>
 StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 

@@ -51,7 +51,7 @@ class Dummies final : public WallModel<Dim> {
     });
   }
 
-  /// That of the mirror image: as far beyond the wall's as the water in front is short of it.
+  /// The velocity of a no-slip mirror image, 2 V - mean_w.
   void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {

@@ -1,9 +1,9 @@
-// What wall models share whose particles stand on the wall itself: nothing goes through it.
+// Common base of the wall models whose particles stand on the wall itself. Nothing flows through the wall.
 //
-//   velocity   u_w = V + (1 - lambda) (I - M) (mean_w - V), which carries the wall's friction lambda
+//   velocity   u_w = V + (1 - lambda) (I - M) (mean_w - V), which includes the wall's friction lambda
 //
-// V is the wall's own velocity, M the projector on the directions the wall blocks, mean_w the Shepard mean of the fluid
-// in reach.
+// V is the wall's own velocity, M the projector onto the directions the wall blocks, mean_w the Shepard mean of the
+// fluid in reach.
 #pragma once
 
 #include "walls/wall_model.h"
@@ -16,11 +16,11 @@ class OnWall : public WallModel<Dim> {
   void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                      std::span<Vec<Dim>> velocity) const final;
 
-  /// The wall's own.
+  /// The wall's own velocity.
   void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const final;
 
-  /// Their pressure is what their rows said.
+  /// Nothing to set: the particles keep the pressure of their rows.
   bool follow_pressure(const WallScene<Dim>&, const WallForce<Dim>&, std::span<double>) const final { return false; }
 };
 

@@ -1,4 +1,4 @@
-// One row of particles on the wall itself, as published (F36)-(F39): its row of the equation asks for the consistent
+// One row of particles on the wall itself, as published (F36)-(F39). Each particle's equation prescribes the consistent
 // gradient along the normal, grad p . n = rho (g - a) . n. Needs the renormalisation tensors.
 #pragma once
 

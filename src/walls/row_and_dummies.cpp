@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// A dummy behind a row on the wall: the row's pressure beside it; 0 where no water is in reach of either.
+/// Gives a dummy the pressure of the wall row beside it; 0 if the dummy or that row has no water in reach.
 template <int Dim>
 void assemble_copy_of_row(const WallScene<Dim>& scene, std::size_t i, LinearSystem::Row row) {
   const double sum = row.set_weights([&](std::size_t k) {

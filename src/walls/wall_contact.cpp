@@ -6,7 +6,7 @@ namespace tailwater {
 namespace {
 
 constexpr double contact_distance = 0.5;  // dx
-constexpr double least_gap = 0.01;        // dx; from nearer, and from behind a wall, a move counts as starting here
+constexpr double least_gap = 0.01;        // dx; a move that starts nearer, or behind a wall, counts as starting here
 
 template <int Dim>
 bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
@@ -16,8 +16,8 @@ bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles
   return false;
 }
 
-/// One cushion per adjacent wall: a corner has at most Dim of them. Returns whether the move would have ended behind
-/// one.
+/// Applies one cushion per adjacent wall; a corner has at most Dim of them. Returns whether the move would have ended
+/// behind a wall.
 template <int Dim>
 bool cushion(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways, const Vec<Dim>& before,
              Vec<Dim>& position, Vec<Dim>* velocity) {

@@ -1,19 +1,19 @@
-// What keeps fluid particles in front of walls. The pressure does most of it, through mirror velocities in its source.
-// Two things are left to do, both continuous and at work nearer than dx/2 to a wall only, where a particle's own volume
-// begins to reach into it:
+// Keeps fluid particles in front of walls. The pressure does most of this, through the walls' velocities in its source.
+// Two corrections do the rest. Both are continuous and act only nearer than dx/2 to a wall, where a particle's own
+// volume begins to reach into it:
 //
-//   overlap  o_i = s^2 (3 - s)/4, s = clamp(1 - 2 d_i/dx, 0, 1), d_i the distance from the nearest wall: the share of a
-//            ball of diameter dx behind the wall's plane. A density error like any other in the pressure's source. A
-//            film on a floor has too few neighbours for C/C_0 to show it, and without it sinks until it lies on the
-//            wall.
-//   cushion  a move from d to d' < d ends at d/(1 + (d - d')/d): in front of the wall wherever d' is (up to 3 dx behind
-//            it), and off d' by the second order of (d - d')/d only. The velocity into the wall is reduced by the same
-//            factor, so energy only falls.
+//   overlap  o_i = s^2 (3 - s)/4, s = clamp(1 - 2 d_i/dx, 0, 1), where d_i is the distance to the nearest wall: the
+//            share of a ball of diameter dx that lies behind the wall's plane. The pressure's source treats it like any
+//            density error. A film on a floor has too few neighbours for C/C_0 to show the overlap; without this term
+//            it sinks until it lies on the wall.
+//   cushion  a move from d to d' < d ends at d/(1 + (d - d')/d). This is in front of the wall wherever d' is (up to 3
+//            dx behind it), and differs from d' only at second order in (d - d')/d. The velocity into the wall is
+//            reduced by the same factor, so energy only falls.
 //
-// All of it is relative to the wall: where a wall moved in the same time, d is that from where it was and the velocity
-// that relative to its own.
+// Both are relative to the wall. If the wall moved during the step, d is the distance before the move, from where the
+// wall was then, and the velocity is relative to the wall's.
 //
-// A move that would have ended behind a wall is counted: a sound run hardly needs the cushion for that.
+// Moves that would have ended behind a wall are counted; a sound run has hardly any.
 #pragma once
 
 #include <span>
@@ -33,17 +33,17 @@ template <int Dim>
 void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
                        const Particles<Dim>& particles, std::span<double> overlap);
 
-/// How the walls moved in the time of a move.
+/// How the walls moved during a move of the particles.
 template <int Dim>
 struct WallWays {
-  std::vector<AffineMap<Dim>> way;  ///< by wall: from where it was to where it is
-  double dt = 0.0;                  ///< s; the time of the move; any number if nothing moved
+  std::vector<AffineMap<Dim>> way;  ///< of each wall, from where it was to where it is
+  double dt = 0.0;                  ///< s; duration of the move; any value if no wall moved
 };
 
-/// Cushions the way of owned fluid particles from `before` to their positions, for those that have a wall particle
-/// among their neighbours. `walls` are where they are after the move; `ways` is empty for a move during which they
-/// rest, `velocity` that of the move, empty for a move that no velocity made. Returns how many would have ended behind
-/// a wall.
+/// Cushions the move of owned fluid particles from `before` to their present positions, for those with a wall particle
+/// among their neighbours. `boundary` holds the walls after the move; `ways` is empty if they rest. `velocity` is the
+/// velocity of the move; it is empty for a shift, which has none. Returns how many particles would have ended behind a
+/// wall.
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
                            const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,

@@ -1,6 +1,6 @@
-// How walls act on the water. A wall model stands for the walls by particles of its own and decides three things about
-// them: the velocity they show to the water, their rows of the pressure equation, and which pressure they keep. Each
-// model is one file; above this room nothing asks which one was chosen. Its loops run over wall particles only and are
+// How walls act on the water. A wall model represents the walls by particles of its own. It decides three things about
+// them: the velocity they show to the water, their rows of the pressure equation, and the pressure they keep. Each
+// model is one file, and no room above this one asks which was chosen. Its loops run over wall particles only and are
 // dispatched once per loop.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace tailwater {
 
-/// The walls of a case where they are now.
+/// The walls of a case at their present positions.
 template <int Dim>
 struct Walls {
   Boundary<Dim> boundary;        ///< faces
@@ -26,29 +26,29 @@ struct Walls {
   std::vector<double> friction;  ///< lambda of each row of the table: 0 free slip, 1 no slip
 };
 
-/// What a model tells the rest of the step about itself.
+/// What the rest of the step needs to know about a model.
 struct WallTraits {
   WallRows pairs = WallRows::all;  ///< which pairs its particles need
 
-  /// The particles on the wall itself have the fluid's pressure equation for their row.
+  /// The rows of particles on the wall itself are the fluid's pressure equation.
   bool solves_on_wall = false;
 
-  /// Gravity acts in the prediction, as published in both schemes, not in the correction: the wall rows see it, and
-  /// the wall's own motion, in the fluid that comes down on them. The other rows ask for grad p . n = rho (g - a) . n,
-  /// where gravity in the prediction would count twice.
+  /// Gravity acts in the prediction, as both schemes publish it, not in the correction. The wall rows then feel gravity
+  /// and the wall's own motion through the predicted velocity of the fluid. The other models' rows prescribe
+  /// grad p . n = rho (g - a) . n; with them, gravity in the prediction would count twice.
   bool gravity_in_prediction = false;
 
-  /// The velocity they show to the water carries the wall's friction, so a Laplacian over them needs no other.
+  /// The velocity its particles show to the water includes the wall's friction; a Laplacian over them needs no other.
   bool shows_friction = true;
 
-  /// Where there is air they may hold a pressure below 0.
+  /// Its particles may have a pressure below 0 where there is air.
   bool pulls = true;
 
   /// Its rows use the renormalisation tensors.
   bool needs_tensors = false;
 };
 
-/// The water at the walls, where everything is now.
+/// The water and the walls at the present positions.
 template <int Dim>
 struct WallScene {
   const Pairs<Dim>& pairs;
@@ -57,18 +57,18 @@ struct WallScene {
   const Surroundings<Dim>& here;
 };
 
-/// The body force that walls feel, as seen by themselves.
+/// The body force in the walls' own frame.
 template <int Dim>
 struct WallForce {
   double density;                          ///< kg/m^3
   Vec<Dim> gravity;                        ///< m/s^2
-  std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each row of the table, in the directions the wall blocks
+  std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each row of the table, along the directions the wall blocks
 
   /// g - a at a row of the table.
   Vec<Dim> felt(std::int32_t row) const { return gravity - acceleration[row]; }
 
-  /// What the pressure at wall particle i exceeds that at its neighbour of pair k by: rho (g - a) . r_ij, hydrostatic
-  /// between the two as the wall feels it. With it the wall row asks for grad p . n = rho (g - a) . n (F37).
+  /// By how much the pressure at wall particle i exceeds that at its neighbour of pair k: rho (g - a) . r_ij, the
+  /// hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho (g - a) . n (F37).
   double hydrostatic_difference(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
                                 std::size_t k) const {
     return density * pairs.r[k] * felt(particles.wall_row[i]).dot(pairs.e[k]);
@@ -82,29 +82,30 @@ class WallModel {
 
   virtual WallTraits traits() const = 0;
 
-  /// The particles that stand for the walls; `layers` rows of them where the model has rows behind the wall.
+  /// The particles that represent the walls. A model with rows behind the wall makes `layers` of them.
   virtual WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const = 0;
 
-  /// Sets the entries of owned wall particles in `velocity` from its fluid entries, which must be up to date on ghosts,
-  /// and the walls' own velocity `V` [m/s], one entry per row of the table. Dry wall particles get 0.
+  /// Sets the entries of owned wall particles in `velocity`. They follow from its fluid entries, which must be up to
+  /// date on ghosts, and from the walls' own velocity `V` [m/s], one entry per row of the table. Dry wall particles
+  /// get 0.
   virtual void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<Vec<Dim>> velocity) const = 0;
 
-  /// For each owned wall particle the velocity [m/s] that water beside it has where it does not slip along the wall.
-  /// Arguments as above; `no_slip` has one entry per particle.
+  /// For each owned wall particle, the velocity [m/s] to use in the no-slip stress (wall_friction.h). Arguments as
+  /// above; `no_slip` has one entry per particle.
   virtual void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                                      std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const = 0;
 
-  /// Writes the rows of owned wall particles, but for those that have the fluid's equation.
+  /// Writes the rows of owned wall particles, except those that have the fluid's equation.
   virtual void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const = 0;
 
-  /// Where there is air and the fluid's pressure has been changed since the solve: sets the pressure of owned wall
-  /// particles again. Returns whether the model has anything to set.
+  /// Sets the pressure of owned wall particles again. Called where there is air, after the fluid's pressure has changed
+  /// since the solve. Returns whether the model has anything to set.
   virtual bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,
                                std::span<double> pressure) const = 0;
 };
 
-/// The model of that name.
+/// Makes the model of that name.
 template <int Dim>
 std::unique_ptr<const WallModel<Dim>> make_wall_model(WallTreatment name);
 

@@ -5,8 +5,8 @@
 namespace tailwater {
 namespace {
 
-/// A wall particle is wet when the fluid's kernel sum at it exceeds this share of W(0): some particle is inside its
-/// support and not on its very edge.
+/// A wall particle is wet when its kernel sum over the fluid exceeds this share of W(0): some fluid particle is inside
+/// its support, not merely on the edge.
 constexpr double least_wet_weight = 1e-6;
 
 }  // namespace

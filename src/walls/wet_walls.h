@@ -1,4 +1,4 @@
-// Which wall particles have water in reach, and what that water does there.
+// Which wall particles have water in reach, and the velocity of that water.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace {
 /// How far from a whole number of spacings (in spacings) a box may be without a warning.
 constexpr double tolerated_misfit = 1e-3;
 
-/// The spacing nearest to dx that divides every extent of a box; that divides the `extent` asked for, if there is none.
+/// The spacing nearest to dx that divides every extent of a box. If there is none, one that divides `extent`.
 double fitting_spacing(const FluidTable& block, double extent, double dx) {
   double best = extent / std::max(1.0, std::round(extent / dx));
   double best_change = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-// The checks of a case's geometry, each in a file of its own that has its name. A new one is a file, a declaration here
-// and a line in check.cpp (in check_moving_walls, if it is about walls that move).
+// The checks of a case's geometry, each in a file with its name. A new one is a file, a declaration here and a line in
+// check.cpp, or in check_moving_walls if it is about moving walls.
 #pragma once
 
 #include "case/spec.h"
@@ -20,11 +20,11 @@ Findings check_periodic_width(const CaseSpec& spec);
 /// Error: a wall that crosses itself.
 Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
 
-/// Error: a bed with a crest as high as its own ends. Water that reaches the crest has run over the ends before.
+/// Error: a bed with a crest as high as its own ends. Water that reaches the crest has already run over the ends.
 Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 
 /// Error: a wall thinner than its layers of wall particles, with water or another wall on its other side. Looks
-/// straight through each face from points dx apart, at most 50 per edge.
+/// straight through each face from points dx apart; at most 50 points per edge.
 template <int Dim>
 Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -36,8 +36,8 @@ Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 template <int Dim>
 Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: an outlet that lies across a periodic direction, whose rim is not on the walls, that overlaps a wall, or
-/// that cuts through water.
+/// Errors: an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a wall, or
+/// cuts through water.
 template <int Dim>
 Findings check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
@@ -45,22 +45,22 @@ Findings check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// All about walls that move; `drawn` are the walls as the case file has them. Error: a wall that is not where it is
-/// drawn at t = 0. Walls without that error then go through the three checks below.
+/// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not where it is drawn
+/// at t = 0. Walls without that error then go through the three checks below.
 template <int Dim>
 Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// Warning: a resting wall that ends where a moving one begins, with nothing behind it once that one has moved.
+/// Warning: a resting wall that ends where a moving one begins, with nothing behind its end once the other has moved.
 Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
 
-/// Error: walls that move relative to each other and are nearer than dx at the start, when rows of particles stand on
-/// the walls: the two rows would lie in each other.
+/// Error, when rows of particles stand on the walls: walls that move relative to each other and are nearer than dx at
+/// the start. Their two rows would overlap.
 template <int Dim>
 Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn);
 
-/// Errors, each with time and place: a wall that is at no finite place, is faster than water can be taken for
-/// incompressible, crosses a wall, comes nearer to one than dx, or leaves less room than there is water where that
-/// cannot get out. Follows the `moving` walls in steps of dx/4 from the start to the end of the run.
+/// Errors, each with time and place: a wall whose place is not finite, that is too fast for water to count as
+/// incompressible, crosses a wall, comes nearer to one than dx, or leaves enclosed water less room than it needs.
+/// Follows the `moving` walls in steps of dx/4 from the start to the end of the run.
 template <int Dim>
 Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
                      const std::vector<int>& moving);

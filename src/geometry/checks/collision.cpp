@@ -33,7 +33,7 @@ std::optional<Vec<Dim>> edge_through(const WallFace<Dim>& from, const WallFace<D
     const Vec<Dim>& low = from.corners[c];
     const Vec<Dim>& high = from.corners[(c + 1) % Dim];
     if (!crosses(through, low, high, tolerance)) continue;
-    // Walls may touch: what slides along a wall has its rim on it.
+    // Walls may touch: a wall that slides along another has its rim on it.
     const Vec<Dim> hit = meet(through, low, high);
     if (distance_from_rim(through, hit) > 2.0 * tolerance) return hit;
   }
@@ -47,7 +47,7 @@ std::optional<Vec<Dim>> crossing(const WallFace<Dim>& a, const WallFace<Dim>& b,
   return one && edge_through(b, a, tolerance) ? one : std::nullopt;
 }
 
-/// A place where `a` looks at `b` nearer than dx and nearer than before.
+/// A place where `a` faces `b` at less than dx, and nearer than before.
 template <int Dim>
 std::optional<Vec<Dim>> narrowing(const WallFace<Dim>& a, const WallFace<Dim>& b, const WallFace<Dim>& a_before,
                                   const WallFace<Dim>& b_before, double dx) {

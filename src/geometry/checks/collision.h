@@ -1,4 +1,4 @@
-// Where walls of different bodies run into each other.
+// Finds where walls of different bodies collide.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,15 @@
 
 namespace tailwater {
 
-/// Two walls in each other's way.
+/// A collision of two walls.
 template <int Dim>
 struct Collision {
   Vec<Dim> where;
-  bool is_crossing;  ///< else they come nearer than dx to each other
+  bool is_crossing;  ///< false: they come nearer than dx to each other
 };
 
-/// Looks at faces `a`, of a wall that moves, and `b`. `a_before` and `b_before` are the same faces when they were
-/// looked at last: only what comes nearer counts as too near.
+/// Checks face `a`, of a moving wall, against face `b`. `a_before` and `b_before` are the same faces at the previous
+/// check: only faces that approach count as too near.
 template <int Dim>
 std::optional<Collision<Dim>> collision(const WallFace<Dim>& a, const WallFace<Dim>& b, const WallFace<Dim>& a_before,
                                         const WallFace<Dim>& b_before, double dx);

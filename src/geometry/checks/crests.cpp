@@ -8,10 +8,10 @@
 namespace tailwater {
 namespace {
 
-/// Faces that look up by less than this cosine carry no water: they are sides.
+/// A face whose normal has a smaller cosine to the vertical is a side and carries no water.
 constexpr double least_upward_cosine = 0.01;
 
-/// Height of the higher end of a polyline that ends on a rise; none where both ends lie level, as at an open end.
+/// Height of the higher end of a polyline that ends on a rise; none if both ends are level, as at an open end.
 std::optional<double> rim_height(const std::vector<Vec<2>>& points, const Vec<2>& up) {
   std::optional<double> rim;
   const auto look_at = [&](const Vec<2>& end, const Vec<2>& next) {

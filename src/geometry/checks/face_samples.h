@@ -1,4 +1,4 @@
-// How densely checks look at a face.
+// How densely checks sample a face.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Where the first particles before a wall belong.
+/// Where the first particles in front of a wall belong.
 struct Standing {
   double regular;   ///< dx from the wall
   double least;     ///< m; nearer is too near
@@ -39,7 +39,7 @@ struct Contact {
   Vec<Dim> deepest_at, nearest_at;
 };
 
-/// How near a block comes to a face that it stands squarely before.
+/// How near a block comes to a face that it is straight in front of.
 template <int Dim>
 struct Approach {
   double distance = infinite;  ///< m
@@ -61,7 +61,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
     const NearestWall<Dim> near = boundary.nearest(x, infinite);
     const double height = boundary.faces[near.face].height(x);
     Contact<Dim>& contact = contacts.by_wall[{boundary.faces[near.face].wall, fluid.block[i]}];
-    // Beyond a free end of a wall the sign means nothing: only what stands squarely before or behind a face counts.
+    // Beyond a free end of a wall the sign has no meaning. Only places straight in front of or behind a face count.
     const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
     if (near.signed_distance >= 0.0) {
       contact.in_front += is_square ? 1 : 0;

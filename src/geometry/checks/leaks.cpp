@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Cells larger than dx are taken rather than more than this many.
+/// Largest number of cells; if cells of size dx were more, they are larger.
 constexpr double most_cells = 4e6;
 
 }  // namespace

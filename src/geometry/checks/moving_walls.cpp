@@ -29,7 +29,7 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
 
 template <int Dim>
 Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
-  const SuspendFpTraps suspended;  // a path need not be finite
+  const SuspendFpTraps suspended;  // a path may not be finite
   Findings findings;
   std::vector<int> moving;
   for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 constexpr double rim_tolerance = 0.1;    // dx, between an outlet's rim and the walls
-constexpr double wall_clearance = 0.25;  // dx, between walls and the way the water takes
+constexpr double wall_clearance = 0.25;  // dx, between walls and the path of the water
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
 template <int Dim>
@@ -21,7 +21,7 @@ std::vector<Vec<Dim>> points_along(const Vec<Dim>& first, const Vec<Dim>& last, 
   return points;
 }
 
-/// The rim of an outlet, points at most dx apart, but for its top: there it may be open to the air.
+/// Points at most dx apart on the rim of an outlet, without its top, which may be open to the air.
 template <int Dim>
 std::vector<Vec<Dim>> closed_rim(const Outlet<Dim>& outlet, const Vec<Dim>& gravity, double dx) {
   std::vector<Vec<Dim>> rim;
@@ -43,7 +43,7 @@ std::vector<Vec<Dim>> closed_rim(const Outlet<Dim>& outlet, const Vec<Dim>& grav
   return rim;
 }
 
-/// Places before an outlet, and in it, as far upstream as `depth` (m), dx/2 apart and away from the rim.
+/// Places in an outlet and in front of it, up to `depth` (m) upstream, dx/2 apart and away from the rim.
 template <int Dim>
 std::vector<Vec<Dim>> places_before(const Outlet<Dim>& outlet, double depth, double dx) {
   const double step = 0.5 * dx;

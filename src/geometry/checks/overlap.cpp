@@ -11,7 +11,7 @@ namespace tailwater {
 template <int Dim>
 Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   if (spec.fluid.size() < 2) return {};
-  // Neighbouring blocks stand dx apart, less what the jitter takes from both sides.
+  // Particles of neighbouring blocks are dx apart, less the jitter of both.
   const double least = std::min(0.5, 1.0 - 2.0 * spec.particles.jitter) * spec.particles.spacing;
   PointGrid<Dim> grid(least * (1.0 - corner_tolerance));
   struct Overlap {

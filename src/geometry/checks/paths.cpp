@@ -16,10 +16,10 @@ namespace {
 /// m/s; a tenth of the speed of sound in water.
 constexpr double largest_wall_speed = 150.0;
 
-/// A path is looked at this often at least, also where it does not seem to move.
+/// Least number of samples of a path, even where it does not seem to move.
 constexpr int least_samples = 2000;
 
-/// Follows the walls from the start to the end, and looks at them every dx/4 of their way.
+/// Follows the walls from the start to the end and checks them every dx/4 of their way.
 template <int Dim>
 class PathWalk {
  public:
@@ -34,7 +34,7 @@ class PathWalk {
       paths_.emplace_back(spec, spec.walls[w], wall_label(drawn, static_cast<int>(w)));
     }
     places_ = places_of_room_ = places_at(0.0);
-    // Where water leaves through an outlet, or a wall is not followed, the room is unknown.
+    // The room is unknown if water may leave through an outlet, or if a moving wall is not followed.
     const auto all = std::ranges::count_if(drawn.walls, [](const WallProperties& wall) { return wall.moves(); });
     const bool is_known = spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
     if (is_known && !fluid.position.empty()) room_.emplace(spec, drawn, fluid);
@@ -58,21 +58,21 @@ class PathWalk {
     return places;
   }
 
-  /// The point of a wall that gets farthest between two places of it, and how far.
+  /// The corner of a wall that moves farthest between two places of the wall, and how far it moves.
   std::pair<Vec<Dim>, double> farthest(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const {
     std::pair<Vec<Dim>, double> result{Vec<Dim>::Zero(), 0.0};
     for (const WallFace<Dim>& face : drawn_.faces) {
       if (face.wall != wall) continue;
       for (const Vec<Dim>& corner : face.corners) {
         const double way = (after(corner) - before(corner)).norm();
-        if (!(way <= result.second)) result = {before(corner), way};  // not a number as well
+        if (!(way <= result.second)) result = {before(corner), way};  // also if it is not a number
       }
     }
     return result;
   }
 
-  /// Adds an error, and leaves the wall alone from then on, if its way of `length` (m) between two times is not one
-  /// that a wall may take; returns whether it is.
+  /// Returns whether a wall may move by `length` (m) between two times. If not, adds an error and stops following the
+  /// wall.
   bool accepts_way(int wall, const Vec<Dim>& where, double length, double from, double to) {
     if (!std::isfinite(length)) {
       findings_.push_back(Finding::error(
@@ -135,7 +135,7 @@ class PathWalk {
     }
   }
 
-  /// Looks whether the water has room, when a wall has moved by dx since the last time; not after an error.
+  /// Checks that the water has room, each time a wall has moved by dx; not after an error.
   void look_for_room(double time) {
     const auto has_moved = [&](int wall) { return farthest(wall, places_of_room_[wall], places_[wall]).second > dx_; };
     if (!findings_.empty() || !std::ranges::any_of(moving_, has_moved)) return;
@@ -163,13 +163,13 @@ class PathWalk {
   const Boundary<Dim>& drawn_;
   double dx_;
   std::vector<WallPath<Dim>> paths_;
-  std::set<int> moving_;                        ///< without an error of their own so far
-  std::vector<AffineMap<Dim>> places_;          ///< of the walls, when they were last looked at
-  std::vector<WallFace<Dim>> faces_;            ///< then
-  std::vector<WallFace<Dim>> faces_before_;     ///< and the time before
+  std::set<int> moving_;                        ///< walls without an error of their own so far
+  std::vector<AffineMap<Dim>> places_;          ///< of the walls at the last check
+  std::vector<WallFace<Dim>> faces_;            ///< at the last check
+  std::vector<WallFace<Dim>> faces_before_;     ///< at the check before it
   std::set<std::pair<int, int>> collided_;      ///< walls whose collision is reported
-  std::optional<RoomForWater<Dim>> room_;       ///< none where it is unknown
-  std::vector<AffineMap<Dim>> places_of_room_;  ///< when that was last looked at
+  std::optional<RoomForWater<Dim>> room_;       ///< none if it is unknown
+  std::vector<AffineMap<Dim>> places_of_room_;  ///< of the walls at the last check of the room
   Findings findings_;
 };
 
@@ -178,7 +178,7 @@ class PathWalk {
 template <int Dim>
 Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
                      const std::vector<int>& moving) {
-  // The last step may pass the end.
+  // The last time step may pass the end.
   const double end = spec.time.end * (1.0 + 1.0 / least_samples);
   return PathWalk<Dim>(spec, drawn, fluid, moving).findings(end);
 }

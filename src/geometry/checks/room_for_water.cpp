@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// Few enough to be looked at each time that a wall has moved by dx.
+/// Few enough to be checked each time a wall has moved by dx.
 constexpr double most_cells = 2e4;
 
 }  // namespace
@@ -30,7 +30,7 @@ void RoomForWater<Dim>::move(std::vector<WallFace<Dim>> faces, const std::vector
     const WallFace<Dim>& before = space_.faces()[f];
     const AffineMap<Dim> back = way_between(way[f], {});
     space_.visit_around(before, faces[f], [&](const auto& cell) {
-      // As seen from the wall, it is the cell that moves.
+      // In the wall's frame the cell moves.
       const Vec<Dim> x = space_.centre(cell);
       if (space_.passes(before, x, back(x))) is_passed[space_.index(cell)] = true;
     });
@@ -43,7 +43,7 @@ template <int Dim>
 std::optional<typename RoomForWater<Dim>::Enclosed> RoomForWater<Dim>::enclosed() const {
   Spread<Dim> room = spread(space_, wet_, Vec<Dim>(Vec<Dim>::Zero()));
   if (room.way_out) return std::nullopt;
-  // A cell at a wall counts whole or not at all: half of it may be missing.
+  // A cell at a wall counts whole or not at all, so up to half a cell may be missing per side.
   const double cells = static_cast<double>(room.cells.size()) + 0.5 * static_cast<double>(room.sides);
   return Enclosed{cells * space_.volume(), std::move(room.met)};
 }

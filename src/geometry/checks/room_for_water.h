@@ -19,14 +19,14 @@ class RoomForWater {
 
   double water() const { return water_; }  ///< m^Dim
 
-  /// Walls have moved, each face by its `way`: cells that one has passed over hold no water any more.
+  /// Moves the walls, each face by its `way`. Cells that a face has passed over no longer hold water.
   void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& way);
 
   struct Enclosed {
     double volume;            ///< m^Dim, at most
-    std::vector<bool> walls;  ///< by face: does it hold the water?
+    std::vector<bool> walls;  ///< by face: whether it holds the water
   };
-  /// Empty where the water can get out.
+  /// Empty if the water can get out.
   std::optional<Enclosed> enclosed() const;
 
  private:

@@ -17,12 +17,12 @@ bool shares_corner(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolera
   });
 }
 
-/// Is this a body that stands in the water? Where it rests on another wall, the two touch back to back and stay dry.
+/// Whether this is a body in the water. Where it rests on another wall, the two touch back to back and stay dry.
 bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
 
-/// The first sample of `face` behind which, within `depth`, the back of `other` is met.
+/// The first sample of `face` that has the back of `other` behind it within `depth`.
 template <int Dim>
 std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const WallFace<Dim>& other, double depth,
                                                 double dx) {
@@ -34,7 +34,7 @@ std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const
     if constexpr (Dim == 3) {
       foot += 0.5 * (1.0 - share) * (face.corners[2] - face.corners[0]);
     }
-    // From just before the wall, so that a wall without thickness is passed as well.
+    // Starts just in front of the wall, so that a wall without thickness is passed as well.
     if (crosses(other, Vec<Dim>(foot + 2.0 * tolerance * face.normal), Vec<Dim>(foot - depth * face.normal),
                 tolerance)) {
       return foot;
