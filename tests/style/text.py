@@ -40,7 +40,7 @@ def citations(root):
         for number, line in numbered(file):
             for issue in re.findall(r"\bissue (?:#\s*)?\d+\b", line):
                 yield file, number, f'cites "{issue}", which is not in the tree; say here what it says'
-            for name in re.findall(r"\b([A-Za-z][\w-]*\.md)\b", line):
+            for name in re.findall(r"[\w-]+\.md\b", line):
                 if name not in names:
                     yield file, number, f"cites {name}, which is not in the tree; say here what it says"
 
