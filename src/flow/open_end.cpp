@@ -29,7 +29,7 @@ struct Reading {
 template <int Dim>
 Reading read_gauge(const OpenEnd<Dim>& end, const Particles<Dim>& particles) {
   Reading reading;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: sum_over would round these sums otherwise
     if (!particles.is_fluid(i)) continue;
     const Vec<Dim>& x = particles.position[i];
     const double off = std::abs(end.outlet.beyond(x) + end.stretch + end.gauge);
@@ -135,24 +135,25 @@ bool let_go(Flow<Dim>& flow) {
   const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
   if (ends.empty()) return false;
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::int32_t> kept;
-  std::vector<Departed> departed(ends.size());
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  std::vector<std::size_t> passed(particles.owned);  // which end; the number of ends for a particle that stays
+  for_each(particles.owned, [&](std::size_t i) {
     const auto end = std::find_if(ends.begin(), ends.end(), [&](const OpenEnd<Dim>& e) {
       return particles.is_fluid(i) && e.outlet.is_passed_by(particles.position[i]);
     });
-    if (end == ends.end()) {
-      kept.push_back(static_cast<std::int32_t>(i));
-      continue;
-    }
-    departed[end - ends.begin()] += {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+    passed[i] = static_cast<std::size_t>(end - ends.begin());
+  });
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    Departed departed = sum_over(particles.owned, Departed{}, [&](std::size_t i) -> Departed {
+      if (passed[i] != e) return {};
+      return {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+    });
+    flow.setup.ranks.sum_each(departed.particles, departed.volume, departed.energy);
+    flow.state.open_ends[e].departed += departed;
   }
-  for (std::size_t e = 0; e < departed.size(); ++e) {
-    flow.setup.ranks.sum_each(departed[e].particles, departed[e].volume, departed[e].energy);
-    flow.state.open_ends[e].departed += departed[e];
-  }
+  const std::vector<std::size_t> kept =
+      indices_where(particles.owned, [&](std::size_t i) { return passed[i] == ends.size(); });
   if (kept.size() == particles.owned) return false;
-  flow.neighbourhood.keep(flow.state.particles, kept);
+  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
   return true;
 }
 
