@@ -34,8 +34,8 @@ def table(result):
     counts = result["verdicts"]
     scheme = f", scheme {result['scheme']}" if result["scheme"] else ""
     lines = [BEGIN, f"Level `{result['level']}`{scheme}, commit {result['commit']}, {result['date'][:10]}, "
-             f"{result['machine']['processor']}: {counts['met']} targets met, {counts['missed']} missed. Made by "
-             "`scripts/readme_table.py` from [docs/validation.json](docs/validation.json).", "",
+             f"{result['machine']['processor']}: {counts['met']} targets met, {counts['missed']} missed.",
+             "Made by `scripts/readme_table.py` from [docs/validation.json](docs/validation.json).", "",
              "| | value | target | | paper | other codes |", "| --- | --- | --- | --- | --- | --- |"]
     for study in result["studies"]:
         with_target = [metric for metric in study["metrics"] if metric["verdict"] != "shown"]

@@ -1,6 +1,7 @@
 // The one way loops over particles run. The body is a function of one index that writes only its own row, so the
 // wrapper can later hand the range to threads or to a GPU. What a loop sums up it returns: a body never adds to a
-// variable outside. Loops whose rows depend on each other (lists, sorting, sweeps of a solver) are plain loops.
+// variable outside. Loops whose rows depend on each other (lists, sorting, sweeps of a solver) are plain loops. Such a
+// loop over owned particles says why on its line, as in `// in order: appends`; the test style.loops asks for it.
 #pragma once
 
 #include <algorithm>

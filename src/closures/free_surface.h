@@ -3,7 +3,7 @@
 //   air     C/C_0 < 0.85: a mark for the field files only; nothing in the scheme needs it
 //   cone    no neighbour within 2.3 dx in a cone of opening 105 degrees around the outward normal -grad C, and
 //           C/C_0 < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. What worked in prototypes of the
-//           published scheme (method.md 3); the cone around the normal replaces their angular gap, which is 2D only.
+//           published scheme; the cone around the normal replaces their angular gap, which is 2D only.
 //   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
 //           (printed 0.25, but a flat regular surface gives 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
 //           singular (printed det B1 = 0)

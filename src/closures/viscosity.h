@@ -4,8 +4,9 @@
 //   nu_wall = nu_0 max(1, 8.3^(-7/4) (|u| y/nu_0)^(3/4))     wall stress nu_wall u/y of Werner & Wengle (1991)
 //   a = -2 tau_side(|u|)/(rho b) u/|u|                       side walls of a channel of width b, in 2D
 //
-// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (method.md 3). Neither has anything
-// to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that of water.
+// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (docs/theory/closures.md). Neither
+// has anything to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that
+// of water.
 #pragma once
 
 #include <cstdint>

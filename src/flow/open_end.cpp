@@ -25,22 +25,25 @@ struct Reading {
   double volume = 0.0;  ///< m^Dim
   double flux = 0.0;    ///< m^(Dim+1)/s; times the velocity along the outlet's normal
   double push = 0.0;    ///< N m; times the pressure
+
+  Reading& operator+=(const Reading& other) {
+    volume += other.volume;
+    flux += other.flux;
+    push += other.push;
+    return *this;
+  }
 };
 
 template <int Dim>
 Reading read_gauge(const OpenEnd<Dim>& end, const Particles<Dim>& particles) {
-  Reading reading;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (!particles.is_fluid(i)) continue;
+  return sum_over(particles.owned, Reading{}, [&](std::size_t i) -> Reading {
+    if (!particles.is_fluid(i)) return {};
     const Vec<Dim>& x = particles.position[i];
     const double off = std::abs(end.outlet.beyond(x) + end.stretch + end.gauge);
-    if (off >= end.gauge || !end.outlet.spans(x)) continue;
+    if (off >= end.gauge || !end.outlet.spans(x)) return {};
     const double share = (1.0 - off / end.gauge) * particles.volume[i];
-    reading.volume += share;
-    reading.flux += share * end.outlet.normal.dot(particles.velocity[i]);
-    reading.push += share * particles.pressure[i];
-  }
-  return reading;
+    return {share, share * end.outlet.normal.dot(particles.velocity[i]), share * particles.pressure[i]};
+  });
 }
 
 /// Updates `state` from the flow before the end stretch and returns the change of its speed, m/s.
@@ -136,24 +139,25 @@ bool let_go(Flow<Dim>& flow) {
   const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
   if (ends.empty()) return false;
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::int32_t> kept;
-  std::vector<Departed> departed(ends.size());
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  std::vector<std::size_t> passed(particles.owned);  // which end; the number of ends for a particle that stays
+  for_each(particles.owned, [&](std::size_t i) {
     const auto end = std::find_if(ends.begin(), ends.end(), [&](const OpenEnd<Dim>& e) {
       return particles.is_fluid(i) && e.outlet.is_passed_by(particles.position[i]);
     });
-    if (end == ends.end()) {
-      kept.push_back(static_cast<std::int32_t>(i));
-      continue;
-    }
-    departed[end - ends.begin()] += {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+    passed[i] = static_cast<std::size_t>(end - ends.begin());
+  });
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    Departed departed = sum_over(particles.owned, Departed{}, [&](std::size_t i) -> Departed {
+      if (passed[i] != e) return {};
+      return {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+    });
+    flow.setup.ranks.sum_each(departed.particles, departed.volume, departed.energy);
+    flow.state.open_ends[e].departed += departed;
   }
-  for (std::size_t e = 0; e < departed.size(); ++e) {
-    flow.setup.ranks.sum_each(departed[e].particles, departed[e].volume, departed[e].energy);
-    flow.state.open_ends[e].departed += departed[e];
-  }
+  const std::vector<std::size_t> kept =
+      indices_where(particles.owned, [&](std::size_t i) { return passed[i] == ends.size(); });
   if (kept.size() == particles.owned) return false;
-  flow.neighbourhood.keep(flow.state.particles, kept);
+  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
   return true;
 }
 

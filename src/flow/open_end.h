@@ -35,7 +35,7 @@ struct OpenEndState {
 template <int Dim>
 struct OpenEnd {
   /// `support` [m] is the kernel's radius.
-  OpenEnd(const Outlet<Dim>& outlet, const Vec<Dim>& gravity, double spacing, double support);
+  OpenEnd(const Outlet<Dim>& place, const Vec<Dim>& full_gravity, double spacing, double support);
 
   Outlet<Dim> outlet;
   double stretch;  ///< m; length of the end stretch

@@ -19,7 +19,7 @@ struct IgnoreLeaks {
   IgnoreLeaks() { __lsan_disable(); }
   ~IgnoreLeaks() { __lsan_enable(); }
 #else
-  IgnoreLeaks() {}
+  IgnoreLeaks() {}  // NOLINT(modernize-use-equals-default): a trivial one would leave the variable below unused
 #endif
 };
 

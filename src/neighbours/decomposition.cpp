@@ -44,7 +44,7 @@ Sharing Decomposition<Dim>::share_out(Particles<Dim>& particles, std::span<const
   }
 
   std::vector<std::vector<std::int32_t>> sent(static_cast<std::size_t>(ranks_.size()));
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: appends to the list of a rank
     sent[cuts_.part_of(particles.position[i])].push_back(static_cast<std::int32_t>(i));
   }
   sharing.moved = ranks_.sum(static_cast<std::int64_t>(particles.owned - sent[ranks_.rank()].size()));

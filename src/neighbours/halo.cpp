@@ -16,9 +16,12 @@ using Box = Eigen::AlignedBox<double, Dim>;
 template <int Dim>
 Box<Dim> box_around(const Particles<Dim>& particles, double margin) {
   Box<Dim> box;
-  for (std::size_t i = 0; i < particles.owned; ++i) box.extend(particles.position[i]);
-  box.min().array() -= margin;
-  box.max().array() += margin;
+  for (int d = 0; d < Dim; ++d) {
+    const auto x = [&](std::size_t i) { return particles.position[i][d]; };
+    const auto minus_x = [&](std::size_t i) { return -particles.position[i][d]; };
+    box.min()[d] = -largest_over(particles.owned, -box.min()[d], minus_x) - margin;
+    box.max()[d] = largest_over(particles.owned, box.max()[d], x) + margin;
+  }
   return box;
 }
 
@@ -82,11 +85,10 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
   for (int rank = 0; rank < ranks.size(); ++rank) {
     for (const Vec<Dim>& shift : shifts) {
       if (rank == ranks.rank() && shift.isZero(0.0)) continue;  // the particles themselves
-      for (std::size_t i = 0; i < particles.owned; ++i) {
-        if (!boxes[rank].contains(particles.position[i] + shift)) continue;
-        sent[rank].push_back(static_cast<std::int32_t>(i));
-        if (shifts.size() > 1) halo.shift.push_back(shift);
-      }
+      const std::vector<std::size_t> seen = indices_where(
+          particles.owned, [&](std::size_t i) { return boxes[rank].contains(particles.position[i] + shift); });
+      sent[rank].insert(sent[rank].end(), seen.begin(), seen.end());
+      if (shifts.size() > 1) halo.shift.insert(halo.shift.end(), seen.size(), shift);
     }
   }
   halo.plan = ExchangePlan(ranks, particles.owned, sent);

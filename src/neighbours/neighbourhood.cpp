@@ -108,12 +108,11 @@ void Neighbourhood<Dim>::rebuild(Particles<Dim>& particles) {
 
   list_.row_begin.resize(particles.owned + 1);
   list_.j.clear();
-  // Rows are put one behind the other, so this loop goes in order.
   std::vector<std::int32_t> buffer(particles.size());
   std::int32_t* const row = buffer.data();
   const Vec<Dim>* const position = particles.position.data();
   const double reach_squared = reach * reach;
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
     const Vec<Dim> r_i = position[i];
     const auto self = static_cast<std::int32_t>(i);
     std::size_t n = 0;  // kept by overwriting, as in evaluate_pairs

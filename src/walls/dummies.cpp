@@ -9,7 +9,8 @@ namespace tailwater {
 namespace {
 
 template <int Dim>
-void assemble_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
+void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i,
+                        LinearSystem::Row row) {
   if (!scene.here.is_wet[i]) {
     row.finish_as_zero();
     return;
@@ -67,7 +68,7 @@ class Dummies final : public WallModel<Dim> {
 
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (!scene.particles.is_fluid(i)) assemble_row(scene, force, i, system.row(i));
+      if (!scene.particles.is_fluid(i)) assemble_dummy_row(scene, force, i, system.row(i));
     });
   }
 

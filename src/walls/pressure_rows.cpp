@@ -8,7 +8,7 @@ namespace tailwater {
 namespace {
 
 template <int Dim>
-void assemble_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
+void assemble_wall_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
   const Renormalisation<Dim>& tensors = scene.here.tensors[i];
   if (!scene.here.is_wet[i] || !tensors.gradient_is_sound()) {
     row.finish_as_zero();
@@ -41,7 +41,7 @@ class PressureRows final : public OnWall<Dim> {
 
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (!scene.particles.is_fluid(i)) assemble_row(scene, force, i, system.row(i));
+      if (!scene.particles.is_fluid(i)) assemble_wall_row(scene, force, i, system.row(i));
     });
   }
 };

@@ -1,8 +1,8 @@
 """clang-tidy over rooms of src/ in one go. Usage: tidy.py ROOT BUILD ROOM...
 
-Reading Eigen, spdlog and their like costs seconds for every file that includes them, and instantiating templates as much
-again. So all source files of the named rooms are read as one, without their explicit instantiations, with the flags of
-BUILD/compile_commands.json, and only checks that are cheap on other people's headers are made. The whole set of
+Reading Eigen, PETSc and their like costs seconds for every file that includes them, and instantiating templates as much
+again. So all source files of the named rooms are read as one, without their explicit instantiations, with the flags that
+BUILD/compile_commands.json has for these rooms, and only checks that are cheap on other people's headers are made. The whole set of
 .clang-tidy is for `clang-tidy -p BUILD FILE...` by hand.
 
 Since the files are read together, no two of them may have local helpers of equal name.
@@ -71,14 +71,17 @@ def main():
     rooms = sys.argv[3:]
     if shutil.which("clang-tidy") is None:
         sys.exit("clang-tidy is not installed; run scripts/install.sh")
+    sources = [source for room in rooms for source in sorted((root / "src" / room).rglob("*.cpp"))]
+    # A file that the build joins from several sources stands below BUILD/src/ROOM.
     entries = [entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-               if any(pathlib.Path(entry["file"]).is_relative_to(root / "src" / room) for room in rooms)]
-    if not entries:
-        sys.exit(f"no source file of src/{{{','.join(rooms)}}} is in {build}/compile_commands.json; "
-                 "give rooms of src/CMakeLists.txt that have source files")
+               if any(pathlib.Path(entry["file"]).is_relative_to(top / "src" / room)
+                      for room in rooms for top in (root, build))]
+    if not sources or not entries:
+        sys.exit(f"src/{{{','.join(rooms)}}} has {len(sources)} source files and {len(entries)} entries in "
+                 f"{build}/compile_commands.json; give rooms of src/CMakeLists.txt that have source files")
     folder = build / "style" / "_".join(rooms)
     unit = folder / "rooms.cpp"
-    copies = [copied(pathlib.Path(entry["file"]), root, folder) for entry in entries]
+    copies = [copied(source, root, folder) for source in sources]
     unit.write_text("".join(f'#include "{copy}"\n' for copy in copies), encoding="utf-8")
     result = subprocess.run(
         ["clang-tidy", "--quiet", f"--config-file={root}/.clang-tidy", f"--checks=-*,{','.join(CHECKS)}",
@@ -88,7 +91,7 @@ def main():
     if result.returncode != 0 and not found:
         sys.exit(f"{result.stdout}{result.stderr}clang-tidy exited with {result.returncode}")
     print("\n".join(found))
-    print(f"{len(entries)} files, {len(found)} findings")
+    print(f"{len(sources)} files, {len(found)} findings")
     if found:
         sys.exit("Mend these lines; where clang-tidy is wrong, put // NOLINT(check): why at the end of the line.")
 

@@ -9,7 +9,7 @@ namespace tailwater {
 namespace {
 
 /// Largest number of cells; if cells of size dx were more, they are larger.
-constexpr double most_cells = 4e6;
+constexpr double most_cells_of_flood = 4e6;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
     const std::vector<WallFace<Dim>> closing = outlet.as_faces();
     faces.insert(faces.end(), closing.begin(), closing.end());
   }
-  const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells);
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells_of_flood);
   const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid.position), Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return {};
   const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());

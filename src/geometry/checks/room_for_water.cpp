@@ -8,13 +8,13 @@ namespace tailwater {
 namespace {
 
 /// Few enough to be checked each time a wall has moved by dx.
-constexpr double most_cells = 2e4;
+constexpr double most_cells_of_room = 2e4;
 
 }  // namespace
 
 template <int Dim>
 RoomForWater<Dim>::RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
-    : space_(spec, drawn.faces, fluid.position, most_cells),
+    : space_(spec, drawn.faces, fluid.position, most_cells_of_room),
       water_(static_cast<double>(fluid.position.size()) * std::pow(spec.particles.spacing, Dim)) {
   Vec<Dim> down = gravity_of<Dim>(spec);
   if (down.norm() > 0.0) down.normalize();
