@@ -1,6 +1,7 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W. Direction, 0.2, 4 are
+//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W. Direction, 0.2, 4
+//   are
 //           Lind et al.'s (2012). The coefficient has the form of Skillen et al. (2013), but takes the largest speed of
 //           the flow, not the particle's own: at a stagnation point the strain lines particles up while their own speed
 //           is 0, and a Taylor-Green vortex dies of it (docs/theory/closures.md). The minimum keeps this explicit

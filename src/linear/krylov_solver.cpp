@@ -120,8 +120,8 @@ struct KrylovSolver::Petsc {
     if (ranks.any(solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
-      configure(solver.get(), settings,
-                {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free()}, ranks.is_alone());
+      configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free()},
+                ranks.is_alone());
     }
     check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
   }

@@ -99,8 +99,7 @@ TEST(RunStatistics, DivideByNothingWithoutSteps) {
 TEST(RunStatistics, CountInterventionsPerParticleAndStep) {
   RunStatistics statistics(with_energy(0.0, 1.0));
   StepReport report = step_of(0.1, 1, 1);
-  report.interventions = {
-      .put_back = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
+  report.interventions = {.put_back = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
   statistics.add(report, with_energy(0.0, 1.0), 0);
   statistics.add(report, with_energy(0.0, 1.0), 0);
   const auto json = statistics.json(10, 10);
