@@ -9,6 +9,9 @@
 namespace tailwater {
 namespace {
 
+/// [1/dx]; a smaller |grad C| is that of an even set and has no direction to speak of.
+constexpr double least_steepness = 1e-3;
+
 template <int Dim>
 Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                         std::size_t i) {
@@ -61,7 +64,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     const double kept = law.kind == ShiftingKind::lind ? normal_share(pairs, particles, interior, i) : interior[i];
     if (kept < 1.0) {
       const double steepness = concentration_gradient[i].norm();
-      if (steepness > 0.0) {
+      if (steepness * law.spacing > least_steepness) {
         const Vec<Dim> normal = concentration_gradient[i] / steepness;
         shift[i] -= (1.0 - kept) * shift[i].dot(normal) * normal;
       }
