@@ -86,7 +86,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const s
           fmt::format("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
                       owner, "xyz"[axis], lattice.low[axis], lattice.high[axis]));
     }
-    const bool is_on_nodes = spec.scheme.walls != WallTreatment::dummies && periodic_range(spec.domain, axis).empty();
+    const bool is_on_nodes = placement_of(spec.scheme.walls).on_wall && periodic_range(spec.domain, axis).empty();
     const double cells = extent / dx;
     // A polygon needs every lattice point of its bounding box; a box the number that fits best.
     const double whole = lattice.outline.empty() ? std::round(cells) : std::ceil(cells - corner_tolerance);
@@ -159,7 +159,7 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   const double dx = spec.particles.spacing;
   const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
   if (wall.face < 0) return false;
-  if (spec.scheme.walls != WallTreatment::dummies) {
+  if (placement_of(spec.scheme.walls).on_wall) {
     return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   }
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);

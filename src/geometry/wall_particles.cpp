@@ -48,6 +48,18 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
 
 }  // namespace
 
+WallPlacement placement_of(WallTreatment treatment) {
+  switch (treatment) {
+    case WallTreatment::pressure_rows:
+      return {.on_wall = true, .behind = false};
+    case WallTreatment::row_and_dummies:
+      return {.on_wall = true, .behind = true};
+    case WallTreatment::dummies:
+      break;
+  }
+  return {.on_wall = false, .behind = true};
+}
+
 int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
 
 template <int Dim>

@@ -26,6 +26,15 @@ struct WallParticles {
   bool is_on_wall(std::int32_t row) const { return static_cast<std::size_t>(row) < on_wall; }
 };
 
+/// Where the particles of a wall treatment stand. Where some stand on the wall, the water's lattice has nodes there
+/// too.
+struct WallPlacement {
+  bool on_wall;
+  bool behind;
+};
+
+WallPlacement placement_of(WallTreatment treatment);
+
 /// Number of layers of dummy particles that fill the kernel's support behind a wall, including a row on the wall.
 int dummy_layers(const CaseSpec& spec);
 

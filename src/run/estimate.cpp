@@ -45,7 +45,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec) {
       count.fluid += (extent / dx).array().round().max(1.0).prod();
     }
   }
-  const int layers = spec.scheme.walls == WallTreatment::pressure_rows ? 1 : dummy_layers(spec);
+  const int layers = placement_of(spec.scheme.walls).behind ? dummy_layers(spec) : 1;
   for (const WallFace<Dim>& face : make_boundary<Dim>(spec).faces) {
     count.wall += layers * face.measure() * dx / power<Dim>(dx);
   }

@@ -7,6 +7,7 @@
 
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_particles.h"
 
 namespace tailwater {
 namespace {
@@ -23,7 +24,7 @@ struct Standing {
 
 Standing standing(const CaseSpec& spec) {
   const double dx = spec.particles.spacing;
-  const double regular = spec.scheme.walls == WallTreatment::dummies ? 0.5 : 1.0;
+  const double regular = placement_of(spec.scheme.walls).on_wall ? 1.0 : 0.5;
   const double play = std::max(0.25, spec.particles.jitter) + corner_tolerance;
   return {regular, (0.5 - play) * dx, (regular + play) * dx, (regular + 1.5) * dx};
 }

@@ -2,12 +2,13 @@
 
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_particles.h"
 
 namespace tailwater {
 
 template <int Dim>
 Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
-  if (spec.scheme.walls == WallTreatment::dummies) return {};
+  if (!placement_of(spec.scheme.walls).on_wall) return {};
   const double dx = spec.particles.spacing;
   for (const WallFace<Dim>& face : drawn.faces) {
     for (const WallFace<Dim>& other : drawn.faces) {
