@@ -9,7 +9,7 @@
 
 namespace tailwater {
 
-/// The first owned fluid particle whose position, velocity, predicted velocity or pressure is not finite.
+/// The first owned fluid particle whose position, velocity, pressure or source of the pressure equation is not finite.
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow);
 
