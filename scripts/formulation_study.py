@@ -18,6 +18,7 @@ PROGRAM = ROOT / "build/release/bin/tailwater"
 CASE = ROOT / "cases/zhou1999/case.toml"
 VARIANTS = {
     "default": [],
+    "the kernel's own pair vectors": ["scheme.pair_vectors=kernel"],
     "implicit": ["scheme.integrator=implicit"],
     "jittered start (0.15 dx)": ["particles.jitter=0.15"],
     "no noise viscosity": ["scheme.noise_viscosity=0"],

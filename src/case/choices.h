@@ -21,6 +21,7 @@ enum class KernelName { wendland_c2, cubic_spline, farzin };
 enum class LaplacianKind { morris, consistent, shao_lo };
 enum class GradientKind { conservative, consistent, density_weighted };
 enum class DivergenceKind { standard, consistent };
+enum class PairVectors { kernel, corrected };
 enum class SourceKind { velocity_divergence, density, mixed };
 enum class SurfaceTreatment { air, cone, farzin, density };
 enum class WallTreatment { dummies, pressure_rows, row_and_dummies };
@@ -92,6 +93,10 @@ struct Choices<GradientKind> {
 template <>
 struct Choices<DivergenceKind> {
   static constexpr std::array<std::string_view, 2> names{"standard", "consistent"};
+};
+template <>
+struct Choices<PairVectors> {
+  static constexpr std::array<std::string_view, 2> names{"kernel", "corrected"};
 };
 template <>
 struct Choices<SourceKind> {

@@ -13,6 +13,7 @@ void set_published_farzin(SchemeTable& scheme) {
   scheme.laplacian = LaplacianKind::consistent;
   scheme.gradient = GradientKind::consistent;
   scheme.divergence = DivergenceKind::consistent;
+  scheme.pair_vectors = PairVectors::kernel;
   scheme.source = SourceKind::velocity_divergence;
   scheme.surface = SurfaceTreatment::cone;
   scheme.walls = WallTreatment::pressure_rows;
@@ -40,6 +41,7 @@ void set_published_farmani(SchemeTable& scheme) {
   scheme.support = 2.4;
   scheme.laplacian = LaplacianKind::shao_lo;
   scheme.gradient = GradientKind::density_weighted;
+  scheme.pair_vectors = PairVectors::kernel;
   scheme.source = SourceKind::density;
   scheme.surface = SurfaceTreatment::density;
   scheme.walls = WallTreatment::row_and_dummies;

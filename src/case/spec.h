@@ -241,6 +241,7 @@ struct SchemeTable {
   LaplacianKind laplacian = LaplacianKind::morris;
   GradientKind gradient = GradientKind::conservative;
   DivergenceKind divergence = DivergenceKind::standard;
+  PairVectors pair_vectors = PairVectors::corrected;
   SourceKind source = SourceKind::mixed;
   SurfaceTreatment surface = SurfaceTreatment::air;
   double surface_density = 0.99;
@@ -295,6 +296,9 @@ struct SchemeTable {
         "Pressure gradient: symmetric, consistent (F9), or symmetric with each particle's density (B7) (formulation)");
     v.choice("divergence", self.divergence,
              "Velocity divergence in the source of the pressure equation: standard SPH, or consistent (formulation)");
+    v.choice("pair_vectors", self.pair_vectors,
+             "Vectors of the conservative gradient and the standard divergence: the kernel's gradient, or corrected to "
+             "first order and still antisymmetric (formulation)");
     v.choice("source", self.source,
              "Source of the pressure equation: the velocity's divergence (F15), the density error (B17), or the "
              "divergence and a fraction of the density error (formulation)");

@@ -9,21 +9,25 @@
 
 namespace tailwater {
 
-/// One entry per particle, ghosts included. Entries of ghosts are up to date only where the comment says "ghosts too".
+/// One entry per particle, ghosts included, but for `pair_vectors`. Entries of ghosts are up to date only where the
+/// comment says "ghosts too".
 template <int Dim>
 struct Surroundings {
   std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
   std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m
+  std::vector<Mat<Dim>> first_moment;            ///< M of concentration.h; I for walls; ghosts too
   std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
   std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
   std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too
   std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;          ///< ghosts too
-  std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h)
+  std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
+  std::vector<Vec<Dim>> pair_vectors;            ///< 1/m^(Dim+1); one entry per pair (pair_vectors.h)
 
   void resize(std::size_t count, bool with_tensors) {
     concentration.resize(count);
     concentration_gradient.resize(count);
+    first_moment.resize(count);
     wall_fluid_weight.resize(count);
     is_wet.resize(count);
     takes_part.resize(count);

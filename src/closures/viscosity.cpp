@@ -23,46 +23,41 @@ double ViscosityLaw::side_wall_rate(double speed) const {
   return 2.0 / channel_width * std::max(6.0 * molecular / channel_width, turbulent);
 }
 
-namespace {
-
-/// Adds the sum over fluid neighbours of c_ij (nu_i + nu_j)/2 (u_j - u_i), where c_ij [1/m^2] is weight(i, j, k).
-template <int Dim, class Weight>
-void add_pair_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> viscosity,
-                        std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration, Weight&& weight) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      return weight(i, j, k) * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-    });
-  });
-}
-
-}  // namespace
-
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {
   for_each(velocity.size(), [&](std::size_t i) { viscosity[i] = law.at_speed(velocity[i].norm()); });
 }
 
 template <int Dim>
-void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                          std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                          std::span<Vec<Dim>> acceleration) {
-  add_pair_viscosity(pairs, particles, viscosity, velocity, acceleration,
-                     [&](std::size_t, std::int32_t j, std::size_t k) {
-                       return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
-                     });
+void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                             std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
+                             std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
+                             std::span<Vec<Dim>> acceleration) {
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      // Only of pairs that nearly coincide may the corrections turn the sign.
+      const double a_e = std::min(0.0, pair_vectors[k].dot(pairs.e[k]));
+      const double laplacian = morris_laplacian_weight(particles.volume[j], pairs.r[k], a_e, spacing);
+      return 0.5 * (viscosity[i] + viscosity[j]) *
+             (laplacian * (velocity[j] - velocity[i]) +
+              particles.volume[j] * ((gradient[i] + gradient[j]).transpose() * pair_vectors[k]));
+    });
+  });
 }
 
 template <int Dim>
 void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
                            std::span<const double> density, std::span<const double> viscosity,
                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
-  add_pair_viscosity(pairs, particles, viscosity, velocity, acceleration,
-                     [&](std::size_t i, std::int32_t j, std::size_t k) {
-                       return shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k],
-                                                       pairs.dW[k], eta_squared);
-                     });
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      const double weight =
+          shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k], pairs.dW[k], eta_squared);
+      return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
+    });
+  });
 }
 
 template <int Dim>
@@ -118,8 +113,9 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                    \
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
-  template void add_morris_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>,  \
-                                          std::span<const Vec<Dim>>, std::span<Vec<Dim>>);                            \
+  template void add_newtonian_viscosity<Dim>(                                                                         \
+      const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const Vec<Dim>>, std::span<const double>,           \
+      std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);                                     \
   template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
                                            std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
   template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \

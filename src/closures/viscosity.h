@@ -42,14 +42,22 @@ struct ViscosityLaw {
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity);
 
-/// Two-point viscous acceleration: sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i) over fluid neighbours, where c_ij is the
-/// Morris weight. Conserves momentum and never adds energy.
+/// Viscous acceleration of a Newtonian fluid, div(2 nu S), over fluid neighbours:
+///
+///   sum_j (nu_i + nu_j)/2 [ c_ij (u_j - u_i) + w_j (grad u_i + grad u_j)^T a_ij ],
+///
+/// where a_ij is the pair vector and c_ij the Morris weight with a_ij . e_ij for dW_ij. The first term alone is nu lap
+/// u, whose natural condition at a free surface is du/dn = 0: waves then decay by a third too slowly. The second one,
+/// the divergence of (grad u)^T, vanishes inside and makes that condition zero stress. Conserves momentum; only the
+/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts.
 template <int Dim>
-void add_morris_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                          std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                          std::span<Vec<Dim>> acceleration);
+void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                             std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
+                             std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
+                             std::span<Vec<Dim>> acceleration);
 
-/// The same sum with the weights of (B8), as in (B9). `density` is each particle's density over the water's.
+/// Two-point viscous acceleration with the weights of (B8), as in (B9): sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i).
+/// Conserves momentum and never adds energy. `density` is each particle's density over the water's.
 template <int Dim>
 void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
                            std::span<const double> density, std::span<const double> viscosity,

@@ -2,23 +2,73 @@
 #include "closures/free_surface.h"
 #include "flow/verbs.h"
 #include "operators/concentration.h"
+#include "operators/pair_vectors.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {
 namespace {
 
-/// C/C_0 of owned particles, and for fluid the gradient of C.
+/// C/C_0 of owned particles, and for fluid the gradient of C and the first moment.
 template <int Dim>
-void find_concentration(const Flow<Dim>& flow, Surroundings<Dim>& here) {
+void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     here.concentration[i] = 1.0;
     here.concentration_gradient[i].setZero();
+    here.first_moment[i].setIdentity();
     if (!flow.has_equation(i)) return;
-    const auto [sum, gradient] = concentration_with_gradient<Dim>(flow.pairs(), i, particles.volume, flow.setup.W_0);
-    here.concentration[i] = sum / flow.setup.lattice.concentration;
-    if (particles.is_fluid(i)) here.concentration_gradient[i] = gradient;
+    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, particles.volume, flow.setup.W_0);
+    here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
+    if (!particles.is_fluid(i)) return;
+    here.concentration_gradient[i] = sums.gradient;
+    here.first_moment[i] = sums.first_moment;
   });
+}
+
+/// Marks the free surface, unless the marks shall stay, and finds how far inside the particles are.
+template <int Dim>
+void find_surface(Flow<Dim>& flow, bool keep_marks) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  Surroundings<Dim>& here = flow.here;
+  const bool surface_is_air = setup.scheme.surface == SurfaceTreatment::air;
+  if (surface_is_air) find_interior<Dim>(pairs, particles, here.concentration, setup.W_0, here.interior);
+  if (!keep_marks) {
+    find_free_surface<Dim>(setup.scheme.surface,
+                           {pairs, particles, here.concentration, here.concentration_gradient, here.tensors,
+                            setup.spacing, setup.lattice.concentration, setup.W_0, setup.scheme.surface_density},
+                           here.is_surface);
+    flow.halo().exchange(here.is_surface);
+    if (!surface_is_air) find_interior_by_marks<Dim>(pairs, particles, setup.spacing, here.is_surface, here.interior);
+  }
+  flow.halo().exchange(here.interior);
+}
+
+template <int Dim>
+void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
+  const Setup<Dim>& setup = flow.setup;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const std::vector<double>& volume = flow.state.particles.volume;
+  here.pair_vectors.resize(pairs.j.size());
+  if (setup.scheme.pair_vectors == PairVectors::kernel) {
+    find_kernel_gradients<Dim>(pairs, here.pair_vectors);
+    return;
+  }
+  std::vector<Mat<Dim>> correction(flow.state.particles.size());
+  find_moment_corrections<Dim>(pairs, kernel_radius(setup.kernel), here.interior, here.first_moment, correction);
+  flow.halo().exchange(correction);
+  find_corrected_gradients<Dim>(pairs, correction, here.pair_vectors);
+
+  const OpenFaces<Dim> faces = find_open_faces<Dim>(pairs, volume, here.interior, here.pair_vectors);
+  std::vector<Vec<Dim>> l(flow.state.particles.size(), Vec<Dim>::Zero());
+  std::vector<Vec<Dim>> next = l;
+  for (int sweep = 0; sweep < closing_sweeps; ++sweep) {
+    sweep_faces<Dim>(pairs, volume, faces, l, next);
+    flow.halo().exchange(next);
+    std::swap(l, next);
+  }
+  close_faces<Dim>(pairs, l, here.pair_vectors);
 }
 
 }  // namespace
@@ -34,19 +84,11 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
 
   find_wet_walls<Dim>(pairs, particles, setup.W_0, here.wall_fluid_weight, here.is_wet);
   for_each(particles.owned, [&](std::size_t i) { here.takes_part[i] = particles.is_fluid(i) || here.is_wet[i]; });
-  find_concentration(flow, here);
-  flow.halo().exchange(here.is_wet, here.takes_part, here.concentration);
+  sum_kernel(flow, here);
+  flow.halo().exchange(here.is_wet, here.takes_part, here.concentration, here.first_moment);
   if (setup.uses_tensors()) compute_renormalisation<Dim>(pairs, particles.volume, here.takes_part, here.tensors);
-
-  const bool surface_is_air = setup.scheme.surface == SurfaceTreatment::air;
-  if (surface_is_air) find_interior<Dim>(pairs, particles, here.concentration, setup.W_0, here.interior);
-  if (keep_marks) return;
-  find_free_surface<Dim>(setup.scheme.surface,
-                         {pairs, particles, here.concentration, here.concentration_gradient, here.tensors,
-                          setup.spacing, setup.lattice.concentration, setup.W_0, setup.scheme.surface_density},
-                         here.is_surface);
-  flow.halo().exchange(here.is_surface);
-  if (!surface_is_air) find_interior_by_marks<Dim>(pairs, particles, setup.spacing, here.is_surface, here.interior);
+  find_surface(flow, keep_marks);
+  if (setup.uses_pair_vectors()) find_pair_vectors(flow, here);
 }
 
 template void locate<2>(Flow<2>&, bool);

@@ -9,9 +9,10 @@
 namespace tailwater {
 namespace {
 
-/// Adds nu lap u by the scheme's operator.
+/// Adds the viscous force by the scheme's operator.
 template <int Dim>
-void add_viscosity(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
+                   std::vector<Vec<Dim>>& acceleration) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size());
@@ -26,7 +27,8 @@ void add_viscosity(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
                                  particles.velocity, acceleration);
       break;
     case LaplacianKind::morris:
-      add_morris_viscosity<Dim>(flow.pairs(), particles, setup.spacing, viscosity, particles.velocity, acceleration);
+      add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.here.pair_vectors, viscosity,
+                                   particles.velocity, velocity_gradient, acceleration);
       break;
   }
 }
@@ -56,7 +58,7 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, particles.volume, flow.here.takes_part,
+    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], particles.volume,
                                           std::span<const Vec<Dim>>(particles.velocity));
   });
   flow.halo().exchange(gradient);
@@ -85,9 +87,9 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   Prediction<Dim> predicted;
   std::vector<Vec<Dim>>& acceleration = predicted.acceleration;
   acceleration.assign(particles.owned, Vec<Dim>::Zero());
-  add_viscosity(flow, acceleration);
-  add_friction(flow, acceleration);
   if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
+  add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
+  add_friction(flow, acceleration);
   if (setup.scheme.noise_viscosity > 0.0) {
     add_noise_viscosity<Dim>(flow.pairs(), particles, setup.spacing, setup.noise_viscosity(largest_speed(flow)),
                              particles.velocity, predicted.velocity_gradient, acceleration);

@@ -125,8 +125,14 @@ bool Setup<Dim>::uses_tensors() const {
 }
 
 template <int Dim>
+bool Setup<Dim>::uses_pair_vectors() const {
+  return scheme.gradient == GradientKind::conservative || scheme.divergence == DivergenceKind::standard ||
+         scheme.laplacian == LaplacianKind::morris;
+}
+
+template <int Dim>
 bool Setup<Dim>::uses_velocity_gradient() const {
-  return scheme.noise_viscosity > 0.0 ||
+  return scheme.noise_viscosity > 0.0 || scheme.laplacian == LaplacianKind::morris ||
          (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
 }
 

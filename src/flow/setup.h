@@ -64,6 +64,7 @@ struct Setup {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }
   bool uses_tensors() const;
+  bool uses_pair_vectors() const;
   bool uses_velocity_gradient() const;
 };
 

@@ -37,7 +37,6 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   if (setup.scheme.shifting == ShiftingKind::none) return interventions;
   Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> shift(particles.owned);
-  flow.halo().exchange(flow.here.interior);
   interventions.capped_shifts = compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                    flow.here.interior, flow.here.concentration_gradient, shift);
   for_each(particles.owned, [&](std::size_t i) {

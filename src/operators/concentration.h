@@ -1,38 +1,44 @@
-// The share of space around a particle that is filled:
+// Sums of the kernel and of its gradient over a particle's neighbours:
 //
-//   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j grad_i W_ij
+//   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j dW e_ij,    M_i = sum_j w_j r (-dW) e_ij e_ij
 //
-// C is 1 (up to quadrature, see lattice.h) inside and smaller at a surface; -grad C points out of the fluid.
+// C is the share of space around the particle that is filled: 1 (up to quadrature, see lattice.h) inside and smaller at
+// a surface; -grad C points out of the fluid. M, the first moment, is what the kernel's gradient makes of a linear
+// field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface.
 #pragma once
 
+#include <array>
 #include <span>
-#include <utility>
 
 #include "neighbours/pairs.h"
 
 namespace tailwater {
 
-/// C_i [1] and grad C_i [1/m], in one pass over the row.
 template <int Dim>
-std::pair<double, Vec<Dim>> concentration_with_gradient(const Pairs<Dim>& pairs, std::size_t i,
-                                                        std::span<const double> volume, double W_0) {
-  double sum = volume[i] * W_0;
-  Vec<Dim> gradient = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double volume_j = volume[pairs.j[k]];
-    sum += volume_j * pairs.W[k];
-    gradient += (volume_j * pairs.dW[k]) * pairs.e[k];
-  }
-  return {sum, gradient};
-}
+struct KernelSums {
+  double concentration;   ///< C_i
+  Vec<Dim> gradient;      ///< 1/m; grad C_i
+  Mat<Dim> first_moment;  ///< M_i
+};
 
 template <int Dim>
-Vec<Dim> concentration_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
+KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume, double W_0) {
+  double concentration = volume[i] * W_0;
+  // Column by column: vectors stay in registers through the loop, whole matrices do not.
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+  std::array<Vec<Dim>, Dim> columns;
+  columns.fill(Vec<Dim>::Zero());
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    sum += (volume[pairs.j[k]] * pairs.dW[k]) * pairs.e[k];
+    const double volume_j = volume[pairs.j[k]];
+    const Vec<Dim> weight = (volume_j * pairs.dW[k]) * pairs.e[k];
+    const Vec<Dim> arm = -pairs.r[k] * pairs.e[k];
+    concentration += volume_j * pairs.W[k];
+    gradient += weight;
+    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * arm;
   }
-  return sum;
+  KernelSums<Dim> sums{concentration, gradient, {}};
+  for (int b = 0; b < Dim; ++b) sums.first_moment.col(b) = columns[b];
+  return sums;
 }
 
 }  // namespace tailwater

@@ -1,6 +1,6 @@
 // First derivative with the corrected kernel gradient (Randles & Libersky 1996; Bonet & Lok 1999):
 //
-//   grad v_i = [ sum_j w_j (v_j - v_i) dW e_ij ] . L_i,    L_i = M_i^-1,   M_i = sum_j w_j r (-dW) e e
+//   grad v_i = [ sum_j w_j (v_j - v_i) dW e_ij ] . L_i,    L_i = M_i^-1,   M_i of concentration.h
 //
 // Exact for linear fields where the neighbours span space. M is I on a full lattice and has the eigenvalue 1/2 across a
 // flat surface; where its smallest eigenvalue falls below 0.5 the correction fades, and below 0.3 (spray) there is
@@ -21,36 +21,23 @@ inline double correction_share(double least_eigenvalue_M) {
   return std::clamp((least_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0);
 }
 
-/// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. Neighbours without
-/// `takes_part` are left out.
+/// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. `first_moment` is M_i.
 template <int Dim>
-Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
-                            std::span<const std::uint8_t> takes_part, std::span<const Vec<Dim>> field) {
-  // Column by column: vectors stay in registers through the loop, whole matrices do not.
-  std::array<Vec<Dim>, Dim> sum_columns;
-  std::array<Vec<Dim>, Dim> M_columns;
-  sum_columns.fill(Vec<Dim>::Zero());
-  M_columns.fill(Vec<Dim>::Zero());
+Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
+                            std::span<const double> volume, std::span<const Vec<Dim>> field) {
+  std::array<Vec<Dim>, Dim> columns;  // not a matrix: vectors stay in registers through the loop
+  columns.fill(Vec<Dim>::Zero());
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    if (!takes_part[j]) continue;
     const Vec<Dim> weight = volume[j] * pairs.dW[k] * pairs.e[k];
     const Vec<Dim> difference = field[j] - field[i];
-    const Vec<Dim> arm = -pairs.r[k] * pairs.e[k];
-    for (int b = 0; b < Dim; ++b) {
-      sum_columns[b] += weight[b] * difference;
-      M_columns[b] += weight[b] * arm;
-    }
+    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * difference;
   }
   Mat<Dim> sum;
-  Mat<Dim> M;
-  for (int b = 0; b < Dim; ++b) {
-    sum.col(b) = sum_columns[b];
-    M.col(b) = M_columns[b];
-  }
-  const double share = correction_share(least_eigenvalue<Dim>(M));
+  for (int b = 0; b < Dim; ++b) sum.col(b) = columns[b];
+  const double share = correction_share(least_eigenvalue<Dim>(first_moment));
   if (share == 0.0) return sum;
-  return sum * (share * M.inverse() + (1.0 - share) * Mat<Dim>::Identity());
+  return sum * (share * first_moment.inverse() + (1.0 - share) * Mat<Dim>::Identity());
 }
 
 }  // namespace tailwater

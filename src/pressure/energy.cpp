@@ -23,7 +23,8 @@ double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    return Vec<Dim>((particles.volume[j] * pairs.dW[k] * (particles.pressure[i] + particles.pressure[j])) * pairs.e[k]);
+    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
+                    flow.here.pair_vectors[k]);
   });
   return dt * particles.volume[i] * recoil.dot(flow.state.wall_velocity[particles.wall_row[i]]);
 }

@@ -15,7 +15,7 @@ template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
   const std::vector<double>& volume = flow.state.particles.volume;
   if (flow.setup.scheme.gradient == GradientKind::conservative) {
-    return conservative_gradient<Dim>(flow.pairs(), i, volume, pressure);
+    return conservative_gradient<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, pressure);
   }
   if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
     return density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.here.concentration, pressure);
@@ -30,7 +30,7 @@ template <int Dim>
 double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity) {
   const std::vector<double>& volume = flow.state.particles.volume;
   if (flow.setup.scheme.divergence == DivergenceKind::standard) {
-    return standard_divergence<Dim>(flow.pairs(), i, volume, velocity);
+    return standard_divergence<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, velocity);
   }
   const Renormalisation<Dim>& tensors = flow.here.tensors[i];
   if (!tensors.gradient_is_sound()) return 0.0;

@@ -108,6 +108,7 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.laplacian = LaplacianKind::consistent;
   expected.gradient = GradientKind::consistent;
   expected.divergence = DivergenceKind::consistent;
+  expected.pair_vectors = PairVectors::kernel;
   expected.source = SourceKind::velocity_divergence;
   expected.surface = SurfaceTreatment::cone;
   expected.walls = WallTreatment::pressure_rows;

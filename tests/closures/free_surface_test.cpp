@@ -58,9 +58,9 @@ struct Marks {
     std::vector<double> filling(set.size());
     std::vector<Vec<Dim>> gradient(set.size());
     for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-      const auto [sum, direction] = concentration_with_gradient<Dim>(set.pairs(), i, set.particles.volume, W_0);
-      filling[i] = sum / C_0;
-      gradient[i] = direction;
+      const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, set.particles.volume, W_0);
+      filling[i] = sums.concentration / C_0;
+      gradient[i] = sums.gradient;
     }
     find_free_surface<Dim>(test, {set.pairs(), set.particles, filling, gradient, operators.tensors, dx, C_0, W_0, 0.99},
                            is_surface);

@@ -32,7 +32,7 @@ struct Shifted {
         gradient(set.size()),
         shift(set.size(), Vec<Dim>::Ones()) {
     for (std::size_t i = 0; i < set.size(); ++i) {
-      gradient[i] = concentration_with_gradient<Dim>(set.pairs(), i, set.particles.volume, 0.0).second;
+      gradient[i] = kernel_sums<Dim>(set.pairs(), i, set.particles.volume, 0.0).gradient;
     }
     beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, interior, gradient, shift);
   }

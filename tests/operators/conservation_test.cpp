@@ -8,7 +8,7 @@
 #include "operators/gradient_conservative.h"
 #include "operators/laplacian_morris.h"
 #include "support/dimensions.h"
-#include "support/particle_set.h"
+#include "support/pair_vectors.h"
 
 namespace tailwater {
 namespace {
@@ -38,11 +38,12 @@ TYPED_TEST(ConservationTest, ForcesOfTheConservativeGradientSumToZero) {
     Noise noise(12);
     const auto pressure = sample(set, [&](const Vec<Dim>&) { return 1000.0 * noise(); });
     const Pairs<Dim>& pairs = set.pairs();
+    const auto vectors = kernel_gradients<Dim>(set);
     Vec<Dim> sum = Vec<Dim>::Zero();
     double terms = 0.0;
     for (std::size_t i = 0; i < pairs.owned(); ++i) {
       const double w_i = set.particles.volume[i];
-      sum += w_i * conservative_gradient<Dim>(pairs, i, set.particles.volume, pressure);
+      sum += w_i * conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, pressure);
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         const auto j = pairs.j[k];
         terms += std::abs(w_i * set.particles.volume[j] * pairs.dW[k] * (pressure[i] + pressure[j]));
@@ -58,8 +59,9 @@ TYPED_TEST(ConservationTest, StandardDivergenceOfAUniformVelocityIsZero) {
   constexpr int Dim = TypeParam::value;
   const ParticleSet<Dim> set = disorder<Dim>(KernelName::wendland_c2);
   const auto velocity = sample(set, [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Constant(3.7)); });
+  const auto vectors = kernel_gradients<Dim>(set);
   for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-    EXPECT_EQ(standard_divergence<Dim>(set.pairs(), i, set.particles.volume, velocity), 0.0);
+    EXPECT_EQ(standard_divergence<Dim>(set.pairs(), i, set.particles.volume, vectors, velocity), 0.0);
   }
 }
 
@@ -73,11 +75,12 @@ TYPED_TEST(ConservationTest, StandardDivergenceIsTheAdjointOfTheConservativeGrad
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   const std::vector<double>& volume = set.particles.volume;
   const Pairs<Dim>& pairs = set.pairs();
+  const auto vectors = kernel_gradients<Dim>(set);
   double sum = 0.0;
   double terms = 0.0;
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    sum += volume[i] * pressure[i] * standard_divergence<Dim>(pairs, i, volume, velocity);
-    sum += volume[i] * velocity[i].dot(conservative_gradient<Dim>(pairs, i, volume, pressure));
+    sum += volume[i] * pressure[i] * standard_divergence<Dim>(pairs, i, volume, vectors, velocity);
+    sum += volume[i] * velocity[i].dot(conservative_gradient<Dim>(pairs, i, volume, vectors, pressure));
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       terms += 4.0 * std::sqrt(Dim) * volume[i] * volume[pairs.j[k]] * std::abs(pairs.dW[k]);
     }

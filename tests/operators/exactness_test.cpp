@@ -12,6 +12,7 @@
 #include "operators/laplacian_morris.h"
 #include "operators/lattice.h"
 #include "support/dimensions.h"
+#include "support/pair_vectors.h"
 #include "support/tensors.h"
 
 namespace tailwater {
@@ -205,6 +206,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
     const ParticleSet<Dim> set = cube<Dim>(name, 0.0);
     const Pairs<Dim>& pairs = set.pairs();
     const ConsistentOperators<Dim> operators(set);
+    const auto vectors = kernel_gradients<Dim>(set);
     const auto linear = sample(set, [](const Vec<Dim>& x) { return some_vector<Dim>().dot(x); });
     const Mat<Dim> G = some_symmetric_matrix<Dim>();
     const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); });
@@ -224,17 +226,17 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.
       const double relative = 1e4 * eps;
       const std::vector<double>& volume = set.particles.volume;
-      EXPECT_NEAR(concentration_with_gradient<Dim>(pairs, i, volume, kernel_value(kernel, 0.0)).first,
-                  sums.concentration, relative);
+      EXPECT_NEAR(kernel_sums<Dim>(pairs, i, volume, kernel_value(kernel, 0.0)).concentration, sums.concentration,
+                  relative);
       EXPECT_NEAR(morris, sums.morris, relative * sums.morris);
       // The system of B2 loses some digits more: its pivots are of the order 0.1.
       EXPECT_NEAR(consistent, sums.consistent, 10.0 * relative * sums.consistent);
-      EXPECT_LT(concentration_with_gradient<Dim>(pairs, i, volume, kernel_value(kernel, 0.0)).second.norm() * dx,
-                relative);
+      EXPECT_LT(kernel_sums<Dim>(pairs, i, volume, kernel_value(kernel, 0.0)).gradient.norm() * dx, relative);
       // By symmetry the two standard forms see linear fields scaled by -sum w dW r/Dim, no other part.
-      EXPECT_LT((conservative_gradient<Dim>(pairs, i, volume, linear) - first_moment * some_vector<Dim>()).norm(),
-                relative);
-      EXPECT_NEAR(standard_divergence<Dim>(pairs, i, volume, velocity), first_moment * G.trace(), relative);
+      EXPECT_LT(
+          (conservative_gradient<Dim>(pairs, i, volume, vectors, linear) - first_moment * some_vector<Dim>()).norm(),
+          relative);
+      EXPECT_NEAR(standard_divergence<Dim>(pairs, i, volume, vectors, velocity), first_moment * G.trace(), relative);
     }
     EXPECT_GT(tested, 0u);
   }

@@ -1,0 +1,73 @@
+// Pair vectors: how gradient and divergence see a pair of particles.
+//
+//   grad p_i = sum_j w_j (p_i + p_j) a_ij          (gradient_conservative.h)
+//   div u_i  = sum_j w_j (u_j - u_i) . a_ij        (divergence.h)
+//
+// Any a_ij = -a_ji conserves momentum, and makes gradient and divergence negative adjoints of each other: the pressure
+// of a divergence-free velocity does no work. The kernel's gradient, a_ij = dW e_ij, is the usual choice. Its linear
+// fields are scaled by the first moment M_i = sum_j w_j r (-dW) e e, which is not I on a strained or disordered set:
+// waves then see an elastic medium. Within the two bonds there is room to do better:
+//
+//   a_ij = dW [ (B_i + B_j)/2 e_ij - (l_i - l_j)/r ]
+//
+// B_i    corrects the first moment: B_i = <M>_i^-1 inside, I at the surface and at walls, blended by `interior`. The
+//        mean <M> over the neighbours follows the strain of the set; the M of single particles does not enter. With
+//        it, the force of a uniform pressure would have a curl from particle to particle, which drives rolls in water
+//        at rest.
+// l_i    closes half of the faces: a uniform pressure p has the force -2 p sum_j w_j a_ij, which orders the particles
+//        and hinders the flow. A graph Laplacian, sum_j w_j k_ij (l_i - l_j) = -1/2 sum_j w_j a_ij with k_ij = -dW/r,
+//        takes half of it away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far
+//        as it matters: what varies from particle to particle. The row is divided by `interior`, so l is 0 at the
+//        surface.
+//
+// Both corrections are continuous in the positions and need no surface detection. Where they come from, what is
+// exact and what each is worth: docs/theory/operators.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "neighbours/pairs.h"
+
+namespace tailwater {
+
+/// Sweeps after which the equation for l is left alone.
+inline constexpr int closing_sweeps = 3;
+
+/// The kernel's gradient at i, dW e_ij, of every pair.
+template <int Dim>
+void find_kernel_gradients(const Pairs<Dim>& pairs, std::span<Vec<Dim>> pair_vectors);
+
+/// B_i of owned particles from the first moments M. `interior` is 0 at walls; both must be up to date on ghosts.
+/// `radius` [m] is that of the support.
+template <int Dim>
+void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<const double> interior,
+                             std::span<const Mat<Dim>> first_moment, std::span<Mat<Dim>> correction);
+
+/// dW (B_i + B_j)/2 e_ij of every pair; `correction` must be up to date on ghosts.
+template <int Dim>
+void find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const Mat<Dim>> correction,
+                              std::span<Vec<Dim>> pair_vectors);
+
+/// The equation for l: row by row, the Jacobi divisor [1/m^2], damped (0 where there is no equation), and the
+/// right-hand side -1/2 sum_j w_j a_ij [1/m].
+template <int Dim>
+struct OpenFaces {
+  std::vector<double> divisor;
+  std::vector<Vec<Dim>> half;
+};
+
+template <int Dim>
+OpenFaces<Dim> find_open_faces(const Pairs<Dim>& pairs, std::span<const double> volume,
+                               std::span<const double> interior, std::span<const Vec<Dim>> pair_vectors);
+
+/// One sweep: `next` of owned particles from l [m], which must be up to date on ghosts.
+template <int Dim>
+void sweep_faces(const Pairs<Dim>& pairs, std::span<const double> volume, const OpenFaces<Dim>& faces,
+                 std::span<const Vec<Dim>> l, std::span<Vec<Dim>> next);
+
+/// a_ij <- a_ij - dW/r (l_i - l_j); l must be up to date on ghosts.
+template <int Dim>
+void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> l, std::span<Vec<Dim>> pair_vectors);
+
+}  // namespace tailwater
