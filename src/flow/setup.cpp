@@ -127,7 +127,7 @@ bool Setup<Dim>::uses_tensors() const {
 template <int Dim>
 bool Setup<Dim>::uses_pair_vectors() const {
   return scheme.gradient == GradientKind::conservative || scheme.divergence == DivergenceKind::standard ||
-         scheme.laplacian == LaplacianKind::morris;
+         scheme.laplacian == LaplacianKind::morris || has_air();
 }
 
 template <int Dim>

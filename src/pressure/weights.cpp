@@ -7,10 +7,10 @@
 //        - Near the surface, the weight of the air (air.h). The weight missing from A_0, the sum_j c_ij of a full
 //          lattice, counts as p = 0 on the surface (the idea of Nair & Tomar 2014). The equation needs no surface
 //          detection.
-//        - Inside, a little softness. With the kernel's own gradients as pair vectors also 4 |grad C_i|^2: the force of
-//          a uniform pressure p on disordered particles is then -2 p grad C_i, so div grad p contains
-//          -4 |grad C|^2 p, and without this term pressures of deep disordered water overshoot from step to step
-//          (docs/theory/robustness.md). Corrected pair vectors do not need it.
+//        - Inside, 4 |sum_j w_j a_ij|^2 and a little softness. The force of a uniform pressure p is
+//          -2 p sum_j w_j a_ij, so div grad p contains the negative of that square times p. Without this term in the
+//          matrix, pressures of deep disordered water overshoot from step to step with the kernel's own gradients as
+//          pair vectors (docs/theory/robustness.md), and with corrected ones a collision of drops gains energy.
 //        Where the scheme marks the surface instead, a_i = 0 and rows of marked particles are p = 0.
 //
 // The wall model writes the rows of wall particles (walls/wall_model.h). Dry walls: p = 0.
@@ -82,16 +82,20 @@ double full_sum(const Setup<Dim>& setup) {
   return setup.lattice.morris;
 }
 
-/// a_i of a row whose weights sum to `sum`: air near the surface and on walls, softness inside.
+/// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.setup.air_law.weight(sum, full_sum(flow.setup));
-  const double spacing = flow.setup.spacing;
-  double inside = softness / (spacing * spacing);
-  if (flow.setup.scheme.pair_vectors == PairVectors::kernel) {
-    inside += 4.0 * flow.here.concentration_gradient[i].squaredNorm();
+  const double interior = flow.here.interior[i];
+  if (interior == 0.0) return air;
+  const Pairs<Dim>& pairs = flow.pairs();
+  Vec<Dim> open_faces = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    open_faces += flow.state.particles.volume[pairs.j[k]] * flow.here.pair_vectors[k];
   }
-  return std::lerp(air, inside, flow.here.interior[i]);
+  const double spacing = flow.setup.spacing;
+  const double inside = 4.0 * open_faces.squaredNorm() + softness / (spacing * spacing);
+  return std::lerp(air, inside, interior);
 }
 
 /// Writes row i without its source. Returns whether it had to fall back to two-point weights.
