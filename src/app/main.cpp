@@ -83,6 +83,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_new_command(app, code);
   add_check_command(app, code);
   add_run_command(app, code, ranks, {argv + 1, argv + argc});
+  add_resume_command(app, code, ranks, {argv + 1, argv + argc});
   add_info_command(app, code);
   add_bench_command(app, code);
   add_validate_command(app, code);
@@ -92,9 +93,10 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
       if (ranks.is_root()) fmt::print(stderr, "{}", app.help());
       return {ExitCode::bad_input, ""};
     }
-    if (!ranks.is_alone() && std::string_view(argv[1]) != "run") {
+    const std::string_view command = argv[1];
+    if (!ranks.is_alone() && command != "run" && command != "resume") {
       throw InputError(
-          fmt::format("{} ranks were started, but only `tailwater run` uses more than one; remedy: "
+          fmt::format("{} ranks were started, but only `tailwater run` and `resume` use more than one; remedy: "
                       "tailwater {} without mpirun",
                       ranks.size(), argv[1]));
     }

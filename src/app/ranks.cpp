@@ -84,7 +84,7 @@ std::vector<std::string> mpirun_command(int count, const std::vector<std::string
 sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   return signals;
 }
 
@@ -94,8 +94,8 @@ struct Ending {
 };
 
 /// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 asks the ranks to end in order. A second one, or the first
-/// when their run has not begun, makes mpirun kill them.
-Ending wait_for(pid_t mpirun, StopSender& stop) {
+/// when their run has not begun, makes mpirun kill them. SIGHUP asks for a checkpoint.
+Ending wait_for(pid_t mpirun, RequestSender& requests) {
   const sigset_t signals = awaited_signals();
   bool was_asked = false;
   int status = 0;
@@ -103,7 +103,11 @@ Ending wait_for(pid_t mpirun, StopSender& stop) {
     int signal = 0;
     sigwait(&signals, &signal);
     if (signal == SIGCHLD) continue;
-    if (was_asked || !stop.send()) kill(mpirun, SIGTERM);
+    if (signal == SIGHUP) {
+      requests.ask_for_checkpoint();
+      continue;
+    }
+    if (was_asked || !requests.ask_for_stop()) kill(mpirun, SIGTERM);
     was_asked = true;
   }
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
@@ -136,7 +140,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
   const std::vector<std::string> command = mpirun_command(count, arguments);
   int failure[2];
   if (pipe2(failure, O_CLOEXEC) != 0) throw IoError("cannot make a pipe: " + std::generic_category().message(errno));
-  StopSender stop(out);
+  RequestSender requests(out);
   const sigset_t signals = awaited_signals();
   sigset_t signals_before;
   sigprocmask(SIG_BLOCK, &signals, &signals_before);
@@ -148,7 +152,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
   int error_number = 0;
   const bool has_failed = read(failure[0], &error_number, sizeof(error_number)) == sizeof(error_number);
   close(failure[0]);
-  const auto [code, was_asked] = wait_for(process, stop);
+  const auto [code, was_asked] = wait_for(process, requests);
   if (has_failed) {
     throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
                                  std::generic_category().message(error_number)));

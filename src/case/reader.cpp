@@ -211,7 +211,7 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-toml::table parse(const std::string& text, const std::string& file) {
+toml::table parse(std::string_view text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -225,9 +225,12 @@ toml::table parse(const std::string& text, const std::string& file) {
 }  // namespace
 
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const std::string file = path.string();
-  Context context(file);
-  toml::table root = parse(read_text(path), file);
+  return read_case_text(read_text(path), path.string(), overrides);
+}
+
+CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
+  Context context(origin);
+  toml::table root = parse(text, origin);
   for (const std::string& problem : apply_overrides(root, overrides)) {
     context.problems.add_override(problem);
   }

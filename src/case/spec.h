@@ -406,6 +406,7 @@ struct OutputTable {
   double fields_interval = 0.0;
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
   int compression = 1;
+  double checkpoint_interval = 900.0;
 
   bool operator==(const OutputTable&) const = default;
 
@@ -416,6 +417,10 @@ struct OutputTable {
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.integer("compression", self.compression, "", Range::between(0, 9),
               "zlib compression level of the field files; 0: none");
+    v.number(
+        "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
+        "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or is "
+        "asked for one");
   }
 };
 
@@ -486,7 +491,7 @@ struct CaseSpec {
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
     v.table("parallel", self.parallel, "Runs on several ranks (-n)");
-    v.table("output", self.output, "Field files for ParaView");
+    v.table("output", self.output, "Field files for ParaView, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
   }
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -18,11 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> result_files{effective_case_name, "steps.csv", "ranks.csv", "summary.json",
-                                                       stop_file_name};
-constexpr std::array<std::string_view, 3> result_folders{"probes", "fields", "failure"};
+constexpr std::array<std::string_view, 6> result_files{effective_case_name, "steps.csv",    "ranks.csv",
+                                                       "summary.json",      stop_file_name, checkpoint_file_name};
+constexpr std::array<std::string_view, 4> result_folders{"probes", "fields", "failure", "checkpoints"};
+/// Those that are made only when there is something to put into them.
+constexpr std::array<std::string_view, 2> rare_folders{"failure", "checkpoints"};
+constexpr std::string_view checkpoint_ending = ".h5";
 /// Endings of the files a run writes into its folders.
-constexpr std::array<std::string_view, 5> result_endings{".csv", ".vtp", ".pvd", ".txt", ".json"};
+constexpr std::array<std::string_view, 6> result_endings{".csv", ".vtp", ".pvd", ".txt", ".json", checkpoint_ending};
 
 void require(const std::error_code& error, std::string_view what, const fs::path& path) {
   if (error) {
@@ -84,11 +88,26 @@ void remove_earlier_results(const fs::path& folder) {
     fs::remove(path, error);
     require(error, "remove", path);
   }
-  const fs::path failure = folder / "failure";
-  if (is_result_folder(failure) && entries(failure).empty()) {
-    fs::remove(failure, error);
-    require(error, "remove", failure);
+  for (const std::string_view name : rare_folders) {
+    const fs::path rare = folder / name;
+    if (is_result_folder(rare) && entries(rare).empty()) {
+      fs::remove(rare, error);
+      require(error, "remove", rare);
+    }
   }
+}
+
+/// What an earlier run has left and a run that goes on would not replace.
+void remove_traces_of_the_end(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& path : earlier_results(folder)) {
+    const bool is_request = path.filename() == stop_file_name || path.filename() == checkpoint_file_name;
+    if (!is_request && path.parent_path().filename() != "failure") continue;
+    fs::remove(path, error);
+    require(error, "remove", path);
+  }
+  const fs::path failure = folder / "failure";
+  if (is_result_folder(failure) && entries(failure).empty()) fs::remove(failure, error);
 }
 
 /// Writes a file to find out. Permission bits do not tell: they do not bind root, and a file system may be read-only or
@@ -130,10 +149,33 @@ RunFolder RunFolder::create(const fs::path& path, bool force, const Communicator
   return RunFolder(path);
 }
 
+RunFolder RunFolder::open(const fs::path& path, const Communicator& ranks) {
+  do_on_root(ranks, [&] {
+    require_writable(path);
+    remove_traces_of_the_end(path);
+  });
+  return RunFolder(path);
+}
+
+fs::path RunFolder::checkpoint(std::int64_t step) const {
+  return checkpoints() / fmt::format("step_{:012}{}", step, checkpoint_ending);
+}
+
 fs::path RunFolder::make_failure() const {
   const fs::path failure = path_ / "failure";
   make_folder(failure);
   return failure;
+}
+
+std::vector<fs::path> checkpoints_in(const fs::path& run) {
+  const fs::path folder = run / "checkpoints";
+  std::vector<fs::path> found;
+  if (!is_result_folder(folder)) return found;
+  for (const fs::path& path : entries(folder)) {
+    if (path.extension() == checkpoint_ending) found.push_back(path);
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());  // names have their steps in equally many digits
+  return found;
 }
 
 }  // namespace tailwater

@@ -1,15 +1,18 @@
 // The folder a run writes into, and the names of its contents.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "parallel/communicator.h"
 
 namespace tailwater {
 
 inline constexpr std::string_view stop_file_name = "STOP";
+inline constexpr std::string_view checkpoint_file_name = "CHECKPOINT";
 inline constexpr std::string_view effective_case_name = "case.effective.toml";
 
 class RunFolder {
@@ -21,6 +24,10 @@ class RunFolder {
   /// Collective: the root makes the folder; its error is thrown on all ranks.
   static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
 
+  /// The folder of an earlier run, which is to go on. Requests to that run and the report of its failure are removed.
+  /// Throws IoError if the folder cannot be written. Collective, as above.
+  static RunFolder open(const std::filesystem::path& path, const Communicator& ranks = {});
+
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path effective_case() const { return path_ / effective_case_name; }
   std::filesystem::path steps() const { return path_ / "steps.csv"; }
@@ -28,8 +35,12 @@ class RunFolder {
   std::filesystem::path summary() const { return path_ / "summary.json"; }
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
   std::filesystem::path fields() const { return path_ / "fields"; }
-  /// The file by which a user asks the run to end (run/requests.h).
+  /// The files by which a user asks the run to end or to write a checkpoint (run/requests.h).
   std::filesystem::path stop() const { return path_ / stop_file_name; }
+  std::filesystem::path checkpoint_request() const { return path_ / checkpoint_file_name; }
+  /// The folder of checkpoints, made with the first of them, and the name of one.
+  std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  std::filesystem::path checkpoint(std::int64_t step) const;
   /// The folder for the last good fields of a failed run. The first call makes it. Throws IoError.
   std::filesystem::path make_failure() const;
 
@@ -38,5 +49,8 @@ class RunFolder {
 
   std::filesystem::path path_;
 };
+
+/// The checkpoints in the folder of a run, the newest first. Throws IoError if the folder cannot be read.
+std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& run);
 
 }  // namespace tailwater

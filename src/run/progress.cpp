@@ -41,8 +41,11 @@ std::string progress_line(double time, double end_time, double elapsed, std::int
       report.passes, report.iterations, report.residual, 100.0 * measures.density_error_largest);
 }
 
-Progress::Progress(double end_time, bool quiet)
-    : end_time_(end_time), quiet_(quiet), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(double end_time, bool quiet, double elapsed)
+    : end_time_(end_time),
+      quiet_(quiet),
+      is_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now() - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(elapsed))) {}
 
 void Progress::show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   if (quiet_) return;

@@ -12,7 +12,8 @@ namespace tailwater {
 
 class Progress {
  public:
-  Progress(double end_time, bool quiet);
+  /// `elapsed` [s]: what earlier runs, which this one goes on with, have taken.
+  Progress(double end_time, bool quiet, double elapsed = 0.0);
 
   /// Shows the state after a step if a new line is due.
   void show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures);
@@ -27,7 +28,7 @@ class Progress {
   bool quiet_;
   bool is_terminal_;
   bool line_is_open_ = false;
-  Clock::time_point start_ = Clock::now();
+  Clock::time_point start_;
   Clock::time_point last_shown_;
   double last_share_ = -1.0;
 };

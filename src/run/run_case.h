@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "case/spec.h"
+#include "io/sealed_file.h"
 #include "parallel/communicator.h"
 #include "run/run_options.h"
 
@@ -14,7 +15,9 @@ void require_sound_geometry(const CaseSpec& spec, bool quiet);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
-/// and failure/ holds the last good fields. A later IoError is thrown only on the rank that met it.
-ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {});
+/// and failure/ holds the last good fields. Throws a later IoError on all ranks; the summary says so if it can be
+/// written. With a `checkpoint`, which counts on the root, goes on from it.
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {},
+                  const SealedFile* checkpoint = nullptr);
 
 }  // namespace tailwater

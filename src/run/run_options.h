@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "run/requests.h"
+
 namespace tailwater {
 
 struct RunOptions {
@@ -10,6 +12,7 @@ struct RunOptions {
   std::filesystem::path out;
   bool force = false;  ///< replace the results of an earlier run
   bool quiet = false;  ///< no progress lines
+  WallTime wall_time;
 };
 
 }  // namespace tailwater

@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 from program import SMALL_CASE, ProgramTest
 
-COMMANDS = ("new", "check", "run", "info", "bench")
+COMMANDS = ("new", "check", "run", "resume", "info", "bench")
 TEMPLATES = ("dam-break", "tank")
 
 

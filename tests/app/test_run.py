@@ -19,7 +19,7 @@ class OutputContract(ProgramTest):
         self.call("run", "small.toml", "--out", "deep/below/run", "--quiet")
         run = self.folder / "deep/below/run"
         self.assertEqual({path.name for path in run.iterdir()},
-                         {"case.effective.toml", "steps.csv", "summary.json", "probes", "fields"})
+                         {"case.effective.toml", "steps.csv", "summary.json", "probes", "fields", "checkpoints"})
         self.assertEqual({path.name for path in (run / "probes").iterdir()}, {f"{name}.csv" for name in PROBES})
         series = read_series(run / "fields/fields.pvd")
         self.assertEqual({path.name for path in (run / "fields").iterdir()},
@@ -277,8 +277,9 @@ class Stopped(ProgramTest):
         process.kill()
         process.wait(timeout=PATIENCE)
         self.check_readable()
-        self.assertFalse((self.folder / "run/summary.json").exists())
-        self.assertIn("run/summary.json", self.call("info", "run", expect=4).stderr)
+        summary = self.summary("run")
+        self.assertEqual((summary["status"], summary["exit_code"]), ("running", None))
+        self.assertIn("tailwater resume run", summary["message"])
 
     def test_lines_are_flushed_as_the_run_goes(self):
         process = self.start_endless_run()
