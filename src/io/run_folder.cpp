@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> result_files{effective_case_name, "steps.csv",    "ranks.csv",
-                                                       "summary.json",      stop_file_name, checkpoint_file_name};
+                                                       summary_name,        stop_file_name, checkpoint_file_name};
 constexpr std::array<std::string_view, 4> result_folders{"probes", "fields", "failure", "checkpoints"};
 /// Those that are made only when there is something to put into them.
 constexpr std::array<std::string_view, 2> rare_folders{"failure", "checkpoints"};
@@ -85,6 +85,8 @@ std::vector<fs::path> earlier_results(const fs::path& folder) {
 void remove_earlier_results(const fs::path& folder) {
   std::error_code error;
   for (const fs::path& path : earlier_results(folder)) {
+    // The new run replaces the case at once. A run that is killed in between can still be started again from it.
+    if (path.filename() == effective_case_name) continue;
     fs::remove(path, error);
     require(error, "remove", path);
   }

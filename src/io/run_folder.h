@@ -14,12 +14,14 @@ namespace tailwater {
 inline constexpr std::string_view stop_file_name = "STOP";
 inline constexpr std::string_view checkpoint_file_name = "CHECKPOINT";
 inline constexpr std::string_view effective_case_name = "case.effective.toml";
+inline constexpr std::string_view summary_name = "summary.json";
 
 class RunFolder {
  public:
   /// Makes the folder with empty probes/ and fields/. Changes nothing unless it can do all of it.
   /// InputError: `path` is a file, or a folder that is not empty and `force` is not given. IoError: it cannot be made,
-  /// read or written. `force` removes the results of an earlier run and a request to stop it. Files that no run writes
+  /// read or written. `force` removes the results of an earlier run and a request to stop it; only the
+  /// effective case stays, for the new run to replace. Files that no run writes
   /// stay, wherever they are.
   /// Collective: the root makes the folder; its error is thrown on all ranks.
   static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
@@ -32,7 +34,7 @@ class RunFolder {
   std::filesystem::path effective_case() const { return path_ / effective_case_name; }
   std::filesystem::path steps() const { return path_ / "steps.csv"; }
   std::filesystem::path ranks() const { return path_ / "ranks.csv"; }
-  std::filesystem::path summary() const { return path_ / "summary.json"; }
+  std::filesystem::path summary() const { return path_ / summary_name; }
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
   std::filesystem::path fields() const { return path_ / "fields"; }
   /// The files by which a user asks the run to end or to write a checkpoint (run/requests.h).

@@ -124,7 +124,11 @@ std::string bytes_of(const std::vector<double>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
 }
 
-/// What cannot be read although its checksum is right was written by something else.
+/// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
+void require_fit(bool condition, const char* part) {
+  if (!condition) throw IoError(fmt::format("the checkpoint is not one of this program: its '{}' does not fit", part));
+}
+
 template <class Work>
 auto expecting_a_checkpoint(Work&& work) {
   try {
@@ -183,6 +187,8 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
       take_text(text, checkpoint);
       shares = image->get<std::int64_t>("owned");
       writers = static_cast<std::int64_t>(shares.size());
+      require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(), [](auto share) { return share >= 0; }),
+                  "owned");
       const auto logs = share_rank_log(image->get<double>("rank_log"), shares.size(), rank_logs.size());
       std::transform(logs.begin(), logs.end(), rank_logs.begin(), bytes_of);
       if (writers != ranks.size()) {
@@ -191,7 +197,9 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
       }
       const std::string all_cuts = image->text("cuts");
       const std::vector<std::int64_t> cuts_size = image->get<std::int64_t>("cuts_size");
+      require_fit(cuts_size.size() == cuts.size(), "cuts_size");
       for (std::size_t q = 0, begin = 0; q < cuts.size(); begin += cuts_size[q++]) {
+        require_fit(begin <= all_cuts.size(), "cuts");
         cuts[q] = all_cuts.substr(begin, cuts_size[q]);
       }
     });
@@ -206,7 +214,11 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   State<Dim>& state = checkpoint.state;
   for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
     std::vector<Value> all;
-    do_on_root(ranks, [&] { all = get<Value>(*image, name); });
+    do_on_root(ranks, [&] {
+      all = get<Value>(*image, name);
+      const auto count = static_cast<std::int64_t>(all.size());
+      require_fit(count == std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), name);
+    });
     field = ranks.scatter(all, shares);
   });
   state.particles.owned = state.particles.size();

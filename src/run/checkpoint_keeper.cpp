@@ -22,6 +22,14 @@ void remove_file(const fs::path& path) {
   if (error) throw_io_error("remove", path, error.value());
 }
 
+/// What a run that was killed has left half-written.
+void remove_parts(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == temporary_ending) remove_file(entry->path());
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -34,6 +42,7 @@ void CheckpointKeeper<Dim>::go_on_from(std::int64_t step) {
     for (const fs::path& path : checkpoints_in(folder_.path())) {
       if (path.filename() > folder_.checkpoint(step).filename()) remove_file(path);
     }
+    remove_parts(folder_.checkpoints());
   });
 }
 

@@ -62,8 +62,8 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   constexpr double number = sizeof(double);
   constexpr double index = 4.0;
   // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
-  // twice, for the state before the step and the solver's vectors.
-  constexpr double fields = 2.0 * (6 * Dim + 10) * number;
+  // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
+  constexpr double fields = 3.0 * (6 * Dim + 10) * number;
   // Per pair: the neighbour's index, unit vector, distance, kernel and its derivative; a row entry of the matrix with
   // its place, and one of its factors.
   constexpr double pair = index + (Dim + 3) * number + 3.0 * index + 2.0 * number;

@@ -99,7 +99,7 @@ void Requests::fulfil_checkpoint() {
 RequestSender::RequestSender(const std::filesystem::path& folder)
     : stop_file_(folder / stop_file_name),
       checkpoint_file_(folder / checkpoint_file_name),
-      effective_case_(folder / effective_case_name),
+      summary_(folder / summary_name),
       start_before_(last_start()) {}
 
 RequestSender::~RequestSender() {
@@ -108,11 +108,11 @@ RequestSender::~RequestSender() {
   if (checkpoint_is_sent_) std::filesystem::remove(checkpoint_file_, error);
 }
 
-bool RequestSender::make(const std::filesystem::path& path, bool& is_sent) const {
+bool RequestSender::make(const std::filesystem::path& file, bool& is_sent) const {
   if (last_start() == start_before_) return false;
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return false;
-  close(file);
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  close(descriptor);
   is_sent = true;
   return true;
 }
@@ -120,7 +120,7 @@ bool RequestSender::make(const std::filesystem::path& path, bool& is_sent) const
 /// When the last run in the folder became ready; the earliest possible time if there was none.
 std::filesystem::file_time_type RequestSender::last_start() const {
   std::error_code error;
-  return std::filesystem::last_write_time(effective_case_, error);
+  return std::filesystem::last_write_time(summary_, error);
 }
 
 }  // namespace tailwater

@@ -84,7 +84,7 @@ class RequestSender {
 
   std::filesystem::path stop_file_;
   std::filesystem::path checkpoint_file_;
-  std::filesystem::path effective_case_;  ///< a run writes it when it is ready
+  std::filesystem::path summary_;  ///< a run writes it when it is ready
   std::filesystem::file_time_type start_before_;
   bool stop_is_sent_ = false;
   bool checkpoint_is_sent_ = false;

@@ -83,6 +83,13 @@ void require_readable_format(const SealedFile& file, const fs::path& path) {
       path.string(), file.format, version_line(), checkpoint_format, file.writer));
 }
 
+/// Another program computes the same flow with other last digits.
+void tell_of_another_writer(const SealedFile& file) {
+  if (file.writer == version_line()) return;
+  fmt::print(stderr, "warning: the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same\n",
+             file.writer, version_line());
+}
+
 void require_same_case(const CaseSpec& spec, const CaseSpec& saved, const fs::path& path, const fs::path& case_file) {
   if (with_changeable_keys_of(spec, saved) == spec) return;
   throw InputError(
@@ -123,6 +130,7 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
     if (!checkpoint) return;
     require_readable_format(*checkpoint, path);
     require_same_case(before, case_of_checkpoint(*checkpoint), path, case_file);
+    if (!options.quiet) tell_of_another_writer(*checkpoint);
   });
   options.case_file = case_file;
   if (ranks.any(checkpoint.has_value())) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <optional>
 #include <utility>
 
@@ -56,6 +57,10 @@ class Run {
 
  private:
   void go_on_from(Checkpoint<Dim>& checkpoint) {
+    if (checkpoint.state.wall_velocity.size() != flow_.state.wall_velocity.size() ||
+        checkpoint.state.open_ends.size() != flow_.state.open_ends.size()) {
+      throw IoError("the checkpoint does not fit the walls and outlets of its case");
+    }
     keeper_.go_on_from(checkpoint.state.step);
     flow_.restore(std::move(checkpoint.state));
     output_.rank_log().restore(checkpoint.rank_log);
@@ -160,6 +165,8 @@ void require_sound_geometry(const CaseSpec& spec, bool quiet) {
 
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
                   const SealedFile* checkpoint) {
+  // A file that grows beyond the limit of a batch system is an error of the write, as on a full disk, and no signal.
+  std::signal(SIGXFSZ, SIG_IGN);
   require_sound_geometry(spec, options.quiet || !ranks.is_root() || checkpoint != nullptr);
   return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
                                      : run_in<3>(spec, options, ranks, checkpoint);

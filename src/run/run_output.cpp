@@ -86,14 +86,16 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       cpu_start_(cpu_seconds()) {
   do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), kept_bytes(kept, "steps")); });
   if (kept != nullptr) take_up(*kept);
-  // Last, because it tells others that the run is ready (RequestSender).
-  do_on_root(ranks_, [&] { write_text_file(folder_.effective_case(), effective_case(spec)); });
 }
 
 template <int Dim>
 RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const {
   require_reachable_end(spec_, flow.setup.time_step_rule);
-  return goes_on ? RunFolder::open(options_.out, ranks_) : RunFolder::create(options_.out, options_.force, ranks_);
+  const RunFolder folder =
+      goes_on ? RunFolder::open(options_.out, ranks_) : RunFolder::create(options_.out, options_.force, ranks_);
+  // First of all, because a run that is killed from now on can be started again from it.
+  do_on_root(ranks_, [&] { write_text_file(folder.effective_case(), effective_case(spec_)); });
+  return folder;
 }
 
 template <int Dim>
@@ -150,6 +152,7 @@ double RunOutput<Dim>::wall_seconds() const {
   return wall_seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
+/// Tells others, too, that the run is ready (RequestSender).
 template <int Dim>
 void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
   write_summary(flow, "running", std::nullopt,

@@ -1,12 +1,12 @@
 """Several ranks: how a run gets them and how they end, by themselves or not."""
 
 import os
-import pathlib
 import signal
 import subprocess
 import time
 import unittest
 
+from processes import command_line, processes_of
 from program import PATIENCE, PROGRAM, ProgramTest, environment
 
 MPIRUN = os.environ["MPIRUN"]
@@ -14,14 +14,6 @@ MPIRUN = os.environ["MPIRUN"]
 # Open MPI's mpirun then hands no signal on to the ranks, as on some machines by itself.
 FORWARD_NOTHING = {"OMPI_MCA_ess_base_forward_signals": "none"}
 
-
-
-def command_line(process):
-    """The words of a process; none when it is gone."""
-    try:
-        return pathlib.Path(f"/proc/{process}/cmdline").read_text().split("\0")
-    except OSError:
-        return []
 
 
 class RanksTest(ProgramTest):
@@ -34,9 +26,7 @@ class RanksTest(ProgramTest):
 
     def processes(self):
         """Numbers of all processes that run a case into this test's folder."""
-        out = str(self.folder / "out")
-        found = [int(entry.name) for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit()]
-        return [process for process in found if out in command_line(process)]
+        return processes_of(self.folder / "out")
 
     def start_long_run(self, **variables):
         process = self.start("run", "small.toml", "--out", self.folder / "out", "-n", "2", "--set", "time.end=1000",

@@ -1,15 +1,28 @@
 """resume on several ranks."""
 
+import os
+import signal
+import time
 import unittest
 
 import numpy as np
 
-from program import ProgramTest
+from processes import command_line, processes_of
+from program import PATIENCE, ProgramTest
 from resumed import assert_same_results
+
+MPIRUN = os.environ["MPIRUN"]
 
 # Uneven work, so that space is cut again on the way.
 CASE = ("--set", "particles.spacing=0.05", "--set", "parallel.imbalance=0.01", "--quiet")
 HALF, WHOLE = ("--set", "time.end=0.15"), ("--set", "time.end=0.3")
+
+
+def wait_until(test, condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        test.assertLess(time.monotonic(), deadline, "nothing has happened")
+        time.sleep(0.02)
 
 
 class Resumed(ProgramTest):
@@ -29,6 +42,28 @@ class Resumed(ProgramTest):
         names, rows = self.table(f"{run}/ranks.csv")
         time, cut = names.index("time_s"), names.index("is_cut_anew")
         return sum(row[cut] for row in rows if row[time] < 0.15)
+
+    def test_after_the_loss_of_the_terminal_the_launcher_and_mpirun(self):
+        """On as many ranks as before, without being told."""
+        out = self.folder / "run"
+        endless = ("--set", "time.end=1000", "--set", "output.checkpoint_interval=0")
+        process = self.start("run", "small.toml", "--out", out, *CASE, *endless, "-n", "2")
+        self.wait_for((out / "fields/fields_00000.vtp").exists, process)
+        process.send_signal(signal.SIGHUP)
+        self.wait_for(lambda: list((out / "checkpoints").glob("*.h5")), process)
+        for role in ("the launcher", "mpirun"):
+            with self.subTest(role):
+                launcher = process.pid
+                mpirun = next(number for number in processes_of(out) if command_line(number)[0] == MPIRUN)
+                os.kill(launcher if role == "the launcher" else mpirun, signal.SIGKILL)
+                process.wait(timeout=PATIENCE)
+                wait_until(self, lambda: not processes_of(out))
+                steps = (out / "steps.csv").stat().st_size
+                process = self.start("resume", out, "--quiet")
+                wait_until(self, lambda before=steps: (out / "steps.csv").stat().st_size > before)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=PATIENCE), 130)
+        self.assertEqual(self.summary("run")["ranks"]["count"], 2)
 
     def test_to_the_tolerance_of_the_solver_on_others(self):
         self.call("run", "small.toml", "--out", "whole", *WHOLE, *CASE)

@@ -53,9 +53,11 @@ TEST(RunFolder, IsNeverOverwrittenUnasked) {
 TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
   const TemporaryFolder folder;
   const RunFolder run = RunFolder::create(folder.path(), false);
-  for (const fs::path& path : {run.effective_case(), run.steps(), run.ranks(), run.summary(), run.stop(),
-                               run.probe("wall"), run.fields() / "fields.pvd", run.fields() / "fields_00000.vtp",
-                               run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
+  fs::create_directory(run.checkpoints());
+  for (const fs::path& path :
+       {run.effective_case(), run.steps(), run.ranks(), run.summary(), run.stop(), run.checkpoint_request(),
+        run.checkpoint(5), run.probe("wall"), run.fields() / "fields.pvd", run.fields() / "fields_00000.vtp",
+        run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
     write_text_file(path, "result");
   }
   for (const char* name : {"notes.txt", "case.toml", "fields/view.pvsm", "probes/plot.py"}) {
@@ -63,8 +65,9 @@ TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
   }
   fs::create_directory(folder.path() / "fields" / "old.vtp");
   RunFolder::create(folder.path(), true);
-  EXPECT_EQ(tree(folder.path()), (Names{"case.toml", "fields", "fields/old.vtp", "fields/view.pvsm", "notes.txt",
-                                        "probes", "probes/plot.py"}));
+  // The case stays until the new run replaces it.
+  EXPECT_EQ(tree(folder.path()), (Names{"case.effective.toml", "case.toml", "fields", "fields/old.vtp",
+                                        "fields/view.pvsm", "notes.txt", "probes", "probes/plot.py"}));
 }
 
 TEST(RunFolder, ForceDoesNotFollowLinks) {

@@ -89,7 +89,7 @@ TEST(RequestSender, AsksOnlyARunThatHasBegunSince) {
     EXPECT_FALSE(sender.ask_for_stop());
     EXPECT_FALSE(fs::exists(run.stop()));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file systems know times to some milliseconds
-    write_text_file(run.effective_case(), "");
+    write_text_file(run.summary(), "");
     EXPECT_TRUE(sender.ask_for_stop());
     EXPECT_TRUE(fs::exists(run.stop()));
   }
