@@ -49,7 +49,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
 
 void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
-  require_sound_geometry(spec, false);
+  require_sound_geometry(spec);
   std::error_code error;  // no preview yet: nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
     throw InputError(

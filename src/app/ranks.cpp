@@ -18,6 +18,7 @@
 #include <system_error>
 #include <thread>
 
+#include "io/messages.h"
 #include "run/requests.h"
 
 namespace tailwater {
@@ -109,15 +110,6 @@ Ending wait_for(pid_t mpirun, StopSender& stop) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
 }
 
-/// "error: " before every line: a case may have several problems, one line each.
-void show_error(std::string_view message, std::string_view prefix = "") {
-  for (std::size_t start = 0; start < message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    fmt::print(stderr, "error: {}{}\n", prefix, message.substr(start, end - start));
-    start = end + 1;
-  }
-}
-
 }  // namespace
 
 int ranks_in_environment() {
@@ -130,8 +122,7 @@ bool is_root_in_environment() {
 
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
-    fmt::print(stderr, "warning: {} ranks on {} core(s) take turns; remedy: -n {}\n", count, usable_cores(),
-               usable_cores());
+    warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   const std::vector<std::string> command = mpirun_command(count, arguments);
   int failure[2];
@@ -161,7 +152,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
 ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {
   const bool has_failed = !outcome.message.empty();
   if (ranks.is_alone()) {
-    show_error(outcome.message);
+    tell_error(outcome.message);
     return outcome.code;
   }
   const int own = has_failed ? static_cast<int>(outcome.code) : 0;
@@ -174,14 +165,14 @@ ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome
   for (int are_here = 0; !are_here;) {
     MPI_Test(&all_are_here, &are_here, MPI_STATUS_IGNORE);
     if (has_failed && !are_here && Clock::now() > deadline) {
-      show_error(outcome.message, name);
+      tell_error(outcome.message, name);
       MPI_Abort(ranks.handle(), own);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const auto first = std::find_if(codes.begin(), codes.end(), [](int code) { return code != 0; });
   if (first == codes.end()) return outcome.code;
-  if (first - codes.begin() == ranks.rank()) show_error(outcome.message, ranks.is_root() ? "" : name);
+  if (first - codes.begin() == ranks.rank()) tell_error(outcome.message, ranks.is_root() ? "" : name);
   return static_cast<ExitCode>(*first);
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "app/ranks.h"
 #include "case/help.h"
 #include "case/reader.h"
+#include "io/messages.h"
 #include "linear/session.h"
 #include "run/run_case.h"
 
@@ -21,6 +23,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::optional<int> ranks;
   std::string help_case;
+  bool quiet = false;
 };
 
 void require_possible(int wanted) {
@@ -41,6 +44,12 @@ ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
     throw InputError("tailwater run needs a case file and --out DIR, as in: tailwater run my.toml --out my_run");
   }
+  std::signal(SIGHUP, SIG_IGN);  // the terminal may go; the run need not
+  if (ranks.is_root()) {
+    set_voice(arguments.quiet ? Voice::quiet : Voice::aloud);
+  } else {
+    set_voice(Voice::silent);
+  }
   if (arguments.ranks) {
     require_possible(*arguments.ranks);
     if (*arguments.ranks > 1 && ranks.is_alone()) return launch_ranks(*arguments.ranks, words, arguments.run.out);
@@ -49,10 +58,7 @@ ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = run_case(spec, arguments.run, ranks);
-  if (!arguments.run.quiet && ranks.is_root()) {
-    fmt::print(stderr, "{}: results in {}\n", code == ExitCode::done ? "done" : "interrupted",
-               arguments.run.out.string());
-  }
+  tell(fmt::format("{}: results in {}", code == ExitCode::done ? "done" : "interrupted", arguments.run.out.string()));
   return code;
 }
 
@@ -69,7 +75,7 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   command->add_option("-n", arguments->ranks, "Number of ranks, which this program starts by mpirun; default 1")
       ->type_name("COUNT");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
-  command->add_flag("--quiet", arguments->run.quiet, "No progress and no warnings");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
       ->expected(0, 1)
       ->default_str("text")

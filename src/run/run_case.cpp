@@ -1,12 +1,11 @@
 #include "run/run_case.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "flow/verbs.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
+#include "io/messages.h"
 #include "run/estimate.h"
 #include "run/requests.h"
 #include "run/run_output.h"
@@ -85,7 +84,7 @@ class Run {
 };
 
 template <int Dim>
-void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
+void require_sound_geometry_in(const CaseSpec& spec) {
   std::vector<Finding> findings = check_memory<Dim>(spec, available_memory());
   if (findings.empty()) {
     const Boundary<Dim> boundary = make_boundary<Dim>(spec);
@@ -95,8 +94,8 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
       errors += (errors.empty() ? "" : "\n") + finding.message;
-    } else if (!quiet) {
-      fmt::print(stderr, "warning: {}\n", finding.message);
+    } else {
+      warn(finding.message);
     }
   }
   if (!errors.empty()) throw InputError(errors);
@@ -104,16 +103,16 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
 
 }  // namespace
 
-void require_sound_geometry(const CaseSpec& spec, bool quiet) {
+void require_sound_geometry(const CaseSpec& spec) {
   if (spec.general.dimension == 2) {
-    require_sound_geometry_in<2>(spec, quiet);
+    require_sound_geometry_in<2>(spec);
   } else {
-    require_sound_geometry_in<3>(spec, quiet);
+    require_sound_geometry_in<3>(spec);
   }
 }
 
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks) {
-  require_sound_geometry(spec, options.quiet || !ranks.is_root());
+  require_sound_geometry(spec);
   return spec.general.dimension == 2 ? Run<2>(spec, options, ranks).execute() : Run<3>(spec, options, ranks).execute();
 }
 

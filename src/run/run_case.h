@@ -8,9 +8,9 @@
 
 namespace tailwater {
 
-/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings go to standard
-/// error. Throws InputError with all errors found.
-void require_sound_geometry(const CaseSpec& spec, bool quiet);
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told
+/// (io/messages.h). Throws InputError with all errors found.
+void require_sound_geometry(const CaseSpec& spec);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "case/writer.h"
+#include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
 #include "run/estimate.h"
@@ -41,14 +42,13 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
     : spec_(spec),
       options_(options),
       ranks_(flow.setup.ranks),
-      tells_(ranks_.is_root() && !options.quiet),
       probe_list_(make_probes<Dim>(spec, flow.walls.boundary)),
       folder_(make_folder(flow)),
       series_(folder_.fields(), "fields", spec.output.compression),
       wall_series_(folder_.fields(), "walls", spec.output.compression),
       rank_log_(ranks_, folder_.ranks()),
       probes_(std::move(probe_list_), folder_, ranks_),
-      progress_(spec.time.end, !tells_),
+      progress_(spec.time.end),
       statistics_(measure(flow)),
       water_at_start_(water_in(flow)),
       cpu_start_(cpu_seconds()) {
@@ -61,7 +61,9 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
 template <int Dim>
 RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow) const {
   require_reachable_end(spec_, flow.setup.time_step_rule);
-  return RunFolder::create(options_.out, options_.force, ranks_);
+  RunFolder folder = RunFolder::create(options_.out, options_.force, ranks_);
+  open_log(folder.log());
+  return folder;
 }
 
 template <int Dim>
@@ -121,18 +123,16 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
 
 template <int Dim>
 void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside) {
-  if (outside == 0 || warned_outside_ || !tells_) return;
+  if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
-  progress_.finish();
-  fmt::print(stderr,
-             "warning: at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still "
-             "computed, and counted in summary.json. Remedy: higher walls\n",
-             flow.state.time, outside);
+  warn(
+      fmt::format("at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still computed, and "
+                  "counted in summary.json. Remedy: higher walls",
+                  flow.state.time, outside));
 }
 
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
-  progress_.finish();
   write_fields(flow);
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
@@ -140,7 +140,6 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
 
 template <int Dim>
 void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, const std::string& message) {
-  progress_.finish();
   write_summary(flow, "failed", ExitCode::solver_failed, message);
 }
 
@@ -176,9 +175,8 @@ template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   if (flow.setup.open_ends.empty()) return;
   const Water inside = water_in(flow);
-  if (!tells_) return;
-  fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(), inside.text(),
-             water_out(flow).text());
+  tell(fmt::format("water: {} at the start, {} inside, {} out", water_at_start_.text(), inside.text(),
+                   water_out(flow).text()));
 }
 
 template class RunOutput<2>;

@@ -54,7 +54,6 @@ class RunOutput {
   const CaseSpec& spec_;
   const RunOptions& options_;
   Communicator ranks_;
-  bool tells_;                          ///< whether to print for the user: on the root, unless quiet
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
