@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -40,11 +41,6 @@ int number_in_environment(std::initializer_list<const char*> names) {
 bool is_in_batch_job() {
   const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
   return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
-}
-
-int usable_cores() {
-  cpu_set_t cores;
-  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
 std::string find_mpirun() {
@@ -114,6 +110,16 @@ Ending wait_for(pid_t mpirun, StopSender& stop) {
 
 int ranks_in_environment() {
   return std::max(0, number_in_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}));
+}
+
+int usable_cores() {
+  cpu_set_t cores;
+  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+int most_ranks_here() {
+  constexpr int ranks_per_core = 8;
+  return is_in_batch_job() ? std::numeric_limits<int>::max() : ranks_per_core * usable_cores();
 }
 
 bool is_root_in_environment() {

@@ -29,6 +29,12 @@ struct RunArguments {
 void require_possible(int wanted) {
   if (wanted < 1)
     throw InputError(fmt::format("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", wanted));
+  if (const int most = most_ranks_here(); wanted > most) {
+    throw InputError(
+        fmt::format("-n {}: this machine's cores can share at most {} ranks; remedy: -n {}, or more nodes "
+                    "in a batch job",
+                    wanted, most, usable_cores()));
+  }
   const int started = ranks_in_environment();
   if (started > 0 && wanted != started) {
     throw InputError(

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "case/choices.h"
+#include "case/sources.h"
 
 namespace tailwater {
 
@@ -470,6 +471,7 @@ struct CaseSpec {
   ParallelTable parallel;
   OutputTable output;
   std::vector<ProbeTable> probes;
+  CaseSources sources;
 
   bool operator==(const CaseSpec&) const = default;
 

@@ -95,7 +95,7 @@ void require_sound_geometry_in(const CaseSpec& spec) {
     if (finding.severity == Severity::error) {
       errors += (errors.empty() ? "" : "\n") + finding.message;
     } else {
-      warn(finding.message);
+      warn(spec.sources.placed(finding.message));
     }
   }
   if (!errors.empty()) throw InputError(errors);
@@ -112,8 +112,11 @@ void require_sound_geometry(const CaseSpec& spec) {
 }
 
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks) {
-  require_sound_geometry(spec);
-  return spec.general.dimension == 2 ? Run<2>(spec, options, ranks).execute() : Run<3>(spec, options, ranks).execute();
+  return with_places(spec, [&] {
+    require_sound_geometry(spec);
+    return spec.general.dimension == 2 ? Run<2>(spec, options, ranks).execute()
+                                       : Run<3>(spec, options, ranks).execute();
+  });
 }
 
 }  // namespace tailwater

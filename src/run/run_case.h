@@ -8,6 +8,16 @@
 
 namespace tailwater {
 
+/// Does `work`; an InputError about the case that leaves it tells the place in the case file.
+template <class Work>
+auto with_places(const CaseSpec& spec, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(spec.sources.placed(error.what()));
+  }
+}
+
 /// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told
 /// (io/messages.h). Throws InputError with all errors found.
 void require_sound_geometry(const CaseSpec& spec);
