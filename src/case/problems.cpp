@@ -42,7 +42,7 @@ std::string full_value_text(const toml::node& node) {
 
 std::string value_text(const toml::node& node) {
   const std::string text = full_value_text(node);
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  return text.size() <= longest ? text : fmt::format("{}...", text.substr(0, longest));
 }
 
 std::string place_text(const std::string& file, const toml::source_region* source) {

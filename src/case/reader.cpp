@@ -141,8 +141,8 @@ std::optional<std::string> CaseReader::settle(const std::string& name, const tom
       }
       report(node, key, error.what());
     }
-  } else if (node.is_number() && std::isfinite(*node.value<double>())) {
-    value = *node.value<double>();
+  } else if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) {
+    value = *number;
   } else {
     report(node, key, "not a finite number; give a number or an expression of other parameters");
   }

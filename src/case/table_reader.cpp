@@ -33,6 +33,11 @@ std::string home_of(std::string_view key) {
 
 }  // namespace
 
+std::optional<double> number_in(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  return node.value<double>();
+}
+
 std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format(" in {}", unit); }
 
 void TableReader::text(std::string_view key, std::string& value, std::string_view doc, Presence presence) {
@@ -246,7 +251,7 @@ std::optional<std::size_t> TableReader::chosen(std::string_view key, std::span<c
 
 std::optional<double> TableReader::evaluated(std::string_view key, std::string_view place, const toml::node& node,
                                              std::string_view unit) {
-  std::optional<double> value = node.value<double>();
+  std::optional<double> value = number_in(node);
   if (const auto* text = node.as_string()) {
     try {
       value = evaluate(text->get(), context_.numbers);

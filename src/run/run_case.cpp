@@ -23,7 +23,10 @@ template <int Dim>
 class Run {
  public:
   Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks)
-      : end_(spec.time.end), flow_(spec, ranks), output_(spec, options, flow_), guard_(flow_, output_.folder()) {}
+      : end_(spec.time.end),
+        flow_(spec, ranks),
+        output_(spec, options, flow_),
+        guard_(flow_, output_.folder(), spec.limits.smallest_step) {}
 
   ExitCode execute() {
     try {

@@ -50,6 +50,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       probes_(std::move(probe_list_), folder_, ranks_),
       progress_(spec.time.end),
       statistics_(measure(flow)),
+      limits_(spec.limits, flow),
       water_at_start_(water_in(flow)),
       cpu_start_(cpu_seconds()) {
   do_on_root(ranks_, [&] {
@@ -119,6 +120,12 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   if (step_log_) step_log_->write(flow.state.time, flow.state.step, report, measures);
   record_probes(flow, measures);
   progress_.show(flow.state.time, flow.state.step, report, measures);
+  try {
+    limits_.check(flow.state.time, statistics_.energy_rise(), measures);
+  } catch (const SolverError&) {
+    write_fields(flow);
+    throw;
+  }
 }
 
 template <int Dim>
@@ -156,6 +163,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"status", status},
                                     {"exit_code", static_cast<int>(code)},
                                     {"message", message},
+                                    {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
                                     {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
@@ -173,10 +181,13 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
 
 template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
-  if (flow.setup.open_ends.empty()) return;
-  const Water inside = water_in(flow);
-  tell(fmt::format("water: {} at the start, {} inside, {} out", water_at_start_.text(), inside.text(),
-                   water_out(flow).text()));
+  const Water outside = water_outside(flow);
+  if (flow.setup.open_ends.empty() && outside.particles == 0) return;
+  Water inside = water_in(flow);
+  inside.particles -= outside.particles;
+  inside.volume -= outside.volume;
+  tell(fmt::format("water: {} at the start, {} inside, {} outside the walls, {} out", water_at_start_.text(),
+                   inside.text(), outside.text(), water_out(flow).text()));
 }
 
 template class RunOutput<2>;

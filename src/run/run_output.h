@@ -15,6 +15,7 @@
 #include "probes/probe_set.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
+#include "run/result_limits.h"
 #include "run/run_options.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
@@ -36,7 +37,8 @@ class RunOutput {
   /// Records the probes that are due.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
   void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
-  /// Writes and shows everything that follows a step.
+  /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
+  /// case.
   void record_step(const Flow<Dim>& flow, const StepReport& report);
 
   /// Writes the last fields and the summary.
@@ -63,6 +65,7 @@ class RunOutput {
   ProbeSet<Dim> probes_;
   Progress progress_;
   RunStatistics statistics_;
+  ResultLimits limits_;
   Water water_at_start_;
   double next_fields_ = 0.0;  ///< s
   double last_fields_time_ = -1.0;

@@ -86,6 +86,8 @@ TABLE = (
              ("end = 0.1\n[output]\nfields_interval = 0.02", "end = 1e9")),
     BadInput("number that overflows", ("case.toml:4:11", "particles.spacing = 1e+308", "beyond 1e+15"),
              ("= 0.1\n[[", "= 1e308\n[[")),
+    BadInput("number that no double is", ("case.toml:4:11", "particles.spacing = 9223372036854775807", "beyond 1e+15"),
+             ("= 0.1\n[[", "= 9223372036854775807\n[[")),
     BadInput("number that underflows", ("case.toml:13:11", "scheme.courant = 1e-300", "at least 1e-15"),
              ("[time]", "[scheme]\ncourant = 1e-300\n[time]")),
     BadInput("velocity that overflows", ("case.toml:9:12", "fluid 'column'", "velocity[0]", '"1e300*x"'),

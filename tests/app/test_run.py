@@ -127,7 +127,8 @@ class Outlet(ProgramTest):
                     self.assertAlmostEqual(balance[key]["volume_m3"], 0.01 * balance[key]["particles"])
                 self.assertEqual([(o["name"], o["particles"]) for o in balance["outlets"]], [("end", out)])
                 *_, water, _ = result.stderr.splitlines()
-                self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, {out} .* out$")
+                self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, 0 .* outside the "
+                                        rf"walls, {out} .* out$")
 
                 names, steps = self.table(f"{integrator}/steps.csv")
                 volume_out = [row[names.index("volume_out_m3")] for row in steps]
@@ -150,6 +151,47 @@ class Outlet(ProgramTest):
     def test_the_preview_shows_it(self):
         self.call("check", "small.toml", *self.OPEN)
         self.assertIn(">end</text>", (self.folder / "small.preview.svg").read_text())
+
+
+class Books(ProgramTest):
+    # Thrown at 3 m/s over a rim 0.2 m away and 0.1 m higher than the water.
+    OVER_THE_RIM = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.2, 0], [1.2, 0.6]]", "--set",
+                    "fluid[0].velocity=[3, 2]", "--set", "time.end=0.6")
+
+    def test_water_that_left_over_a_rim_is_outside(self):
+        for ranks in ("1", "2"):
+            with self.subTest(ranks=ranks):
+                self.call("run", "small.toml", "--out", ranks, "--quiet", "-n", ranks, *self.OVER_THE_RIM)
+                balance = self.summary(ranks)["water_balance"]
+                self.assertGreater(balance["outside"]["particles"], 0)
+                positions, _ = read_points(read_series(self.folder / ranks / "fields/fields.pvd")[-1][1])
+                # Above the box around the walls it may still fall back in.
+                beyond = (positions[:, 0] > 1.2) | (positions[:, 0] < 0.0) | (positions[:, 1] < 0.0)
+                self.assertEqual(balance["outside"]["particles"], np.count_nonzero(beyond))
+                for key in ("particles", "volume_m3", "mass_kg"):
+                    before, after = ([balance[part][key] for part in parts]
+                                     for parts in (("start", "in"), ("inside", "outside", "out")))
+                    self.assertAlmostEqual(sum(before), sum(after), delta=1e-12 * sum(before))
+                self.assertEqual(balance["start"]["mass_kg"], 1000 * balance["start"]["volume_m3"])
+
+    def test_warnings_are_kept(self):
+        run = self.call("run", "small.toml", "--out", "run", *self.OVER_THE_RIM)
+        warnings = [line.removeprefix("warning: ") for line in run.stderr.splitlines() if line.startswith("warning: ")]
+        self.assertGreater(len(warnings), 0)
+        self.assertEqual(self.summary("run")["warnings"], warnings)
+
+    def test_an_error_beyond_its_limit_ends_the_run_with_fields_for_a_look(self):
+        for limit in ("energy_stop", "volume_stop"):
+            with self.subTest(limit):
+                self.call("run", "small.toml", "--out", limit, "--quiet", "--set", f"limits.{limit}=1e-9", "--set",
+                          "particles.jitter=0.3", "--set", "wall[0].points=[[0, 2], [0, 0], [1, 0], [1, 2]]", "--set",
+                          "time.end=0.3", expect=3)
+                summary = self.summary(limit)
+                self.assertEqual(summary["status"], "failed")
+                self.assertIn(f"limits.{limit} = 1e-09", summary["message"])
+                time, path = read_series(self.folder / limit / "fields/fields.pvd")[-1]
+                self.assertEqual(time, summary["time_s"]["reached"])
+                read_points(path)
 
 
 class Messages(ProgramTest):
