@@ -49,17 +49,23 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
 
 void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
-  require_sound_geometry(spec, false);
   std::error_code error;  // no preview yet: nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
     throw InputError(
         fmt::format("--preview {} is the case file itself; remedy: another name", options.preview.string()));
   }
-  const LinearSession session;
-  if (spec.general.dimension == 2) {
-    check_in<2>(spec, options);
-  } else {
-    check_in<3>(spec, options);
+  try {
+    with_places(spec, [&] {
+      require_sound_geometry(spec);
+      const LinearSession session;
+      if (spec.general.dimension == 2) {
+        check_in<2>(spec, options);
+      } else {
+        check_in<3>(spec, options);
+      }
+    });
+  } catch (const SolverError& failure) {
+    throw SolverError(fmt::format("{}: a trial step fails: {}", options.case_file.string(), failure.what()));
   }
 }
 

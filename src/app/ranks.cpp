@@ -14,10 +14,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "io/messages.h"
 #include "run/requests.h"
 
 namespace tailwater {
@@ -39,11 +41,6 @@ int number_in_environment(std::initializer_list<const char*> names) {
 bool is_in_batch_job() {
   const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
   return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
-}
-
-int usable_cores() {
-  cpu_set_t cores;
-  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
 std::string find_mpirun() {
@@ -113,19 +110,20 @@ Ending wait_for(pid_t mpirun, RequestSender& requests) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
 }
 
-/// "error: " before every line: a case may have several problems, one line each.
-void show_error(std::string_view message, std::string_view prefix = "") {
-  for (std::size_t start = 0; start < message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    fmt::print(stderr, "error: {}{}\n", prefix, message.substr(start, end - start));
-    start = end + 1;
-  }
-}
-
 }  // namespace
 
 int ranks_in_environment() {
   return std::max(0, number_in_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}));
+}
+
+int usable_cores() {
+  cpu_set_t cores;
+  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+int most_ranks_here() {
+  constexpr int ranks_per_core = 8;
+  return is_in_batch_job() ? std::numeric_limits<int>::max() : ranks_per_core * usable_cores();
 }
 
 bool is_root_in_environment() {
@@ -134,8 +132,7 @@ bool is_root_in_environment() {
 
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
-    fmt::print(stderr, "warning: {} ranks on {} core(s) take turns; remedy: -n {}\n", count, usable_cores(),
-               usable_cores());
+    warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   const std::vector<std::string> command = mpirun_command(count, arguments);
   int failure[2];
@@ -165,7 +162,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
 ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {
   const bool has_failed = !outcome.message.empty();
   if (ranks.is_alone()) {
-    show_error(outcome.message);
+    tell_error(outcome.message);
     return outcome.code;
   }
   const int own = has_failed ? static_cast<int>(outcome.code) : 0;
@@ -178,14 +175,14 @@ ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome
   for (int are_here = 0; !are_here;) {
     MPI_Test(&all_are_here, &are_here, MPI_STATUS_IGNORE);
     if (has_failed && !are_here && Clock::now() > deadline) {
-      show_error(outcome.message, name);
+      tell_error(outcome.message, name);
       MPI_Abort(ranks.handle(), own);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const auto first = std::find_if(codes.begin(), codes.end(), [](int code) { return code != 0; });
   if (first == codes.end()) return outcome.code;
-  if (first - codes.begin() == ranks.rank()) show_error(outcome.message, ranks.is_root() ? "" : name);
+  if (first - codes.begin() == ranks.rank()) tell_error(outcome.message, ranks.is_root() ? "" : name);
   return static_cast<ExitCode>(*first);
 }
 

@@ -14,6 +14,12 @@ namespace tailwater {
 /// did. As the environment says: MPI need not be running.
 int ranks_in_environment();
 
+/// Cores that this process may use.
+int usable_cores();
+
+/// Most ranks that this program starts: a few per core. No limit in a batch job, whose system knows other machines.
+int most_ranks_here();
+
 /// Is this the rank that speaks? As above.
 bool is_root_in_environment();
 

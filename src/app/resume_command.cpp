@@ -19,9 +19,11 @@ struct ResumeArguments {
   RankArguments ranks;
   std::string wall_time;
   std::vector<std::string> overrides;
+  bool quiet = false;
 };
 
 ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+  survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   const int wanted = arguments.ranks.count.value_or(ranks.is_alone() ? ranks_of_run(arguments.run.out) : ranks.size());
   if (arguments.ranks.count) require_possible(wanted);
@@ -29,7 +31,7 @@ ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = resume_run(arguments.run, arguments.overrides, ranks);
-  if (!arguments.run.quiet && ranks.is_root()) tell_end(code, arguments.run.out);
+  tell_end(code, arguments.run.out);
   return code;
 }
 
@@ -45,7 +47,7 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
       ->type_name("KEY=VALUE");
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks; default: as many as wrote the checkpoint");
-  command->add_flag("--quiet", arguments->run.quiet, "No progress and no warnings");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->footer(
       "Examples: tailwater resume my_run\n"
       "          tailwater resume my_run --set time.end=20\n"

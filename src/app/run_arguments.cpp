@@ -4,9 +4,11 @@
 
 #include <array>
 #include <charconv>
+#include <csignal>
 #include <string_view>
 
 #include "app/ranks.h"
+#include "io/messages.h"
 
 namespace tailwater {
 namespace {
@@ -64,9 +66,24 @@ void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::str
       ->type_name("TIME");
 }
 
+void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {
+  std::signal(SIGHUP, SIG_IGN);
+  if (ranks.is_root()) {
+    set_voice(quiet ? Voice::quiet : Voice::aloud);
+  } else {
+    set_voice(Voice::silent);
+  }
+}
+
 void require_possible(int ranks) {
   if (ranks < 1)
     throw InputError(fmt::format("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", ranks));
+  if (const int most = most_ranks_here(); ranks > most) {
+    throw InputError(
+        fmt::format("-n {}: this machine's cores can share at most {} ranks; remedy: -n {}, or more nodes "
+                    "in a batch job",
+                    ranks, most, usable_cores()));
+  }
   const int started = ranks_in_environment();
   if (started > 0 && ranks != started) {
     throw InputError(
@@ -89,9 +106,9 @@ std::optional<std::chrono::duration<double>> wall_time_of(const std::string& tex
 
 void tell_end(ExitCode code, const std::filesystem::path& run) {
   if (code == ExitCode::done) {
-    fmt::print(stderr, "done: results in {}\n", run.string());
+    tell(fmt::format("done: results in {}", run.string()));
   } else {
-    fmt::print(stderr, "interrupted: results in {}; to go on: tailwater resume {}\n", run.string(), run.string());
+    tell(fmt::format("interrupted: results in {}; to go on: tailwater resume {}", run.string(), run.string()));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 
@@ -19,6 +20,10 @@ struct RankArguments {
 /// The options -n and --wall-time.
 void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::string& wall_time,
                                const std::string& about_ranks);
+
+/// First of all in a command that runs: what is told goes to the user, on the root alone and unless `quiet`, and the
+/// end of the terminal is no reason to die. (Once a run goes, it writes a checkpoint then: run/requests.h.)
+void survive_hang_up_and_speak(const Communicator& ranks, bool quiet);
 
 /// Throws InputError for a number of ranks with which this program cannot run.
 void require_possible(int ranks);

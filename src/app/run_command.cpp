@@ -23,6 +23,7 @@ struct RunArguments {
   RankArguments ranks;
   std::string wall_time;
   std::string help_case;
+  bool quiet = false;
 };
 
 ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
@@ -33,6 +34,7 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
     throw InputError("tailwater run needs a case file and --out DIR, as in: tailwater run my.toml --out my_run");
   }
+  survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (const std::optional<int> count = arguments.ranks.count) {
     require_possible(*count);
@@ -42,7 +44,7 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = run_case(spec, arguments.run, ranks);
-  if (!arguments.run.quiet && ranks.is_root()) tell_end(code, arguments.run.out);
+  tell_end(code, arguments.run.out);
   return code;
 }
 
@@ -59,7 +61,7 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks, which this program starts by mpirun; default 1");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
-  command->add_flag("--quiet", arguments->run.quiet, "No progress and no warnings");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
       ->expected(0, 1)
       ->default_str("text")

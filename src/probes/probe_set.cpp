@@ -123,7 +123,8 @@ void ProbeSet<Dim>::Instrument::write(double time, const std::vector<Row>& rows)
 template <int Dim>
 void ProbeSet<Dim>::Instrument::count_as_taken(double time) {
   if (probe.times.empty() && probe.interval == 0.0) return;  // due at every step
-  // A long step may pass more than one.
+  // A long step may pass many intervals. The quotient may be off by one, for round-off.
+  if (probe.times.empty()) taken = std::max(taken, static_cast<std::size_t>(time / probe.interval));
   while (is_due(time)) ++taken;
 }
 

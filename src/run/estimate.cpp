@@ -94,8 +94,8 @@ Findings check_memory(const CaseSpec& spec, double available) {
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
   return {Finding::error(
-      "a spacing of {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only {:.3g} "
-      "GB are free: use a spacing of at least {:.3g} m",
+      "particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only "
+      "{:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes",
       spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting)};
 }
 

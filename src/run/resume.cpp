@@ -9,6 +9,7 @@
 
 #include "case/reader.h"
 #include "case/writer.h"
+#include "io/messages.h"
 #include "io/run_folder.h"
 #include "io/sealed_file.h"
 #include "parallel/together.h"
@@ -63,7 +64,7 @@ std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& f
   for (const fs::path& path : checkpoints_in(options.out)) {
     try {
       SealedFile file = read_sealed_file(path);
-      if (!problems.empty()) fmt::print(stderr, "warning: {}; going on from '{}'\n", problems, path.string());
+      if (!problems.empty()) warn(fmt::format("{}; going on from '{}'", problems, path.string()));
       found = path;
       return file;
     } catch (const IoError& error) {
@@ -86,8 +87,8 @@ void require_readable_format(const SealedFile& file, const fs::path& path) {
 /// Another program computes the same flow with other last digits.
 void tell_of_another_writer(const SealedFile& file) {
   if (file.writer == version_line()) return;
-  fmt::print(stderr, "warning: the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same\n",
-             file.writer, version_line());
+  warn(fmt::format("the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same", file.writer,
+                   version_line()));
 }
 
 void require_same_case(const CaseSpec& spec, const CaseSpec& saved, const fs::path& path, const fs::path& case_file) {
@@ -130,14 +131,14 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
     if (!checkpoint) return;
     require_readable_format(*checkpoint, path);
     require_same_case(before, case_of_checkpoint(*checkpoint), path, case_file);
-    if (!options.quiet) tell_of_another_writer(*checkpoint);
+    tell_of_another_writer(*checkpoint);
   });
   options.case_file = case_file;
   if (ranks.any(checkpoint.has_value())) {
     if (!checkpoint) checkpoint.emplace();
     return run_case(spec, options, ranks, &*checkpoint);
   }
-  if (!options.quiet && ranks.is_root()) fmt::print(stderr, "there is no checkpoint yet: starting again\n");
+  tell("there is no checkpoint yet: starting again");
   options.force = true;
   return run_case(spec, options, ranks);
 }

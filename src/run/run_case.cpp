@@ -1,7 +1,5 @@
 #include "run/run_case.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <csignal>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "flow/verbs.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
+#include "io/messages.h"
 #include "run/checkpoint_keeper.h"
 #include "run/estimate.h"
 #include "run/requests.h"
@@ -34,13 +33,11 @@ class Run {
         wall_time_(options.wall_time),
         flow_(spec, ranks),
         output_(spec, options, flow_, checkpoint ? &checkpoint->output : nullptr),
-        guard_(flow_, output_.folder()),
+        guard_(flow_, output_.folder(), spec.limits.smallest_step),
         keeper_(spec, output_.folder(), ranks) {
     if (!checkpoint) return;
     go_on_from(*checkpoint);
-    if (ranks.is_root() && !options.quiet) {
-      fmt::print(stderr, "going on from step {}, t = {:.4f} s\n", flow_.state.step, flow_.state.time);
-    }
+    tell(fmt::format("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time));
   }
 
   ExitCode execute() {
@@ -136,7 +133,7 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 }
 
 template <int Dim>
-void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
+void require_sound_geometry_in(const CaseSpec& spec, bool warns) {
   std::vector<Finding> findings = check_memory<Dim>(spec, available_memory());
   if (findings.empty()) {
     const Boundary<Dim> boundary = make_boundary<Dim>(spec);
@@ -146,8 +143,8 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
       errors += (errors.empty() ? "" : "\n") + finding.message;
-    } else if (!quiet) {
-      fmt::print(stderr, "warning: {}\n", finding.message);
+    } else if (warns) {
+      warn(spec.sources.placed(finding.message));
     }
   }
   if (!errors.empty()) throw InputError(errors);
@@ -155,11 +152,11 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
 
 }  // namespace
 
-void require_sound_geometry(const CaseSpec& spec, bool quiet) {
+void require_sound_geometry(const CaseSpec& spec, bool warns) {
   if (spec.general.dimension == 2) {
-    require_sound_geometry_in<2>(spec, quiet);
+    require_sound_geometry_in<2>(spec, warns);
   } else {
-    require_sound_geometry_in<3>(spec, quiet);
+    require_sound_geometry_in<3>(spec, warns);
   }
 }
 
@@ -167,9 +164,11 @@ ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communi
                   const SealedFile* checkpoint) {
   // A file that grows beyond the limit of a batch system is an error of the write, as on a full disk, and no signal.
   std::signal(SIGXFSZ, SIG_IGN);
-  require_sound_geometry(spec, options.quiet || !ranks.is_root() || checkpoint != nullptr);
-  return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
-                                     : run_in<3>(spec, options, ranks, checkpoint);
+  return with_places(spec, [&] {
+    require_sound_geometry(spec, checkpoint == nullptr);
+    return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
+                                       : run_in<3>(spec, options, ranks, checkpoint);
+  });
 }
 
 }  // namespace tailwater

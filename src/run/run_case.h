@@ -9,9 +9,19 @@
 
 namespace tailwater {
 
-/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings go to standard
-/// error. Throws InputError with all errors found.
-void require_sound_geometry(const CaseSpec& spec, bool quiet);
+/// Does `work`; an InputError about the case that leaves it tells the place in the case file.
+template <class Work>
+auto with_places(const CaseSpec& spec, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(spec.sources.placed(error.what()));
+  }
+}
+
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told
+/// (io/messages.h), unless an earlier run of the case has told them. Throws InputError with all errors found.
+void require_sound_geometry(const CaseSpec& spec, bool warns = true);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "case/writer.h"
+#include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
 #include "run/estimate.h"
@@ -71,15 +72,15 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       options_(options),
       case_file_(options.case_file.string()),
       ranks_(flow.setup.ranks),
-      tells_(ranks_.is_root() && !options.quiet),
       probe_list_(make_probes<Dim>(spec, flow.walls.boundary)),
       folder_(make_folder(flow, kept != nullptr)),
       series_(folder_.fields(), "fields", spec.output.compression),
       wall_series_(folder_.fields(), "walls", spec.output.compression),
       rank_log_(ranks_, folder_.ranks(), kept_bytes(kept, "ranks")),
       probes_(std::move(probe_list_), folder_, ranks_, kept ? std::optional(marks_of(*kept)) : std::nullopt),
-      progress_(spec.time.end, !tells_, kept ? kept->at("cost").at("wall_seconds").get<double>() : 0.0),
+      progress_(spec.time.end, kept ? kept->at("cost").at("wall_seconds").get<double>() : 0.0),
       statistics_(measure(flow)),
+      limits_(spec.limits, flow),
       water_at_start_(water_in(flow)),
       fields_interval_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
                                                          : spec.time.end / default_field_files),
@@ -91,8 +92,9 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
 template <int Dim>
 RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const {
   require_reachable_end(spec_, flow.setup.time_step_rule);
-  const RunFolder folder =
+  RunFolder folder =
       goes_on ? RunFolder::open(options_.out, ranks_) : RunFolder::create(options_.out, options_.force, ranks_);
+  open_log(folder.log());
   // First of all, because a run that is killed from now on can be started again from it.
   do_on_root(ranks_, [&] { write_text_file(folder.effective_case(), effective_case(spec_)); });
   return folder;
@@ -213,6 +215,12 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   });
   record_probes(flow, measures);
   progress_.show(flow.state.time, flow.state.step, report, measures);
+  try {
+    limits_.check(flow.state.time, statistics_.energy_rise(), measures);
+  } catch (const SolverError&) {
+    write_fields(flow);
+    throw;
+  }
 }
 
 /// A folder that was removed or replaced takes no more lines, and no write to an open file says so.
@@ -226,18 +234,16 @@ void RunOutput<Dim>::require_folder_in_place() {
 
 template <int Dim>
 void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside) {
-  if (outside == 0 || warned_outside_ || !tells_) return;
+  if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
-  progress_.finish();
-  fmt::print(stderr,
-             "warning: at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still "
-             "computed, and counted in summary.json. Remedy: higher walls\n",
-             flow.state.time, outside);
+  warn(
+      fmt::format("at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still computed, and "
+                  "counted in summary.json. Remedy: higher walls",
+                  flow.state.time, outside));
 }
 
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
-  progress_.finish();
   write_fields(flow);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
@@ -246,7 +252,6 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
 
 template <int Dim>
 void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message) {
-  progress_.finish();
   try {
     write_summary(flow, "failed", code, message);
   } catch (const IoError&) {
@@ -266,6 +271,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"status", status},
                                     {"exit_code", nullptr},
                                     {"message", message},
+                                    {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
                                     {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
@@ -287,11 +293,13 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
 
 template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
-  if (flow.setup.open_ends.empty()) return;
-  const Water inside = water_in(flow);
-  if (!tells_) return;
-  fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(), inside.text(),
-             water_out(flow).text());
+  const Water outside = water_outside(flow);
+  if (flow.setup.open_ends.empty() && outside.particles == 0) return;
+  Water inside = water_in(flow);
+  inside.particles -= outside.particles;
+  inside.volume -= outside.volume;
+  tell(fmt::format("water: {} at the start, {} inside, {} outside the walls, {} out", water_at_start_.text(),
+                   inside.text(), outside.text(), water_out(flow).text()));
 }
 
 template class RunOutput<2>;

@@ -16,6 +16,7 @@
 #include "probes/probe_set.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
+#include "run/result_limits.h"
 #include "run/run_options.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
@@ -50,7 +51,8 @@ class RunOutput {
   /// Records the probes that are due.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
   void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
-  /// Writes and shows everything that follows a step.
+  /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
+  /// case.
   void record_step(const Flow<Dim>& flow, const StepReport& report);
 
   /// Writes the last fields and the summary.
@@ -75,7 +77,6 @@ class RunOutput {
   const RunOptions& options_;
   std::string case_file_;  ///< as named in the summary
   Communicator ranks_;
-  bool tells_;                          ///< whether to print for the user: on the root, unless quiet
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
@@ -85,6 +86,7 @@ class RunOutput {
   ProbeSet<Dim> probes_;
   Progress progress_;
   RunStatistics statistics_;
+  ResultLimits limits_;
   Water water_at_start_;
   double fields_interval_;    ///< s
   double next_fields_ = 0.0;  ///< s

@@ -16,6 +16,9 @@ class RunStatistics {
 
   void add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped);
 
+  /// J; largest rise of the energy, outlets and walls accounted for.
+  double energy_rise() const { return energy_rise_; }
+
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 

@@ -38,7 +38,7 @@ TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
   CaseSpec spec = tank();
   EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
   spec.particles.spacing = 1e-12;
-  expect_one_error(check_memory<2>(spec, 1e9), {"spacing of 1e-12 m", "1 GB are free", "at least"});
+  expect_one_error(check_memory<2>(spec, 1e9), {"particles.spacing = 1e-12 m", "1 GB are free", "at least"});
 }
 
 TEST(CheckMemory, TheSpacingItProposesFits) {
