@@ -217,7 +217,10 @@ void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, cons
 /// bytes; a hundred times what a case needs, and read in a moment
 constexpr std::uintmax_t largest_file = 1 << 18;
 
-std::string read_text(const std::filesystem::path& path) {
+/// bytes; the case that a run leaves has every key, with its explanation
+constexpr std::uintmax_t largest_effective_case = 32 * largest_file;
+
+std::string read_text(const std::filesystem::path& path, std::uintmax_t largest) {
   std::error_code error;  // what does not exist is told below
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) {
@@ -226,8 +229,8 @@ std::string read_text(const std::filesystem::path& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw IoError(fmt::format("{}: is a device or a pipe; give a case file", path.string()));
   }
-  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest_file) {
-    throw InputError(fmt::format("{}: has {} bytes; a case file has at most {}", path.string(), size, largest_file));
+  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
+    throw InputError(fmt::format("{}: has {} bytes; a case file has at most {}", path.string(), size, largest));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -304,7 +307,11 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
 }  // namespace
 
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_case_text(read_text(path), path.string(), overrides);
+  return read_case_text(read_text(path, largest_file), path.string(), overrides);
+}
+
+CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read_case_text(read_text(path, largest_effective_case), path.string(), overrides);
 }
 
 CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
@@ -325,7 +332,7 @@ CaseSpec read_case_text(std::string_view text, const std::string& origin, const 
   if (!context.problems.none()) {
     throw InputError(context.problems.text());
   }
-  spec.sources = find_sources(spec, root, file);
+  spec.sources = find_sources(spec, root, origin);
   return spec;
 }
 

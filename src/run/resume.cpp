@@ -120,9 +120,10 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
                       "was given by --out",
                       options.out.string(), effective_case_name));
     }
+    FolderLock::require_free(options.out);  // before anything is read that a run replaces as it goes
   });
-  const CaseSpec before = read_case(case_file);
-  const CaseSpec spec = read_case(case_file, overrides);
+  const CaseSpec before = read_effective_case(case_file);
+  const CaseSpec spec = read_effective_case(case_file, overrides);
   require_allowed(before, spec);
   std::optional<SealedFile> checkpoint;
   do_on_root(ranks, [&] {

@@ -265,7 +265,7 @@ class LostTerminal(ProgramTest):
                 self.wait_for(lambda: len(list((self.folder / ranks / "fields").iterdir())) > fields + 2, process)
                 process.send_signal(signal.SIGTERM)
                 self.assertEqual(process.wait(timeout=PATIENCE), 130)
-                self.assertIn(f"interrupted: results in {ranks}\n", (self.folder / ranks / "log.txt").read_text())
+                self.assertIn(f"interrupted: results in {ranks}; to go on: ", (self.folder / ranks / "log.txt").read_text())
                 process.stderr = None  # nothing to read for the end of the test
 
     def test_standard_output_that_takes_nothing_is_an_error(self):
@@ -317,8 +317,9 @@ class ExistingFolder(ProgramTest):
             with self.subTest(ranks=ranks):
                 process = self.start("run", "small.toml", "--out", ranks, "--quiet", "-n", ranks, *ENDLESS)
                 self.wait_for((self.folder / ranks / "fields/fields_00001.vtp").exists, process)
-                for arguments in (("-n", ranks), ("--force",)):
-                    message = self.call("run", "small.toml", "--out", ranks, *arguments, expect=2).stderr
+                for command in (("run", "small.toml", "--out", ranks), ("run", "small.toml", "--out", ranks, "--force"),
+                                ("resume", ranks)):
+                    message = self.call(*command, expect=2).stderr
                     self.assertIn(f"'{ranks}' is still going (process ", message)
                 process.send_signal(signal.SIGINT)
                 self.assertEqual(process.wait(timeout=PATIENCE), 130)
