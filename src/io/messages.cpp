@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <utility>
 
 namespace tailwater {
 namespace {
@@ -127,5 +128,13 @@ void open_log(const std::filesystem::path& path) {
 }
 
 const std::vector<std::string>& warnings() { return messages().warnings; }
+
+void recall_warnings(std::vector<std::string> earlier) {
+  std::vector<std::string>& all = messages().warnings;
+  for (const std::string& warning : all) {
+    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end()) earlier.push_back(warning);
+  }
+  all = std::move(earlier);
+}
 
 }  // namespace tailwater

@@ -42,5 +42,8 @@ void open_log(const std::filesystem::path& path);
 
 /// All warnings so far, without the word "warning".
 const std::vector<std::string>& warnings();
+/// Puts the warnings of an earlier run, which this one goes on with, before those so far; what both have counts once.
+/// Nothing is told again.
+void recall_warnings(std::vector<std::string> earlier);
 
 }  // namespace tailwater

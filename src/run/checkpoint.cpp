@@ -84,6 +84,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
                       {"step", step},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
+                      {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
                       {"output", checkpoint.output}};
   for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
@@ -98,6 +99,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.step = json.at("step");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
+  checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
   checkpoint.output = json.at("output");
 }

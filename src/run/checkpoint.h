@@ -23,6 +23,7 @@ struct Checkpoint {
   State<Dim> state;              ///< of this rank
   nlohmann::json output;         ///< how far the run's output has come (RunOutput::saved); on all ranks
   std::vector<double> rank_log;  ///< of this rank (RankLog::saved)
+  double reference_step = 0.0;   ///< s (StepGuard); the same on all ranks
   std::string cuts;              ///< of this rank (SpaceCuts::bytes); empty if space must be cut anew
   bool is_shared_out = true;     ///< false where it was written by another number of ranks
 };

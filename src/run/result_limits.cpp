@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "io/messages.h"
@@ -37,6 +38,14 @@ void ResultLimits::check(Limit& limit, double time, double error) {
     limit.has_warned = true;
     warn(describe("warning", limit.warning));
   }
+}
+
+nlohmann::json ResultLimits::saved() const {
+  return {{energy_.keys, energy_.has_warned}, {volume_.keys, volume_.has_warned}};
+}
+
+void ResultLimits::restore(const nlohmann::json& saved) {
+  for (Limit* limit : {&energy_, &volume_}) saved.at(limit->keys).get_to(limit->has_warned);
 }
 
 template ResultLimits::ResultLimits(const LimitsTable&, const Flow<2>&);

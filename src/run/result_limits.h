@@ -1,6 +1,8 @@
 // Watches the errors of a run's own books: a warning beyond one limit, the end of the run beyond another.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
@@ -16,6 +18,10 @@ class ResultLimits {
   /// Call after every step; `energy_rise` [J] is the largest rise so far. Warns once of each error. Throws SolverError,
   /// which names the key, beyond a limit that ends the run.
   void check(double time, double energy_rise, const FlowMeasures& measures);
+
+  /// What has been warned of, for a checkpoint, and from one.
+  nlohmann::json saved() const;
+  void restore(const nlohmann::json& saved);
 
  private:
   struct Limit {

@@ -61,6 +61,7 @@ class Run {
     keeper_.go_on_from(checkpoint.state.step);
     flow_.restore(std::move(checkpoint.state));
     output_.rank_log().restore(checkpoint.rank_log);
+    guard_.restore_reference_step(checkpoint.reference_step);
     goes_on_ = true;
     if (!checkpoint.is_shared_out) return;
     if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(checkpoint.cuts));
@@ -108,7 +109,7 @@ class Run {
     const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
     if (is_shared_out) {
       if (flow_.state.step != shared_out_step_) output_.record_sharing(flow_, share_out(flow_));
-      keeper_.remember(flow_, output_);
+      keeper_.remember(flow_, output_, guard_);
     }
     const bool some_left = let_go(flow_);
     if (some_left || is_shared_out) guard_.remember_good();

@@ -115,6 +115,8 @@ nlohmann::json RunOutput<Dim>::saved() const {
             {"last", last_fields_time_}}},
           {"statistics", statistics_.saved()},
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
+          {"warnings", warnings()},
+          {"limits", limits_.saved()},
           {"warned_outside", warned_outside_}};
 }
 
@@ -135,6 +137,8 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   }
   statistics_.restore(kept.at("statistics"));
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
+  recall_warnings(kept.at("warnings"));
+  limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
   const nlohmann::json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");

@@ -26,6 +26,10 @@ class StepGuard {
   /// message names the term of the time-step rule, and the particle or the wall behind it.
   void require_sound_step(double dt);
 
+  /// s; the step at the start, with which later ones are compared; for a checkpoint, and from one.
+  double reference_step() const { return reference_step_; }
+  void restore_reference_step(double step) { reference_step_ = step; }
+
   /// Does a part of the solution. Fails the run if `work` throws a SolverError or leaves a value that is not finite. If
   /// both happen it reports the particle with that value, because the error follows from it.
   void attempt(const std::function<void()>& work);

@@ -21,11 +21,11 @@ def without_timings(summary):
 
 
 def results(run):
-    """All a run leaves except its checkpoints, by name: bytes, or numbers where timings are taken out."""
+    """All a run leaves except checkpoints and log, by name: bytes, or numbers where timings are taken out."""
     found = {}
     for path in sorted(run.rglob("*")):
         name = str(path.relative_to(run))
-        if path.is_dir() or name.startswith("checkpoints/"):
+        if path.is_dir() or name.startswith("checkpoints/") or name == "log.txt":
             continue
         if name == "summary.json":
             found[name] = without_timings(json.loads(path.read_text()))
@@ -38,9 +38,13 @@ def results(run):
     return found
 
 
-def assert_same_results(test, run, other):
-    """Bit for bit; the message names the first file that differs and not its bytes."""
+def assert_same_results(test, run, other, apart_from=()):
+    """Bit for bit, apart from these keys of the summary; the message names the first file that differs and not its
+    bytes."""
     a, b = results(test.folder / run), results(test.folder / other)
+    for summary in (a["summary.json"], b["summary.json"]):
+        for key in apart_from:
+            del summary[key]
     test.assertEqual(a.keys(), b.keys())
     for name in a:
         if isinstance(a[name], bytes):
