@@ -42,8 +42,11 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
              estimate.particles.wall, spec.particles.spacing);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
-  fmt::print("time:      about {:.0f} steps, {} on this machine (violent flow takes more and smaller steps)\n",
-             estimate.steps, readable_duration(estimate.seconds));
+  fmt::print(
+      "time:      about {:.0f} steps, {} on this machine, from trial steps of {} (violent flow takes more and "
+      "smaller steps)\n",
+      estimate.steps, readable_duration(estimate.seconds),
+      estimate.is_from_tank ? "a tank of about 10000 particles, because the case is large: a first guess" : "the case");
   fmt::print("preview:   {}\n", preview.string());
 }
 

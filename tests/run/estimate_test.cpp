@@ -83,5 +83,19 @@ TEST(EstimateRun, CountsWhatThereIs) {
   EXPECT_GT(estimate.seconds, 0.0);
 }
 
+TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
+  CaseSpec spec = pond_case<2>();
+  Flow<2> tried(spec);
+  const RunEstimate from_case = estimate_run(spec, tried);
+  EXPECT_FALSE(from_case.is_from_tank);
+  Flow<2> flow(spec);
+  const RunEstimate estimate = estimate_run(spec, flow, 1.0);
+  EXPECT_TRUE(estimate.is_from_tank);
+  EXPECT_EQ(estimate.particles.fluid, 8.0);
+  EXPECT_NEAR(estimate.steps, from_case.steps, 1e-9 * estimate.steps);
+  EXPECT_GT(estimate.seconds, 0.0);
+  EXPECT_EQ(flow.state.step, 0);
+}
+
 }  // namespace
 }  // namespace tailwater
