@@ -408,7 +408,7 @@ struct LimitsTable {
   double smallest_step = 1e-3;
   double energy_warning = 1e-3;
   double energy_stop = 0.0;
-  double volume_warning = 0.02;
+  double volume_warning = 0.05;
   double volume_stop = 0.0;
 
   bool operator==(const LimitsTable&) const = default;
