@@ -104,6 +104,8 @@ class RanksTest(ProgramTest):
         self.assertEqual(len(ranks), 2)
         for rank in ranks:
             os.kill(rank, signal.SIGSTOP)  # they see no request
+        message = self.call("run", "small.toml", "--out", self.folder / "out", "--force", expect=2).stderr
+        self.assertIn("is still going (process ", message)
         process.send_signal(signal.SIGINT)
         self.wait_for((self.folder / "out" / "STOP").exists, process)
         process.send_signal(signal.SIGINT)
