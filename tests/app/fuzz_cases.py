@@ -26,7 +26,7 @@ PROGRAM = os.environ["TAILWATER"]
 TREE = pathlib.Path(__file__).resolve().parents[2]
 
 LONGEST = 10  # s; of a check, on a machine that does nothing else
-COUNT_IN_SUITE = 40
+COUNT_IN_SUITE = 30
 
 # What a case is made coarser by, so that it has some hundred particles.
 COARSE = {"janosi2004": 0.02, "martin_moyce1952": 0.008, "ozmen_cagatay2014": 0.05, "soares_frazao2002": 0.05,
