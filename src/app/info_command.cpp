@@ -16,8 +16,10 @@ namespace {
 void show_program() {
   const nlohmann::ordered_json about = provenance();
   const auto& machine = about["machine"];
-  fmt::print("{}\nlibraries: {}\nmachine:   {}, {} ({} cores)\n", version_line(), about["libraries"].get<std::string>(),
-             machine["name"].get<std::string>(), machine["processor"].get<std::string>(), machine["cores"].get<int>());
+  fmt::print("{}\nbuild:     {}, {}\nlibraries: {}\nmachine:   {}, {} ({} cores)\n", version_line(),
+             about["compiler"].get<std::string>(), about["options"].get<std::string>(),
+             about["libraries"].get<std::string>(), machine["name"].get<std::string>(),
+             machine["processor"].get<std::string>(), machine["cores"].get<int>());
 }
 
 using Json = nlohmann::ordered_json;

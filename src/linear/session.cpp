@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -66,7 +67,13 @@ LinearSession::~LinearSession() {
 }
 
 std::string linear_library_version() {
-  return fmt::format("PETSc {}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+  int length = 0;
+  MPI_Get_library_version(mpi, &length);
+  const std::string_view name(mpi, static_cast<std::size_t>(length));
+  // The rest tells how MPI was built.
+  return fmt::format("PETSc {}.{}.{}, {}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
+                     name.substr(0, name.find_first_of(",\n")));
 }
 
 }  // namespace tailwater

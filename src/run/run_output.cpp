@@ -277,6 +277,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"message", message},
                                     {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
+                                    {"seed", spec_.particles.seed},
                                     {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
                                     {"cost",

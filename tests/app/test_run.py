@@ -71,9 +71,10 @@ class OutputContract(ProgramTest):
         self.assertEqual(summary["volume"]["fluid_particles_end"], summary["volume"]["fluid_particles_start"])
         self.assertGreater(summary["cost"]["wall_clock_s"], 0.0)
         self.assertGreater(summary["cost"]["peak_memory_bytes"], 0.0)
-        for block in ("pressure_solver", "divergence", "energy", "interventions", "version", "commit", "libraries",
-                      "machine"):
+        for block in ("pressure_solver", "divergence", "energy", "interventions", "version", "commit", "compiler", "options",
+                      "libraries", "machine"):
             self.assertIn(block, summary)
+        self.assertEqual((summary["seed"], summary["ranks"]["count"]), (1, 1))
 
     def test_the_effective_case_gives_the_same_run(self):
         overrides = ("--set", "scheme.integrator=implicit", "--set", "particles.jitter=0.2", "--set",
