@@ -1,4 +1,4 @@
-# Writes VERSION_HEADER with the project's version and the commit it is built from; touched only when they change.
+# Writes VERSION_HEADER with the project's version, the commit it is built from, compiler and options; touched only when they change.
 execute_process(
   COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
   OUTPUT_VARIABLE commit

@@ -5,7 +5,7 @@ set -euo pipefail
 
 build=(
   g++ cmake ninja-build pkg-config git ca-certificates
-  libpetsc-real-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
+  libpetsc-real-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)

@@ -42,24 +42,33 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
              estimate.particles.wall, spec.particles.spacing);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
-  fmt::print("time:      about {:.0f} steps, {} on this machine (violent flow takes more and smaller steps)\n",
-             estimate.steps, readable_duration(estimate.seconds));
+  fmt::print(
+      "time:      about {:.0f} steps, {} on this machine, from trial steps of {} (violent flow takes more and "
+      "smaller steps)\n",
+      estimate.steps, readable_duration(estimate.seconds),
+      estimate.is_from_tank ? "a tank of about 10000 particles, because the case is large: a first guess" : "the case");
   fmt::print("preview:   {}\n", preview.string());
 }
 
 void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
-  require_sound_geometry(spec, false);
   std::error_code error;  // no preview yet: nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
     throw InputError(
         fmt::format("--preview {} is the case file itself; remedy: another name", options.preview.string()));
   }
-  const LinearSession session;
-  if (spec.general.dimension == 2) {
-    check_in<2>(spec, options);
-  } else {
-    check_in<3>(spec, options);
+  try {
+    with_places(spec, [&] {
+      require_sound_geometry(spec);
+      const LinearSession session;
+      if (spec.general.dimension == 2) {
+        check_in<2>(spec, options);
+      } else {
+        check_in<3>(spec, options);
+      }
+    });
+  } catch (const SolverError& failure) {
+    throw SolverError(fmt::format("{}: a trial step fails: {}", options.case_file.string(), failure.what()));
   }
 }
 

@@ -15,6 +15,8 @@ void add_new_command(CLI::App& app, ExitCode& code);
 void add_check_command(CLI::App& app, ExitCode& code);
 /// `words` are those of the command line after the program, with which other ranks are started.
 void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words);
+void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
+                        const std::vector<std::string>& words);
 void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
 void add_validate_command(CLI::App& app, ExitCode& code);

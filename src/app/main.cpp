@@ -2,18 +2,22 @@
 // those of ExitCode.
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/ranks.h"
 #include "base/fp_traps.h"
 #include "case/nearest_name.h"
+#include "io/messages.h"
 #include "linear/session.h"
 #include "run/provenance.h"
 
@@ -65,6 +69,14 @@ class Ranks {
   MPI_Comm meeting_ = MPI_COMM_SELF;
 };
 
+/// When standard output has not taken everything. `error_number` is 0 if it has failed before.
+Outcome output_failure(int error_number) {
+  if (error_number == EPIPE) return {};  // the reader has read enough
+  return {ExitCode::io_failed,
+          fmt::format("cannot write to standard output{}",
+                      error_number == 0 ? "" : ": " + std::generic_category().message(error_number))};
+}
+
 /// Does what the command line asks for.
 Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
@@ -83,23 +95,27 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_new_command(app, code);
   add_check_command(app, code);
   add_run_command(app, code, ranks, {argv + 1, argv + argc});
+  add_resume_command(app, code, ranks, {argv + 1, argv + argc});
   add_info_command(app, code);
   add_bench_command(app, code);
   add_validate_command(app, code);
 
   try {
     if (argc == 1) {
-      if (ranks.is_root()) fmt::print(stderr, "{}", app.help());
+      if (ranks.is_root()) tell(app.help());
       return {ExitCode::bad_input, ""};
     }
-    if (!ranks.is_alone() && std::string_view(argv[1]) != "run") {
+    const std::string_view command = argv[1];
+    if (!ranks.is_alone() && command != "run" && command != "resume") {
       throw InputError(
-          fmt::format("{} ranks were started, but only `tailwater run` uses more than one; remedy: "
+          fmt::format("{} ranks were started, but only `tailwater run` and `resume` use more than one; remedy: "
                       "tailwater {} without mpirun",
                       ranks.size(), argv[1]));
     }
     app.parse(argc, argv);
-  } catch (const CLI::Success& request) {  // --help and --version
+    if (std::fflush(stdout) != 0) return output_failure(errno);
+    if (std::ferror(stdout) != 0) return output_failure(0);  // seen by MPI, which flushes too when it ends
+  } catch (const CLI::Success& request) {                    // --help and --version
     if (ranks.is_root()) app.exit(request);
   } catch (const CLI::ParseError& error) {
     return {ExitCode::bad_input, command_line_problem(app, error)};
@@ -107,6 +123,9 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
     return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
     return {ExitCode::solver_failed, "out of memory; remedy: a larger particles.spacing (see: tailwater check)"};
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return output_failure(error.code().value());
+    return {ExitCode::io_failed, error.what()};
   } catch (const std::exception& error) {
     return {ExitCode::solver_failed, error.what()};
   }
@@ -118,6 +137,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
 
 int main(int argc, char** argv) {
   using namespace tailwater;
+  survive_lost_terminal();
   const char* traps = std::getenv("TAILWATER_FP_TRAPS");
   if (traps != nullptr && std::string_view(traps) == "1") enable_fp_traps();
   try {

@@ -14,10 +14,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "io/messages.h"
 #include "run/requests.h"
 
 namespace tailwater {
@@ -39,11 +41,6 @@ int number_in_environment(std::initializer_list<const char*> names) {
 bool is_in_batch_job() {
   const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
   return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
-}
-
-int usable_cores() {
-  cpu_set_t cores;
-  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
 std::string find_mpirun() {
@@ -84,7 +81,7 @@ std::vector<std::string> mpirun_command(int count, const std::vector<std::string
 sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   return signals;
 }
 
@@ -94,8 +91,8 @@ struct Ending {
 };
 
 /// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 asks the ranks to end in order. A second one, or the first
-/// when their run has not begun, makes mpirun kill them.
-Ending wait_for(pid_t mpirun, StopSender& stop) {
+/// when their run has not begun, makes mpirun kill them. SIGHUP asks for a checkpoint.
+Ending wait_for(pid_t mpirun, RequestSender& requests) {
   const sigset_t signals = awaited_signals();
   bool was_asked = false;
   int status = 0;
@@ -103,19 +100,14 @@ Ending wait_for(pid_t mpirun, StopSender& stop) {
     int signal = 0;
     sigwait(&signals, &signal);
     if (signal == SIGCHLD) continue;
-    if (was_asked || !stop.send()) kill(mpirun, SIGTERM);
+    if (signal == SIGHUP) {
+      requests.ask_for_checkpoint();
+      continue;
+    }
+    if (was_asked || !requests.ask_for_stop()) kill(mpirun, SIGTERM);
     was_asked = true;
   }
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
-}
-
-/// "error: " before every line: a case may have several problems, one line each.
-void show_error(std::string_view message, std::string_view prefix = "") {
-  for (std::size_t start = 0; start < message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    fmt::print(stderr, "error: {}{}\n", prefix, message.substr(start, end - start));
-    start = end + 1;
-  }
 }
 
 }  // namespace
@@ -124,19 +116,28 @@ int ranks_in_environment() {
   return std::max(0, number_in_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}));
 }
 
+int usable_cores() {
+  cpu_set_t cores;
+  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+int most_ranks_here() {
+  constexpr int ranks_per_core = 8;
+  return is_in_batch_job() ? std::numeric_limits<int>::max() : ranks_per_core * usable_cores();
+}
+
 bool is_root_in_environment() {
   return number_in_environment({"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"}) <= 0;
 }
 
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
-    fmt::print(stderr, "warning: {} ranks on {} core(s) take turns; remedy: -n {}\n", count, usable_cores(),
-               usable_cores());
+    warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   const std::vector<std::string> command = mpirun_command(count, arguments);
   int failure[2];
   if (pipe2(failure, O_CLOEXEC) != 0) throw IoError("cannot make a pipe: " + std::generic_category().message(errno));
-  StopSender stop(out);
+  RequestSender requests(out);
   const sigset_t signals = awaited_signals();
   sigset_t signals_before;
   sigprocmask(SIG_BLOCK, &signals, &signals_before);
@@ -148,7 +149,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
   int error_number = 0;
   const bool has_failed = read(failure[0], &error_number, sizeof(error_number)) == sizeof(error_number);
   close(failure[0]);
-  const auto [code, was_asked] = wait_for(process, stop);
+  const auto [code, was_asked] = wait_for(process, requests);
   if (has_failed) {
     throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
                                  std::generic_category().message(error_number)));
@@ -161,7 +162,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
 ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {
   const bool has_failed = !outcome.message.empty();
   if (ranks.is_alone()) {
-    show_error(outcome.message);
+    tell_error(outcome.message);
     return outcome.code;
   }
   const int own = has_failed ? static_cast<int>(outcome.code) : 0;
@@ -174,14 +175,14 @@ ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome
   for (int are_here = 0; !are_here;) {
     MPI_Test(&all_are_here, &are_here, MPI_STATUS_IGNORE);
     if (has_failed && !are_here && Clock::now() > deadline) {
-      show_error(outcome.message, name);
+      tell_error(outcome.message, name);
       MPI_Abort(ranks.handle(), own);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const auto first = std::find_if(codes.begin(), codes.end(), [](int code) { return code != 0; });
   if (first == codes.end()) return outcome.code;
-  if (first - codes.begin() == ranks.rank()) show_error(outcome.message, ranks.is_root() ? "" : name);
+  if (first - codes.begin() == ranks.rank()) tell_error(outcome.message, ranks.is_root() ? "" : name);
   return static_cast<ExitCode>(*first);
 }
 

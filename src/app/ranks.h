@@ -14,12 +14,19 @@ namespace tailwater {
 /// did. As the environment says: MPI need not be running.
 int ranks_in_environment();
 
+/// Cores that this process may use.
+int usable_cores();
+
+/// Most ranks that this program starts: a few per core. No limit in a batch job, whose system knows other machines.
+int most_ranks_here();
+
 /// Is this the rank that speaks? As above.
 bool is_root_in_environment();
 
 /// Starts this program with the same `arguments` on `count` ranks by mpirun and waits for it. Ctrl-C, SIGTERM
 /// and SIGUSR1 ask the run to end in order through its folder `out` (run/requests.h), since not every mpirun hands
-/// signals on; a second one kills the ranks, as does the first while nothing has been written. Returns their exit code.
+/// signals on; a second one kills the ranks, as does the first while nothing has been written. SIGHUP asks for a
+/// checkpoint. Returns their exit code.
 /// Throws InputError when there is no mpirun.
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out);
 

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/ranks.h"
+#include "app/run_arguments.h"
 #include "case/help.h"
 #include "case/reader.h"
 #include "linear/session.h"
@@ -19,21 +20,13 @@ namespace {
 struct RunArguments {
   RunOptions run;
   std::vector<std::string> overrides;
-  std::optional<int> ranks;
+  RankArguments ranks;
+  std::string wall_time;
   std::string help_case;
+  bool quiet = false;
 };
 
-void require_possible(int wanted) {
-  if (wanted < 1)
-    throw InputError(fmt::format("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", wanted));
-  const int started = ranks_in_environment();
-  if (started > 0 && wanted != started) {
-    throw InputError(
-        fmt::format("-n {}: mpirun (or srun) has started {} rank(s) already; remedy: leave -n out", wanted, started));
-  }
-}
-
-ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
     if (ranks.is_root()) fmt::print("{}", arguments.help_case == "markdown" ? case_reference_markdown() : case_help());
     return ExitCode::done;
@@ -41,18 +34,17 @@ ExitCode execute(const RunArguments& arguments, const Communicator& ranks, const
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
     throw InputError("tailwater run needs a case file and --out DIR, as in: tailwater run my.toml --out my_run");
   }
-  if (arguments.ranks) {
-    require_possible(*arguments.ranks);
-    if (*arguments.ranks > 1 && ranks.is_alone()) return launch_ranks(*arguments.ranks, words, arguments.run.out);
+  survive_hang_up_and_speak(ranks, arguments.quiet);
+  arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
+  if (const std::optional<int> count = arguments.ranks.count) {
+    require_possible(*count);
+    if (*count > 1 && ranks.is_alone()) return launch_ranks(*count, words, arguments.run.out);
   }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = run_case(spec, arguments.run, ranks);
-  if (!arguments.run.quiet && ranks.is_root()) {
-    fmt::print(stderr, "{}: results in {}\n", code == ExitCode::done ? "done" : "interrupted",
-               arguments.run.out.string());
-  }
+  tell_end(code, arguments.run.out);
   return code;
 }
 
@@ -66,10 +58,10 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   command->add_option("--set", arguments->overrides, "Override a key, as in --set scheme.integrator=implicit")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("-n", arguments->ranks, "Number of ranks, which this program starts by mpirun; default 1")
-      ->type_name("COUNT");
+  add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
+                            "Number of ranks, which this program starts by mpirun; default 1");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
-  command->add_flag("--quiet", arguments->run.quiet, "No progress and no warnings");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
       ->expected(0, 1)
       ->default_str("text")
@@ -82,7 +74,8 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"
       "DIR/fields/fields.pvd (open it in ParaView) and DIR/summary.json; if the run fails, also DIR/failure/.\n"
       "Ctrl-C, or the file DIR/STOP (touch DIR/STOP), ends a run in order after the present step: what it has written\n"
-      "can be used.");
+      "can be used, and `tailwater resume DIR` goes on. Checkpoints are also written every output.checkpoint_interval\n"
+      "seconds, at the end, and when there is a file DIR/CHECKPOINT, which is removed when that is done.");
   command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
 }
 

@@ -15,6 +15,8 @@ namespace tailwater {
 
 namespace {
 
+constexpr std::size_t longest_text = 5000;
+
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -27,6 +29,21 @@ bool is_name(std::string_view text) {
 bool follows_number(std::string_view text, std::size_t position) {
   const std::size_t last = text.substr(0, position).find_last_not_of(' ');
   return last != std::string_view::npos && (is_digit(text[last]) || text[last] == '.');
+}
+
+/// The numbers whose names occur in the text. A case may have thousands of parameters, an expression uses a few.
+NamedNumbers used_numbers(std::string_view text, const NamedNumbers& numbers) {
+  NamedNumbers used;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = begin;
+    while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+    // A number may end in the letters of its exponent, as in 2e3; muParser reads names that follow one.
+    while (begin < end && is_digit(text[begin])) ++begin;
+    const auto found = numbers.find(text.substr(begin, end - begin));
+    if (found != numbers.end()) used.insert(*found);
+    begin = std::max(end, begin) + 1;
+  }
+  return used;
 }
 
 ExpressionError unknown_name_error(const std::string& name, std::size_t position, std::string_view text,
@@ -97,11 +114,16 @@ Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span
   define_functions(parser);
   parser.ClearConst();
   parser.DefineConst("pi", std::numbers::pi);
-  for (const auto& [name, value] : numbers) {
+  for (const auto& [name, value] : used_numbers(text, numbers)) {
     parser.DefineConst(name, value);
   }
   for (std::size_t i = 0; i < variables.size(); ++i) {
     parser.DefineVar(std::string(variables[i]), &state_->variables[i]);
+  }
+  if (text.size() > longest_text) {
+    throw ExpressionError(
+        fmt::format("the expression has {} letters; write one of at most {}, with parameters for its parts",
+                    text.size(), longest_text));
   }
   try {
     parser.SetExpr(text);
@@ -133,8 +155,9 @@ double Formula::at(std::span<const double> values) {
 
 double evaluate(const std::string& text, const NamedNumbers& numbers) {
   const double value = Formula(text, numbers, {}).at({});
+  const NamedNumbers used = used_numbers(text, numbers);
   const bool numbers_are_finite =
-      std::all_of(numbers.begin(), numbers.end(), [](const auto& number) { return std::isfinite(number.second); });
+      std::all_of(used.begin(), used.end(), [](const auto& number) { return std::isfinite(number.second); });
   if (!std::isfinite(value) && numbers_are_finite) {
     throw ExpressionError(fmt::format("its value is {}; check divisions by zero and roots of negative numbers", value));
   }

@@ -8,6 +8,10 @@ namespace tailwater {
 
 namespace {
 
+/// No name of a case file has as many letters; comparing such names would take long.
+constexpr std::size_t longest_name = 100;
+constexpr std::size_t most_listed = 100;
+
 char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
 
 }  // namespace
@@ -38,9 +42,11 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid) {
   std::optional<std::string_view> nearest;
+  if (given.size() > longest_name) return nearest;
   const int length = static_cast<int>(given.size());
   int least = (length < 2 ? 0 : std::max(1, length / 3)) + 1;
   for (const std::string_view name : valid) {
+    if (name.size() > longest_name) continue;
     const int distance = edit_distance(given, name);
     if (distance < least) {
       least = distance;
@@ -52,9 +58,10 @@ std::optional<std::string_view> nearest_name(std::string_view given, std::span<c
 
 std::string quoted_list(std::span<const std::string_view> names) {
   std::string list;
-  for (const std::string_view name : names) {
-    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", name);
+  for (const std::string_view name : names.first(std::min(names.size(), most_listed))) {
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", name.substr(0, longest_name));
   }
+  if (names.size() > most_listed) list += fmt::format(" and {} more", names.size() - most_listed);
   return list;
 }
 

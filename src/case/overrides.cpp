@@ -18,6 +18,9 @@ namespace {
 constexpr std::string_view usage =
     "write --set table.key=value, for example scheme.courant=0.1, fluid[0].max=[1,2] or probe.NAME.interval=0.01";
 
+/// No key of a case is deeper: list, number, key, number, number.
+constexpr std::size_t most_steps = 8;
+
 /// One step down the tree: a name in a table, a name or a number in a list.
 using Step = std::variant<std::string, std::size_t>;
 
@@ -47,6 +50,7 @@ std::vector<Step> parse_path(std::string_view path) {
       throw Misplaced{fmt::format("a name is missing in the key; {}", usage)};
     }
     steps.emplace_back(std::string(name));
+    if (steps.size() > most_steps) throw Misplaced{fmt::format("the key has too many parts; {}", usage)};
     while (bracket != std::string_view::npos) {
       segment.remove_prefix(bracket + 1);
       const std::size_t close = segment.find(']');
@@ -69,6 +73,7 @@ std::vector<Step> parse_path(std::string_view path) {
 
 /// The tree `value = ...`; what is not TOML becomes a string.
 toml::table parse_value(std::string_view text, std::string_view origin) {
+  if (line_of_deep_key(text)) throw Misplaced{fmt::format("the value is nested too deeply; {}", usage)};
   try {
     toml::table table = toml::parse(fmt::format("value = {}", text), origin);
     if (table.size() == 1) {

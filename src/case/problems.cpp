@@ -13,6 +13,8 @@ namespace tailwater {
 
 namespace {
 
+constexpr std::size_t longest = 60;  ///< letters of a value that are shown
+
 std::string full_value_text(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     return toml_string(text->get());
@@ -27,11 +29,11 @@ std::string full_value_text(const toml::node& node) {
     return flag->get() ? "true" : "false";
   }
   if (const auto* array = node.as_array()) {
-    std::vector<std::string> elements;
-    for (const toml::node& element : *array) {
-      elements.push_back(full_value_text(element));
+    std::string text = "[";
+    for (std::size_t i = 0; i < array->size() && text.size() <= longest; ++i) {
+      text += fmt::format("{}{}", i > 0 ? ", " : "", full_value_text((*array)[i]));
     }
-    return fmt::format("[{}]", fmt::join(elements, ", "));
+    return text + "]";
   }
   return node.is_table() ? "{...}" : "a date or time";
 }
@@ -39,19 +41,24 @@ std::string full_value_text(const toml::node& node) {
 }  // namespace
 
 std::string value_text(const toml::node& node) {
-  constexpr std::size_t longest = 60;
   const std::string text = full_value_text(node);
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  return text.size() <= longest ? text : fmt::format("{}...", text.substr(0, longest));
+}
+
+std::string place_text(const std::string& file, const toml::source_region* source) {
+  if (source == nullptr || !source->begin) return file;
+  if (source->path && source->path->starts_with(override_prefix)) return *source->path;
+  return fmt::format("{}:{}:{}", file, source->begin.line, source->begin.column);
 }
 
 void Problems::add(const toml::source_region* source, const std::string& message) {
+  const std::string line = fmt::format("{}: {}", place_text(file_, source), message);
   if (source == nullptr || !source->begin) {
-    lines_.push_back({std::numeric_limits<unsigned>::max(), fmt::format("{}: {}", file_, message)});
+    lines_.push_back({std::numeric_limits<unsigned>::max(), line});
   } else if (source->path && source->path->starts_with(override_prefix)) {
-    add_override(fmt::format("{}: {}", *source->path, message));
+    add_override(line);
   } else {
-    lines_.push_back(
-        {source->begin.line, fmt::format("{}:{}:{}: {}", file_, source->begin.line, source->begin.column, message)});
+    lines_.push_back({source->begin.line, line});
   }
 }
 
@@ -60,9 +67,13 @@ void Problems::add_override(const std::string& line) { lines_.push_back({0, line
 std::string Problems::text() const {
   std::vector<Line> sorted = lines_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Line& a, const Line& b) { return a.number < b.number; });
-  std::vector<std::string_view> texts;
-  for (const Line& line : sorted) {
-    texts.push_back(line.text);
+  constexpr std::size_t most_shown = 50;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) {
+    texts.push_back(sorted[i].text);
+  }
+  if (sorted.size() > most_shown) {
+    texts.push_back(fmt::format("{}: and {} more problems", file_, sorted.size() - most_shown));
   }
   return fmt::format("{}", fmt::join(texts, "\n"));
 }

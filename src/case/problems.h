@@ -11,6 +11,9 @@ namespace tailwater {
 /// A value as messages show it: TOML on one line, cut off if it is long.
 std::string value_text(const toml::node& node);
 
+/// "case.toml:12:1", or the override that the value came from; just the file if `source` is null or unknown.
+std::string place_text(const std::string& file, const toml::source_region* source);
+
 class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -18,6 +20,7 @@
 #include "case/problems.h"
 #include "case/table_reader.h"
 #include "case/table_rules.h"
+#include "case/toml_text.h"
 
 namespace tailwater {
 
@@ -26,17 +29,16 @@ namespace {
 /// Names of blocks, walls, outlets and probes must differ.
 template <class Table>
 void check_names(const std::vector<Table>& tables, std::vector<TableReader>& readers) {
+  std::map<std::string_view, std::size_t> first_with;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (tables[i].name == tables[j].name && !tables[i].name.empty()) {
-        const std::string message =
-            fmt::format("the name \"{}\" is used twice; give each table a name of its own", tables[i].name);
-        const bool is_given = readers[i].given("name") != nullptr;
-        TableReader& reader = is_given ? readers[i] : readers[j];
-        reader.wrong("name", *reader.given("name"), message);
-        break;
-      }
-    }
+    if (tables[i].name.empty()) continue;
+    const auto [first, is_new] = first_with.emplace(tables[i].name, i);
+    if (is_new) continue;
+    const std::string message =
+        fmt::format("the name \"{}\" is used twice; give each table a name of its own", tables[i].name);
+    const bool is_given = readers[i].given("name") != nullptr;
+    TableReader& reader = is_given ? readers[i] : readers[first->second];
+    reader.wrong("name", *reader.given("name"), message);
   }
 }
 
@@ -110,15 +112,17 @@ class CaseReader {
     context_.problems.add(&node.source(), fmt::format("{} = {}: {}", key, value_text(node), message));
   }
 
-  /// True if the node has a value or can never have one; false if it waits for other parameters.
-  bool settle(const std::string& name, const toml::node& node, const std::set<std::string>& waiting);
+  /// Gives the parameter its value, or reports why it can never have one; returns the parameter in `open` that it waits
+  /// for, if it does.
+  std::optional<std::string> settle(const std::string& name, const toml::node& node, const std::set<std::string>& open);
 
   Context& context_;
   const toml::table& root_;
   std::vector<std::string_view> names_;
 };
 
-bool CaseReader::settle(const std::string& name, const toml::node& node, const std::set<std::string>& waiting) {
+std::optional<std::string> CaseReader::settle(const std::string& name, const toml::node& node,
+                                              const std::set<std::string>& open) {
   const std::string key = fmt::format("parameters.{}", name);
   // Until it has a value, what uses this parameter is not a number and is not reported a second time.
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -126,24 +130,24 @@ bool CaseReader::settle(const std::string& name, const toml::node& node, const s
   if (!is_free_name(name) || is_position || name == time_name[0] || name == "dx" || name == "g") {
     report(node, key,
            "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
-    return true;
+    return std::nullopt;
   }
   if (const auto* text = node.as_string()) {
     try {
       value = evaluate(text->get(), context_.numbers);
     } catch (const ExpressionError& error) {
-      if (error.unknown_name() && waiting.contains(*error.unknown_name())) {
-        return false;
+      if (error.unknown_name() && open.contains(*error.unknown_name())) {
+        return error.unknown_name();
       }
       report(node, key, error.what());
     }
-  } else if (node.is_number() && std::isfinite(*node.value<double>())) {
-    value = *node.value<double>();
+  } else if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) {
+    value = *number;
   } else {
     report(node, key, "not a finite number; give a number or an expression of other parameters");
   }
   context_.numbers[name] = value;
-  return true;
+  return std::nullopt;
 }
 
 void CaseReader::parameters(std::vector<Parameter>& parameters) {
@@ -157,16 +161,29 @@ void CaseReader::parameters(std::vector<Parameter>& parameters) {
     report(*node, "parameters", "not a table; write the parameters below a line [parameters]");
     return;
   }
-  std::set<std::string> waiting;
+  constexpr std::size_t most = 1000;  // their names are compared with each unknown one
+  if (table->size() > most) {
+    report(*node, "parameters", fmt::format("has {} parameters; a case has at most {}", table->size(), most));
+    return;
+  }
+  std::set<std::string> open;
   for (const auto& [name, value] : *table) {
-    waiting.emplace(name.str());
+    open.emplace(name.str());
   }
-  for (bool is_progress = true; is_progress;) {
-    const std::size_t settled =
-        std::erase_if(waiting, [&](const std::string& name) { return settle(name, *table->get(name), waiting); });
-    is_progress = settled > 0;
+  std::vector<std::string> next(open.begin(), open.end());
+  std::map<std::string, std::vector<std::string>> waiting_for;
+  while (!next.empty()) {
+    const std::string name = next.back();
+    next.pop_back();
+    if (const auto other = settle(name, *table->get(name), open)) {
+      waiting_for[*other].push_back(name);
+      continue;
+    }
+    open.erase(name);
+    const std::vector<std::string>& waiting = waiting_for[name];
+    next.insert(next.end(), waiting.begin(), waiting.end());
   }
-  for (const std::string& name : waiting) {
+  for (const std::string& name : open) {
     report(*table->get(name), fmt::format("parameters.{}", name),
            "depends on itself through other parameters; give one of them a number");
     context_.numbers[name] = std::numeric_limits<double>::quiet_NaN();
@@ -197,9 +214,23 @@ void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, cons
   context.numbers["g"] = physics.is_wrong("gravity") ? unknown : gravity_magnitude(spec.physics);
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) {
+/// bytes; a hundred times what a case needs, and read in a moment
+constexpr std::uintmax_t largest_file = 1 << 18;
+
+/// bytes; the case that a run leaves has every key, with its explanation
+constexpr std::uintmax_t largest_effective_case = 32 * largest_file;
+
+std::string read_text(const std::filesystem::path& path, std::uintmax_t largest) {
+  std::error_code error;  // what does not exist is told below
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) {
     throw IoError(fmt::format("{}: is a folder; give the case file in it", path.string()));
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw IoError(fmt::format("{}: is a device or a pipe; give a case file", path.string()));
+  }
+  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
+    throw InputError(fmt::format("{}: has {} bytes; a case file has at most {}", path.string(), size, largest));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -211,7 +242,13 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-toml::table parse(const std::string& text, const std::string& file) {
+toml::table parse(std::string_view text, const std::string& file) {
+  if (const auto line = line_of_deep_key(text)) {
+    throw InputError(
+        fmt::format("{}:{}: a key has too many dots; keys are written as in fluid[0].max: a table and a "
+                    "name in it",
+                    file, *line));
+  }
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -222,12 +259,64 @@ toml::table parse(const std::string& text, const std::string& file) {
   }
 }
 
+/// A mistyped interval would fill the disk, or make the run crawl.
+void check_interval(double interval, double end, double most, std::string_view key, const toml::node* node,
+                    std::string_view what, std::string_view remedy, Problems& problems) {
+  if (node == nullptr || interval <= 0.0 || end / interval <= most) return;
+  problems.add(&node->source(), fmt::format("{} = {}: makes {:.3g} {} until time.end; give at least {:.3g} s, or 0: {}",
+                                            key, value_text(*node), end / interval, what, end / most, remedy));
+}
+
+void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  constexpr double most_lines = 1e8;
+  constexpr double most_files = 1e6;
+  check_interval(spec.output.fields_interval, spec.time.end, most_files, "output.fields_interval",
+                 root["output"]["fields_interval"].node(), "field files", "a hundred files", problems);
+  for (std::size_t i = 0; i < spec.probes.size(); ++i) {
+    check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
+                   root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
+  }
+}
+
+/// Where the tables and keys are that messages about shapes, probes and steps name.
+CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
+  CaseSources sources;
+  const auto add_keys = [&](const toml::table& table, const std::string& start) {
+    for (const auto& [key, node] : table) {
+      sources.add(start + std::string(key.str()), place_text(file, &node.source()));
+    }
+  };
+  const auto add_tables = [&](std::string_view name, const auto& tables) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const toml::table* table = root[name][i].as_table();
+      const std::string label = fmt::format("{} '{}'", name, tables[i].name);
+      sources.add(label, place_text(file, &table->source()));
+      add_keys(*table, label + ": ");
+    }
+  };
+  add_tables("fluid", spec.fluid);
+  add_tables("wall", spec.walls);
+  add_tables("outlet", spec.outlets);
+  add_tables("probe", spec.probes);
+  for (const auto& [name, node] : root) {
+    if (const toml::table* table = node.as_table()) add_keys(*table, fmt::format("{}.", name.str()));
+  }
+  return sources;
+}
+
 }  // namespace
 
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const std::string file = path.string();
-  Context context(file);
-  toml::table root = parse(read_text(path), file);
+  return read_case_text(read_text(path, largest_file), path.string(), overrides);
+}
+
+CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read_case_text(read_text(path, largest_effective_case), path.string(), overrides);
+}
+
+CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
+  Context context(origin);
+  toml::table root = parse(text, origin);
   for (const std::string& problem : apply_overrides(root, overrides)) {
     context.problems.add_override(problem);
   }
@@ -239,9 +328,11 @@ CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::str
   if (root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty())) {
     context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]]");
   }
+  if (context.problems.none()) check_amount_of_output(spec, root, context.problems);
   if (!context.problems.none()) {
     throw InputError(context.problems.text());
   }
+  spec.sources = find_sources(spec, root, origin);
   return spec;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/spec.h"
@@ -18,5 +19,12 @@ namespace tailwater {
 /// Throws IoError if the file cannot be read, else InputError with one line per problem: place, key, value, what is
 /// allowed and the remedy.
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The same for the case that a run has left in its folder, which may be longer than what its user wrote.
+CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The same for the text of a case file; `origin` is what messages call it.
+CaseSpec read_case_text(std::string_view text, const std::string& origin,
+                        const std::vector<std::string>& overrides = {});
 
 }  // namespace tailwater

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "case/choices.h"
+#include "case/sources.h"
 
 namespace tailwater {
 
@@ -406,10 +407,36 @@ struct ParallelTable {
   }
 };
 
+/// When a run warns of its own results, or gives up.
+struct LimitsTable {
+  double smallest_step = 1e-3;
+  double energy_warning = 1e-3;
+  double energy_stop = 0.0;
+  double volume_warning = 0.05;
+  double volume_stop = 0.0;
+
+  bool operator==(const LimitsTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("smallest_step", self.smallest_step, "", Range::between(0.0, 1.0),
+             "The run fails when a time step is below this fraction of the step for the water at the start");
+    v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
+             "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of "
+             "m g L/2 plus the kinetic energy; 0: never");
+    v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
+    v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
+             "The run warns when the mean density of the water away from the surface is off by more than this "
+             "fraction; 0: never");
+    v.number("volume_stop", self.volume_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
+  }
+};
+
 struct OutputTable {
   double fields_interval = 0.0;
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
   int compression = 1;
+  double checkpoint_interval = 900.0;
 
   bool operator==(const OutputTable&) const = default;
 
@@ -420,6 +447,10 @@ struct OutputTable {
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.integer("compression", self.compression, "", Range::between(0, 9),
               "zlib compression level of the field files; 0: none");
+    v.number(
+        "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
+        "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or is "
+        "asked for one");
   }
 };
 
@@ -472,8 +503,10 @@ struct CaseSpec {
   SchemeTable scheme;
   PressureSolverTable pressure_solver;
   ParallelTable parallel;
+  LimitsTable limits;
   OutputTable output;
   std::vector<ProbeTable> probes;
+  CaseSources sources;
 
   bool operator==(const CaseSpec&) const = default;
 
@@ -490,7 +523,8 @@ struct CaseSpec {
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
     v.table("parallel", self.parallel, "Runs on several ranks (-n)");
-    v.table("output", self.output, "Field files for ParaView");
+    v.table("limits", self.limits, "When a run warns of its own errors, or gives up");
+    v.table("output", self.output, "Field files for ParaView, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
   }
 };

@@ -13,6 +13,11 @@ namespace tailwater {
 
 namespace {
 
+/// Whether a number that cannot be negative is so near to 0 that a quotient by it could overflow.
+bool is_too_small(double value, const Range& range) {
+  return range.low == 0.0 && value > 0.0 && value < smallest_number;
+}
+
 /// For a key in the wrong table: the tables that have it.
 std::string home_of(std::string_view key) {
   std::vector<std::string> homes;
@@ -27,6 +32,11 @@ std::string home_of(std::string_view key) {
 }
 
 }  // namespace
+
+std::optional<double> number_in(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  return node.value<double>();
+}
 
 std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format(" in {}", unit); }
 
@@ -62,7 +72,11 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
   if (!given) {
     return;
   }
-  if (range.contains(*given)) {
+  if (is_too_small(*given, range)) {
+    wrong(key, *node,
+          fmt::format("too small to be meant; give {}a number of at least {:g}{}", range.low_is_excluded ? "" : "0 or ",
+                      smallest_number, in_unit(unit)));
+  } else if (range.contains(*given)) {
     value = *given;
   } else {
     const std::string result = node->is_string() ? fmt::format("its value {} is ", *given) : "";
@@ -119,6 +133,12 @@ void TableReader::points(std::string_view key, std::vector<Coordinates>& value, 
   const toml::array* list =
       list_at(key, node, fmt::format("give a list of points{}, such as [[0, 0], [1, 0]]", in_unit(unit)));
   if (list == nullptr) {
+    return;
+  }
+  constexpr std::size_t most = 10000;  // faces are compared with one another
+  if (list->size() > most) {
+    wrong(key, *node,
+          fmt::format("has {} points; a shape has at most {}: give fewer, or several shapes", list->size(), most));
     return;
   }
   std::vector<Coordinates> given;
@@ -231,7 +251,7 @@ std::optional<std::size_t> TableReader::chosen(std::string_view key, std::span<c
 
 std::optional<double> TableReader::evaluated(std::string_view key, std::string_view place, const toml::node& node,
                                              std::string_view unit) {
-  std::optional<double> value = node.value<double>();
+  std::optional<double> value = number_in(node);
   if (const auto* text = node.as_string()) {
     try {
       value = evaluate(text->get(), context_.numbers);
@@ -250,6 +270,13 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
   }
   if (!std::isfinite(*value)) {
     wrong(key, node, fmt::format("not a finite number; give a number{}", in_unit(unit)), place);
+    return std::nullopt;
+  }
+  if (std::abs(*value) > largest_number) {
+    wrong(key, node,
+          fmt::format("its size is beyond {:g}, which no quantity of a flow reaches in SI units; give a number{}",
+                      largest_number, in_unit(unit)),
+          place);
     return std::nullopt;
   }
   return value;

@@ -20,6 +20,9 @@ namespace tailwater {
 /// " in m", or nothing for a number without unit.
 std::string in_unit(std::string_view unit);
 
+/// The number that a node is, if it is one. A large whole number is rounded; toml++ has no double for it.
+std::optional<double> number_in(const toml::node& node);
+
 /// State that the tables of one file share while they are read.
 struct Context {
   explicit Context(const std::string& file) : problems(file) {}

@@ -2,7 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tailwater {
+namespace {
+
+/// The parser limits how deep lists and tables in braces may be nested, but not the dots of keys.
+constexpr int most_dots = 8;
+
+/// The position behind the string that begins at `start`; where it has no end, that of the line or of the text.
+std::size_t end_of_string(std::string_view toml, std::size_t start) {
+  const char quote = toml[start];
+  const std::string three(3, quote);
+  const bool is_multiline = toml.substr(start, 3) == three;
+  const std::size_t length = is_multiline ? 3 : 1;
+  for (std::size_t i = start + length; i < toml.size(); ++i) {
+    if (toml[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (toml.substr(i, length) == std::string_view(three).substr(0, length)) {
+      return i + length;
+    } else if (toml[i] == '\n' && !is_multiline) {
+      return i;
+    }
+  }
+  return toml.size();
+}
+
+}  // namespace
 
 std::string toml_string(std::string_view text) {
   std::string quoted = "\"";
@@ -26,6 +52,26 @@ std::string toml_float(double value) {
     text += ".0";
   }
   return text;
+}
+
+std::optional<std::size_t> line_of_deep_key(std::string_view toml) {
+  constexpr std::string_view ends_of_keys = ",=[]{}\n";
+  int dots = 0;
+  for (std::size_t i = 0; i < toml.size();) {
+    if (toml[i] == '#') {
+      i = std::min(toml.find('\n', i), toml.size());
+    } else if (toml[i] == '"' || toml[i] == '\'') {
+      i = end_of_string(toml, i);
+    } else {
+      if (ends_of_keys.find(toml[i]) != std::string_view::npos) dots = 0;
+      if (toml[i] == '.' && ++dots > most_dots) {
+        return 1 +
+               static_cast<std::size_t>(std::count(toml.begin(), toml.begin() + static_cast<std::ptrdiff_t>(i), '\n'));
+      }
+      ++i;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace tailwater

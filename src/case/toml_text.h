@@ -1,6 +1,7 @@
 // Values as TOML text. What is written reads back as the same value, bit for bit, in every locale.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,9 @@ std::string toml_string(std::string_view text);
 /// The shortest floating-point number that reads back as `value`; always with a point or an exponent, so that it is
 /// not an integer. `value` is finite.
 std::string toml_float(double value);
+
+/// The line (from 1) of the first key with so many dots that trees made from it could not be walked; none in a sound
+/// file, whose keys have one dot or two.
+std::optional<std::size_t> line_of_deep_key(std::string_view toml);
 
 }  // namespace tailwater

@@ -8,6 +8,9 @@
 namespace tailwater {
 namespace {
 
+/// Some checks compare every piece of the walls with every other.
+constexpr std::size_t most_faces = 5000;
+
 double friction_of(const WallTable& wall) {
   switch (wall.slip) {
     case Slip::free:
@@ -50,10 +53,15 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   for (std::size_t k = 0; k < face_count; ++k) {
     const std::size_t next = (k + 1) % points.size();
     if ((points[next] - points[k]).norm() <= corner_tolerance * spacing) {
-      throw InputError(fmt::format(
-          "{}: points[{}] and points[{}] are both at {}, so the piece between them has no length: remove one of "
-          "them",
-          owner, k, next, place(points[k])));
+      const double length = (points[next] - points[k]).norm();
+      throw InputError(
+          length == 0.0
+              ? fmt::format("{}: points[{}] and points[{}] are both at {}, so the piece between them has no length: "
+                            "remove one of them",
+                            owner, k, next, place(points[k]))
+              : fmt::format("{}: points[{}] and points[{}] are {:.3g} m apart, which is nothing beside a spacing of "
+                            "{:.6g} m: use a smaller spacing, or remove one of the points",
+                            owner, k, next, length, spacing));
     }
   }
 
@@ -272,6 +280,10 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     } else {
       throw InputError(
           fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\"", owner, name_of(table.shape)));
+    }
+    if (boundary.faces.size() > most_faces) {
+      throw InputError(fmt::format("{}: with it the walls have {} pieces, and a case has at most {}: draw them coarser",
+                                   owner, boundary.faces.size(), most_faces));
     }
   }
   return boundary;

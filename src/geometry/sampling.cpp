@@ -122,11 +122,11 @@ class StartVelocity {
     Vec<Dim> velocity = constant_;
     for (Component& component : varying_) {
       velocity[component.axis] = component.formula.at({x.data(), Dim});
-      if (!std::isfinite(velocity[component.axis])) {
+      if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
         throw InputError(
-            fmt::format("{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is finite wherever "
-                        "the block has particles",
-                        owner_, component.axis, component.text, velocity[component.axis], place(x)));
+            fmt::format("{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is a number of at most {:g} "
+                        "wherever the block has particles",
+                        owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number));
       }
     }
     return velocity;

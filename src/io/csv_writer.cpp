@@ -1,20 +1,40 @@
 #include "io/csv_writer.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 
 #include "base/assert.h"
+#include "base/error.h"
 #include "io/write_file.h"
 
 namespace tailwater {
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : path_(path), columns_(columns.size()), file_(std::fopen(path.c_str(), "wb")) {
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                     std::optional<std::int64_t> kept)
+    : path_(path), columns_(columns.size()), file_(std::fopen(path.c_str(), kept ? "r+b" : "wb")) {
   if (!file_) {
     throw_io_error("write", path_, errno);
   }
-  write_line(fmt::format("{}\n", fmt::join(columns, ",")));
+  const std::string first_line = fmt::format("{}\n", fmt::join(columns, ","));
+  if (kept) {
+    go_on(first_line, *kept);
+  } else {
+    write_line(first_line);
+  }
+}
+
+void CsvWriter::go_on(const std::string& first_line, std::int64_t kept) {
+  std::string found(first_line.size(), '\0');
+  if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != first_line) {
+    throw IoError(
+        fmt::format("cannot go on with '{}': it does not begin with the columns of this run", path_.string()));
+  }
+  cut_file(path_, kept);
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) throw_io_error("write", path_, errno);
+  size_ = kept;
 }
 
 void CsvWriter::write(std::span<const double> row) {
@@ -26,6 +46,27 @@ void CsvWriter::write_line(const std::string& line) {
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
     throw_io_error("write", path_, errno);
   }
+  size_ += static_cast<std::int64_t>(line.size());
+}
+
+void CsvWriter::require_in_place() const {
+  struct stat written {};
+  struct stat found {};
+  if (fstat(fileno(file_.get()), &written) != 0) throw_io_error("write", path_, errno);
+  if (stat(path_.c_str(), &found) != 0) throw_io_error("write", path_, errno);
+  if (written.st_dev != found.st_dev || written.st_ino != found.st_ino) {
+    throw IoError(fmt::format("cannot write '{}': another file has taken its place", path_.string()));
+  }
+}
+
+void cut_file(const std::filesystem::path& path, std::int64_t kept) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) throw_io_error("read", path, errno);
+  if (found.st_size < kept) {
+    throw IoError(fmt::format("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint", path.string(),
+                              found.st_size, kept));
+  }
+  if (truncate(path.c_str(), kept) != 0) throw_io_error("write", path, errno);
 }
 
 }  // namespace tailwater

@@ -1,9 +1,11 @@
 // A table that grows during the run. Every line reaches the file at once, so a killed run leaves whole lines.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,23 +15,36 @@ namespace tailwater {
 class CsvWriter {
  public:
   /// Opens (and empties) `path` and writes the line of column names, which carry their units: "time_s", "depth_m".
-  /// Throws IoError.
-  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
+  /// With `kept`, which is a former `size()`, goes on with the file instead and takes off what follows these bytes.
+  /// Throws IoError, also when the file to go on with is not there, is too short or has other columns.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
+            std::optional<std::int64_t> kept = {});
 
   /// Appends one line: a number per column, each with the fewest digits that read back as the same double.
   /// Throws IoError, also when the disk is full.
   void write(std::span<const double> row);
+
+  /// Bytes written so far.
+  std::int64_t size() const { return size_; }
+
+  /// Throws IoError if the file is no longer at its place: what is written after that would be lost without a word.
+  void require_in_place() const;
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  void go_on(const std::string& first_line, std::int64_t kept);
   void write_line(const std::string& line);
 
   std::filesystem::path path_;
   std::size_t columns_;
   std::unique_ptr<std::FILE, Close> file_;
+  std::int64_t size_ = 0;
 };
+
+/// Takes off what follows the first `kept` bytes of a file that nobody writes to. Throws IoError.
+void cut_file(const std::filesystem::path& path, std::int64_t kept);
 
 }  // namespace tailwater

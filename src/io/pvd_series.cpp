@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <iterator>
+#include <utility>
 
 #include "io/write_file.h"
 #include "parallel/together.h"
@@ -14,9 +16,22 @@ PvdSeries::PvdSeries(std::filesystem::path folder, std::string name, int compres
 
 template <int Dim>
 void PvdSeries::write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks) {
-  write_vtp(folder_ / file_name(times_.size()), time, encode_piece(particles, compression_), compression_, ranks);
+  write_vtp(file_of(times_.size()), time, encode_piece(particles, compression_), compression_, ranks);
   times_.push_back(time);
   do_on_root(ranks, [this] { write_list(); });
+}
+
+void PvdSeries::go_on(std::vector<double> times, const Communicator& ranks) {
+  times_ = std::move(times);
+  do_on_root(ranks, [this] {
+    std::error_code error;
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      if (!std::filesystem::exists(file_of(i), error)) throw_io_error("read", file_of(i), ENOENT);
+    }
+    // The list first: it must never name a file that is not there.
+    if (!times_.empty()) write_list();
+    for (std::size_t i = times_.size(); std::filesystem::remove(file_of(i), error);) ++i;
+  });
 }
 
 std::string PvdSeries::file_name(std::size_t index) const { return fmt::format("{}_{:05}.vtp", name_, index); }

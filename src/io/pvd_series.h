@@ -19,10 +19,17 @@ class PvdSeries {
   template <int Dim>
   void write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks = {});
 
+  /// Goes on with the files that an earlier run has written at `times`, and removes those that followed them.
+  /// Collective. Throws IoError, on all ranks.
+  void go_on(std::vector<double> times, const Communicator& ranks = {});
+
   /// Number of files written.
   std::size_t size() const { return times_.size(); }
+  /// Of the files [s].
+  const std::vector<double>& times() const { return times_; }
 
  private:
+  std::filesystem::path file_of(std::size_t index) const { return folder_ / file_name(index); }
   std::string file_name(std::size_t index) const;
   void write_list() const;
 

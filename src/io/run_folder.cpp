@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <functional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -18,11 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> result_files{effective_case_name, "steps.csv", "ranks.csv", "summary.json",
-                                                       stop_file_name};
-constexpr std::array<std::string_view, 3> result_folders{"probes", "fields", "failure"};
-/// Endings of the files a run writes into its folders.
-constexpr std::array<std::string_view, 5> result_endings{".csv", ".vtp", ".pvd", ".txt", ".json"};
+constexpr std::array<std::string_view, 7> result_files{
+    effective_case_name, "steps.csv", "ranks.csv", summary_name, "log.txt", stop_file_name, checkpoint_file_name};
+constexpr std::array<std::string_view, 2> failure_files{"last_good.vtp", "report.txt"};
+/// The series of field files that a run may write: NAME.pvd and NAME_00000.vtp, ...
+constexpr std::array<std::string_view, 2> series_names{"fields", "walls"};
+/// Folders that are made only when there is something to put into them.
+constexpr std::array<std::string_view, 2> rare_folders{"failure", "checkpoints"};
+constexpr std::string_view checkpoint_start = "step_";
+constexpr std::string_view checkpoint_ending = ".h5";
 
 void require(const std::error_code& error, std::string_view what, const fs::path& path) {
   if (error) {
@@ -56,52 +63,110 @@ fs::path final_name(const fs::path& path) {
   return path.extension() == temporary_ending ? path.stem() : path.filename();
 }
 
-bool is_result_folder(const fs::path& path) {
-  return is_one_of(result_folders, path.filename()) && fs::is_directory(fs::symlink_status(path));
+bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+/// FIELDS.pvd, FIELDS_00012.vtp
+bool is_field_file(const fs::path& name) {
+  const std::string stem = name.stem();
+  const bool is_list = name.extension() == ".pvd";
+  return std::any_of(series_names.begin(), series_names.end(), [&](std::string_view series) {
+    if (is_list) return stem == series;
+    return name.extension() == ".vtp" && stem.starts_with(fmt::format("{}_", series)) &&
+           stem.size() >= series.size() + 6 && stem.find_first_not_of("0123456789", series.size() + 1) == stem.npos;
+  });
 }
 
-/// The files that an earlier run wrote into `folder`. Links are not followed.
-std::vector<fs::path> earlier_results(const fs::path& folder) {
-  std::vector<fs::path> found;
-  for (const fs::path& path : entries(folder)) {
-    if (is_result_folder(path)) {
-      for (const fs::path& inner : entries(path)) {
-        if (is_one_of(result_endings, final_name(inner).extension()) &&
-            fs::is_regular_file(fs::symlink_status(inner))) {
-          found.push_back(inner);
-        }
-      }
-    } else if (is_one_of(result_files, final_name(path)) && fs::is_regular_file(fs::symlink_status(path))) {
-      found.push_back(path);
+/// step_000000000012.h5
+bool is_checkpoint(const fs::path& name) {
+  const std::string stem = name.stem();
+  return name.extension() == checkpoint_ending && stem.starts_with(checkpoint_start) &&
+         stem.size() > checkpoint_start.size() &&
+         stem.find_first_not_of("0123456789", checkpoint_start.size()) == stem.npos;
+}
+
+/// The files of the probes of the run that has left its effective case in `folder`: only this case tells them from
+/// tables that a user has put beside them.
+std::vector<std::string> probe_files(const fs::path& folder) {
+  std::ifstream effective_case(folder / effective_case_name);
+  constexpr std::string_view key = "name = \"";
+  std::vector<std::string> names;
+  bool is_in_probe = false;
+  for (std::string line; std::getline(effective_case, line);) {
+    if (line.starts_with('[')) is_in_probe = line == "[[probe]]";
+    if (is_in_probe && line.starts_with(key)) {
+      names.push_back(line.substr(key.size(), line.find('"', key.size()) - key.size()) + ".csv");
     }
   }
+  return names;
+}
+
+/// The regular files in `folder` that `is_ours` knows by their final name. Links are not followed.
+template <class IsOurs>
+void add_files(const fs::path& folder, const IsOurs& is_ours, std::vector<fs::path>& found) {
+  if (!is_folder(folder)) return;
+  for (const fs::path& path : entries(folder)) {
+    if (is_ours(final_name(path)) && fs::is_regular_file(fs::symlink_status(path))) found.push_back(path);
+  }
+}
+
+/// The files that an earlier run wrote into `folder`.
+std::vector<fs::path> earlier_results(const fs::path& folder) {
+  std::vector<fs::path> found;
+  const std::vector<std::string> probes = probe_files(folder);
+  add_files(
+      folder / "probes",
+      [&](const fs::path& name) { return std::find(probes.begin(), probes.end(), name.string()) != probes.end(); },
+      found);
+  add_files(folder / "fields", is_field_file, found);
+  add_files(
+      folder / "failure", [](const fs::path& name) { return is_one_of(failure_files, name); }, found);
+  add_files(folder / "checkpoints", is_checkpoint, found);
+  add_files(
+      folder, [](const fs::path& name) { return is_one_of(result_files, name); }, found);
   return found;
 }
 
 void remove_earlier_results(const fs::path& folder) {
   std::error_code error;
   for (const fs::path& path : earlier_results(folder)) {
+    // The new run replaces the case at once. A run that is killed in between can still be started again from it.
+    if (path.filename() == effective_case_name) continue;
+    fs::remove(path, error);
+    require(error, "remove", path);
+  }
+  for (const std::string_view name : rare_folders) {
+    const fs::path rare = folder / name;
+    if (is_folder(rare) && entries(rare).empty()) {
+      fs::remove(rare, error);
+      require(error, "remove", rare);
+    }
+  }
+}
+
+/// What an earlier run has left and a run that goes on would not replace.
+void remove_traces_of_the_end(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& path : earlier_results(folder)) {
+    const bool is_request = path.filename() == stop_file_name || path.filename() == checkpoint_file_name;
+    if (!is_request && path.parent_path().filename() != "failure") continue;
     fs::remove(path, error);
     require(error, "remove", path);
   }
   const fs::path failure = folder / "failure";
-  if (is_result_folder(failure) && entries(failure).empty()) {
+  if (is_folder(failure) && entries(failure).empty()) {
     fs::remove(failure, error);
     require(error, "remove", failure);
   }
 }
 
-/// Writes a file to find out. Permission bits do not tell: they do not bind root, and a file system may be read-only or
-/// full.
-void require_writable(const fs::path& folder) {
-  const fs::path trial = folder / ".tailwater-write-test";
-  write_text_file(trial, "can this folder be written?\n");
-  std::error_code error;
-  fs::remove(trial, error);
-  require(error, "remove", trial);
+/// Whether nothing is in the folder; a run that was killed at its very start leaves its lock.
+bool is_free(const fs::path& folder) {
+  const std::vector<fs::path> found = entries(folder);
+  return std::all_of(found.begin(), found.end(),
+                     [](const fs::path& path) { return path.filename() == lock_file_name; });
 }
 
-void make_run_folder(const fs::path& path, bool force) {
+FolderLock make_run_folder(const fs::path& path, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() != fs::file_type::not_found) {
@@ -110,30 +175,57 @@ void make_run_folder(const fs::path& path, bool force) {
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("output folder '{}' is a file: name another folder", path.string()));
   }
-  if (fs::is_directory(status) && !force && !entries(path).empty()) {
+  if (fs::is_directory(status) && !force && !is_free(path)) {
+    FolderLock::require_free(path);
     throw InputError(
         fmt::format("output folder '{}' is not empty: name another one, or add --force to replace the "
                     "results in it",
                     path.string()));
   }
   make_folder(path);
-  require_writable(path);
+  FolderLock lock(path);  // also finds out whether files can be written: permission bits do not bind root
   make_folder(path / "probes");
   make_folder(path / "fields");
   remove_earlier_results(path);
+  return lock;
 }
 
 }  // namespace
 
 RunFolder RunFolder::create(const fs::path& path, bool force, const Communicator& ranks) {
-  do_on_root(ranks, [&] { make_run_folder(path, force); });
-  return RunFolder(path);
+  FolderLock lock;
+  do_on_root(ranks, [&] { lock = make_run_folder(path, force); });
+  return {path, std::move(lock)};
+}
+
+RunFolder RunFolder::open(const fs::path& path, const Communicator& ranks) {
+  FolderLock lock;
+  do_on_root(ranks, [&] {
+    lock = FolderLock(path);
+    remove_traces_of_the_end(path);
+  });
+  return {path, std::move(lock)};
+}
+
+fs::path RunFolder::checkpoint(std::int64_t step) const {
+  return checkpoints() / fmt::format("{}{:012}{}", checkpoint_start, step, checkpoint_ending);
 }
 
 fs::path RunFolder::make_failure() const {
   const fs::path failure = path_ / "failure";
   make_folder(failure);
   return failure;
+}
+
+std::vector<fs::path> checkpoints_in(const fs::path& run) {
+  const fs::path folder = run / "checkpoints";
+  std::vector<fs::path> found;
+  if (!is_folder(folder)) return found;
+  for (const fs::path& path : entries(folder)) {
+    if (is_checkpoint(path.filename())) found.push_back(path);
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());  // names have their steps in equally many digits
+  return found;
 }
 
 }  // namespace tailwater

@@ -1,8 +1,11 @@
 #include "io/write_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <string>
@@ -15,8 +18,12 @@ namespace tailwater {
 
 namespace {
 
+/// Whether a file must outlive a power cut.
+enum class Lasting { as_the_system_likes, on_disk };
+
 /// 0, or the errno of the first call that failed.
-int write_parts(const std::filesystem::path& path, std::span<const std::string_view> parts) {
+int write_parts(const std::filesystem::path& path, std::span<const std::string_view> parts,
+                Lasting lasting = Lasting::as_the_system_likes) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) {
     return errno;
@@ -26,6 +33,9 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
     if (error_number == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) {
       error_number = errno;
     }
+  }
+  if (error_number == 0 && lasting == Lasting::on_disk && (std::fflush(file) != 0 || syncfs(fileno(file)) != 0)) {
+    error_number = errno;
   }
   // A full disk often shows only when the last buffer is written or the file is closed.
   if (std::fclose(file) != 0 && error_number == 0) {
@@ -98,6 +108,32 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   }
 }
 
+/// Writes beside `path` and renames.
+void replace_file(const std::filesystem::path& path, std::span<const std::string_view> parts, Lasting lasting) {
+  std::filesystem::path temporary = path;
+  temporary += temporary_ending;
+  int error_number = write_parts(temporary, parts, lasting);
+  if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
+    error_number = errno;
+  }
+  if (error_number != 0) {
+    std::remove(temporary.c_str());
+    throw_io_error("write", path, error_number);
+  }
+}
+
+/// Waits until the names in `folder` are on the disk.
+void flush_folder(const std::filesystem::path& folder) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) throw_io_error("read", folder, errno);
+  const int error_number = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  // Some file systems cannot do this for a folder, and say so.
+  if (error_number != 0 && error_number != EINVAL && error_number != ENOTSUP) {
+    throw_io_error("write", folder, error_number);
+  }
+}
+
 }  // namespace
 
 void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number) {
@@ -109,16 +145,21 @@ void write_file(const std::filesystem::path& path, std::span<const std::string_v
     write_file_together(path, parts, ranks);
     return;
   }
-  std::filesystem::path temporary = path;
-  temporary += temporary_ending;
-  int error_number = write_parts(temporary, parts);
-  if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
-    error_number = errno;
-  }
-  if (error_number != 0) {
-    std::remove(temporary.c_str());
-    throw_io_error("write", path, error_number);
-  }
+  replace_file(path, parts, Lasting::as_the_system_likes);
+}
+
+void write_file_to_disk(const std::filesystem::path& path, std::span<const std::string_view> parts) {
+  replace_file(path, parts, Lasting::on_disk);
+  flush_folder(path.has_parent_path() ? path.parent_path() : ".");
+}
+
+bool overwrite_file(const std::filesystem::path& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const auto size = static_cast<ssize_t>(text.size());
+  const bool is_written = write(file, text.data(), text.size()) == size && ftruncate(file, size) == 0;
+  close(file);
+  return is_written;
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) { write_file(path, {&text, 1}); }

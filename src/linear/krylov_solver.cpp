@@ -115,9 +115,12 @@ struct KrylovSolver::Petsc {
     check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
   }
 
-  void take_solver(const LinearSystem& system, const PressureSolverTable& settings, double rows_deep) {
+  /// A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over from the old one, and a
+  /// run that goes on from a checkpoint has no old one.
+  void take_solver(const LinearSystem& system, const PressureSolverTable& settings, double rows_deep,
+                   bool pattern_is_new) {
     const Communicator& ranks = system.ranks();
-    if (ranks.any(solver_size != system.size())) {
+    if (ranks.any(pattern_is_new || solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
       configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free()},
@@ -179,7 +182,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   }
   if (report.residual <= tolerance_wanted) return report;
 
-  petsc.take_solver(system, settings_, rows_deep_);
+  petsc.take_solver(system, settings_, rows_deep_, pattern_is_new);
   KSP solver = petsc.solver.get();
   // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
   check_petsc(KSPSetReusePreconditioner(solver, pattern_is_new ? PETSC_FALSE : PETSC_TRUE));

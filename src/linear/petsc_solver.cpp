@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -92,6 +96,25 @@ std::vector<std::string> unused_options(const PressureSolverTable& settings) {
   return unused;
 }
 
+/// Options of PETSc may open any file or run a program. Those that do have one of these words in their names, or give
+/// the file behind a colon.
+void require_harmless(const PressureSolverTable& settings) {
+  constexpr std::array harmful{"view", "monitor", "print", "file",   "draw", "plot",
+                               "save", "load",    "dump",  "python", "shell"};
+  std::istringstream words(settings.petsc_options);
+  for (std::string word; words >> word;) {
+    const bool is_option = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    const bool is_ours = !is_option || word.starts_with("-pressure_");
+    const bool is_harmful =
+        std::ranges::any_of(harmful, [&](const char* part) { return word.find(part) != word.npos; });
+    if (is_ours && !is_harmful && word.find_first_of(":/") == word.npos) continue;
+    throw InputError(fmt::format(
+        "pressure_solver.petsc_options = \"{}\": {} is not allowed: give options of PETSc's KSP and PC with the prefix "
+        "pressure_, as in \"-pressure_ksp_type fgmres\", and none that print or open files",
+        settings.petsc_options, word));
+  }
+}
+
 }  // namespace
 
 void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone) {
@@ -120,9 +143,15 @@ void configure(KSP solver, const PressureSolverTable& settings, const SystemTrai
 
 void take_petsc_options(const PressureSolverTable& settings) {
   if (settings.petsc_options.empty()) return;
+  require_harmless(settings);
   const SuspendFpTraps suspended;
-  check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
-  ask_for_all_options(settings);
+  try {
+    check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
+    ask_for_all_options(settings);
+  } catch (const SolverError& error) {
+    throw InputError(fmt::format("pressure_solver.petsc_options = \"{}\": {}; give other options",
+                                 settings.petsc_options, error.what()));
+  }
   const std::vector<std::string> unused = unused_options(settings);
   if (unused.empty()) return;
   throw InputError(fmt::format(

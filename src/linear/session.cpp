@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
 #include "base/error.h"
 #include "base/fp_traps.h"
 #include "linear/petsc.h"
@@ -23,15 +27,28 @@ struct IgnoreLeaks {
 #endif
 };
 
+/// What PETSc says where an error arises; its functions pass on only the code.
+std::string& last_reason() {
+  static std::string reason;
+  return reason;
+}
+
+PetscErrorCode keep_reason(MPI_Comm, int, const char*, const char*, PetscErrorCode code, PetscErrorType type,
+                           const char* reason, void*) {
+  if (type == PETSC_ERROR_INITIAL) last_reason() = reason == nullptr ? "" : reason;
+  return code;
+}
+
 }  // namespace
 
 void check_petsc(PetscErrorCode code) {
   if (code == 0) return;
-  const char* text = nullptr;
-  char* specific = nullptr;
-  PetscErrorMessage(code, &text, &specific);
-  throw SolverError(fmt::format("PETSc failed (code {}): {} {}", static_cast<int>(code), text ? text : "unknown error",
-                                specific ? specific : ""));
+  const char* kind = nullptr;
+  PetscErrorMessage(code, &kind, nullptr);
+  std::string reason = std::exchange(last_reason(), "");
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  throw SolverError(fmt::format("PETSc failed (code {}): {}{}{}", static_cast<int>(code), kind ? kind : "",
+                                kind && !reason.empty() ? ": " : "", reason));
 }
 
 LinearSession::LinearSession() {
@@ -40,7 +57,7 @@ LinearSession::LinearSession() {
   // Signals stay ours: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
   check_petsc(PetscInitializeNoArguments());
-  check_petsc(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr));
+  check_petsc(PetscPushErrorHandler(keep_reason, nullptr));
 }
 
 LinearSession::~LinearSession() {
@@ -50,7 +67,13 @@ LinearSession::~LinearSession() {
 }
 
 std::string linear_library_version() {
-  return fmt::format("PETSc {}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+  int length = 0;
+  MPI_Get_library_version(mpi, &length);
+  const std::string_view name(mpi, static_cast<std::size_t>(length));
+  // The rest tells how MPI was built.
+  return fmt::format("PETSc {}.{}.{}, {}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
+                     name.substr(0, name.find_first_of(",\n")));
 }
 
 }  // namespace tailwater

@@ -14,7 +14,7 @@ class LinearSession {
   LinearSession& operator=(const LinearSession&) = delete;
 };
 
-/// "PETSc 3.18.5", for the run's summary.
+/// "PETSc 3.18.5, Open MPI v4.1.4", for the run's summary.
 std::string linear_library_version();
 
 }  // namespace tailwater

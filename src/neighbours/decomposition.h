@@ -27,6 +27,9 @@ class Decomposition {
   /// indices change. Collective.
   Sharing share_out(Particles<Dim>& particles, std::span<const double> work);
 
+  const SpaceCuts<Dim>& cuts() const { return cuts_; }
+  SpaceCuts<Dim>& cuts() { return cuts_; }
+
  private:
   Communicator ranks_;
   double tolerated_imbalance_;

@@ -60,6 +60,25 @@ std::vector<std::string> Communicator::gather(const std::string& text) const {
   return all;
 }
 
+std::string Communicator::scatter(const std::vector<std::string>& texts) const {
+  if (is_alone()) return texts.front();
+  constexpr int tag = 2;
+  if (!is_root()) {
+    MPI_Status status;
+    MPI_Probe(0, tag, handle_, &status);
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    std::string own(static_cast<std::size_t>(size), '\0');
+    MPI_Recv(own.data(), size, MPI_BYTE, 0, tag, handle_, MPI_STATUS_IGNORE);
+    return own;
+  }
+  TAILWATER_ASSERT(texts.size() == static_cast<std::size_t>(size_), "one text per rank");
+  for (int rank = 1; rank < size_; ++rank) {
+    MPI_Send(texts[rank].data(), static_cast<int>(texts[rank].size()), MPI_BYTE, rank, tag, handle_);
+  }
+  return texts.front();
+}
+
 std::string Communicator::broadcast(std::string text, int source) const {
   if (is_alone()) return text;
   auto size = static_cast<std::int64_t>(text.size());

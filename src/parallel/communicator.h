@@ -94,6 +94,25 @@ class Communicator {
     return all;
   }
 
+  /// The inverse of `gather`: the root's texts, one for each rank, each on its rank. Other ranks give none.
+  std::string scatter(const std::vector<std::string>& texts) const;
+
+  /// The inverse of `gather` for values: counts[q] of the root's values go to rank q.
+  template <class Value>
+  std::vector<Value> scatter(const std::vector<Value>& values, std::span<const std::int64_t> counts) const {
+    std::vector<std::string> parts;
+    const auto* first = reinterpret_cast<const char*>(values.data());
+    for (std::size_t q = 0; is_root() && q < counts.size(); ++q) {
+      const std::size_t bytes = static_cast<std::size_t>(counts[q]) * sizeof(Value);
+      parts.emplace_back(first, bytes);
+      first += bytes;
+    }
+    const std::string own = scatter(parts);
+    std::vector<Value> result(own.size() / sizeof(Value));
+    own.copy(reinterpret_cast<char*>(result.data()), own.size());
+    return result;
+  }
+
   /// The text of rank `source`, on all ranks.
   std::string broadcast(std::string text, int source = 0) const;
 

@@ -2,6 +2,8 @@
 
 #include <zoltan.h>
 
+#include <vector>
+
 #include "base/error.h"
 #include "base/fp_traps.h"
 
@@ -73,7 +75,7 @@ struct SpaceCuts<Dim>::Zoltan {
 
 template <int Dim>
 SpaceCuts<Dim>::SpaceCuts(const Communicator& ranks, DecompositionMethod method)
-    : zoltan_(ranks.is_alone() ? nullptr : std::make_unique<Zoltan>(ranks, method)) {}
+    : ranks_(ranks), method_(method), zoltan_(ranks.is_alone() ? nullptr : std::make_unique<Zoltan>(ranks, method)) {}
 
 template <int Dim>
 SpaceCuts<Dim>::~SpaceCuts() = default;
@@ -102,11 +104,39 @@ void SpaceCuts<Dim>::cut(std::span<const Vec<Dim>> points, std::span<const doubl
   check_zoltan(Zoltan_LB_Partition(handle, &has_changed, &global_size, &local_size, &imports, &ids[0], &ids[1],
                                    &numbers[0], &numbers[1], &exports, &ids[2], &ids[3], &numbers[2], &numbers[3]));
   zoltan_->are_made = true;
+  if (method_ != DecompositionMethod::hsfc) return;
+  points_of_curve_.assign(reinterpret_cast<const char*>(points.data()), points.size_bytes());
+  points_of_curve_.append(reinterpret_cast<const char*>(weights.data()), weights.size_bytes());
 }
 
 template <int Dim>
 bool SpaceCuts<Dim>::are_made() const {
   return zoltan_ && zoltan_->are_made;
+}
+
+template <int Dim>
+std::string SpaceCuts<Dim>::bytes() const {
+  if (!are_made()) return "";
+  if (method_ == DecompositionMethod::hsfc) return points_of_curve_;
+  std::string bytes(Zoltan_Serialize_Size(zoltan_->handle), '\0');
+  check_zoltan(Zoltan_Serialize(zoltan_->handle, bytes.size(), bytes.data()));
+  return bytes;
+}
+
+template <int Dim>
+void SpaceCuts<Dim>::restore(std::string bytes) {
+  zoltan_ = std::make_unique<Zoltan>(ranks_, method_);
+  if (method_ == DecompositionMethod::hsfc) {
+    const std::size_t count = bytes.size() / (sizeof(Vec<Dim>) + sizeof(double));
+    std::vector<Vec<Dim>> points(count);
+    std::vector<double> weights(count);
+    bytes.copy(reinterpret_cast<char*>(points.data()), count * sizeof(Vec<Dim>));
+    bytes.copy(reinterpret_cast<char*>(weights.data()), count * sizeof(double), count * sizeof(Vec<Dim>));
+    cut(points, weights);
+    return;
+  }
+  check_zoltan(Zoltan_Deserialize(zoltan_->handle, bytes.size(), bytes.data()));
+  zoltan_->are_made = true;
 }
 
 template <int Dim>

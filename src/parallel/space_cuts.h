@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "base/vec.h"
 #include "case/choices.h"
@@ -25,11 +26,20 @@ class SpaceCuts {
 
   bool are_made() const;
 
+  /// The cuts as bytes of this rank, from which `restore` makes them again, also as what the next `cut` starts from.
+  /// Empty if there are none.
+  std::string bytes() const;
+  /// Takes the bytes that were given on the same rank of as many. Collective; throws SolverError.
+  void restore(std::string bytes);
+
   /// The rank in whose part `place` lies. Works for any place, with or without points.
   int part_of(const Vec<Dim>& place) const;
 
  private:
   struct Zoltan;
+  Communicator ranks_;
+  DecompositionMethod method_;
+  std::string points_of_curve_;  ///< from which the Hilbert curve was cut, which Zoltan cannot give out
   std::unique_ptr<Zoltan> zoltan_;
 };
 

@@ -1,6 +1,7 @@
 #include "probes/probe_set.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/for_each.h"
@@ -72,16 +73,30 @@ std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& b
 }
 
 template <int Dim>
-ProbeSet<Dim>::ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks) {
-  for (Probe<Dim>& probe : probes) instruments_.push_back({std::move(probe), std::nullopt});
+ProbeSet<Dim>::ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks,
+                        const std::optional<std::vector<ProbeMark>>& marks) {
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    instruments_.push_back({std::move(probes[k]), std::nullopt, marks ? marks->at(k).taken : 0});
+  }
   do_on_root(ranks, [&] {
-    for (Instrument& instrument : instruments_) {
+    for (std::size_t k = 0; k < instruments_.size(); ++k) {
+      Instrument& instrument = instruments_[k];
       const Probe<Dim>& probe = instrument.probe;
       std::vector<std::string> columns{"time_s"};
       columns.insert(columns.end(), probe.reading.columns.begin(), probe.reading.columns.end());
-      instrument.csv.emplace(folder.probe(probe.name), columns);
+      instrument.csv.emplace(folder.probe(probe.name), columns,
+                             marks ? std::optional(marks->at(k).size) : std::nullopt);
     }
   });
+}
+
+template <int Dim>
+std::vector<ProbeMark> ProbeSet<Dim>::marks() const {
+  std::vector<ProbeMark> marks;
+  for (const Instrument& instrument : instruments_) {
+    marks.push_back({instrument.taken, instrument.csv ? instrument.csv->size() : 0});
+  }
+  return marks;
 }
 
 template <int Dim>
@@ -108,7 +123,8 @@ void ProbeSet<Dim>::Instrument::write(double time, const std::vector<Row>& rows)
 template <int Dim>
 void ProbeSet<Dim>::Instrument::count_as_taken(double time) {
   if (probe.times.empty() && probe.interval == 0.0) return;  // due at every step
-  // A long step may pass more than one.
+  // A long step may pass many intervals. The quotient may be off by one, for round-off.
+  if (probe.times.empty()) taken = std::max(taken, static_cast<std::size_t>(time / probe.interval));
   while (is_due(time)) ++taken;
 }
 

@@ -1,6 +1,7 @@
 // The probes of a case, and the files they write during the run.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,11 +27,22 @@ struct Probe {
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// How far a probe has come.
+struct ProbeMark {
+  std::size_t taken = 0;  ///< intervals or times that have passed
+  std::int64_t size = 0;  ///< bytes of its file; on the root
+};
+
 template <int Dim>
 class ProbeSet {
  public:
-  /// Starts one file per probe, probes/NAME.csv, on the root. Throws IoError, on all ranks.
-  ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks = {});
+  /// Starts one file per probe, probes/NAME.csv, on the root; or goes on with those of an earlier run from where its
+  /// marks say. Throws IoError, on all ranks.
+  ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks = {},
+           const std::optional<std::vector<ProbeMark>>& marks = {});
+
+  /// Of each probe.
+  std::vector<ProbeMark> marks() const;
 
   /// Whether any probe is due at `time` [s].
   bool is_due(double time) const;

@@ -23,11 +23,52 @@ namespace {
 /// Without the first step, which builds lists and patterns and has no pressure to start from.
 constexpr int trial_steps = 3;
 
+/// Particles in the tank whose steps stand for those of a case that is too large to try.
+constexpr double particles_in_tank = 1e4;
+
 /// At a millisecond per step, which is fast, this many take twelve days.
 constexpr double most_steps = 1e9;
 
 /// bytes; memory of a run without any particle, libraries included
 constexpr double program_memory = 5e7;
+
+/// s; for one step of the flow, after the first
+template <int Dim>
+double time_of_a_step(Flow<Dim>& flow, double end) {
+  flow.neighbourhood.reorder(flow.state.particles);
+  advance(flow, std::min(next_time_step(flow), end));
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < trial_steps; ++k) advance(flow, std::min(next_time_step(flow), end));
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / trial_steps;
+}
+
+/// A full tank, as deep as wide, by the scheme of `spec` and with particles of the same size.
+template <int Dim>
+CaseSpec tank_instead_of(const CaseSpec& spec) {
+  const double side = spec.particles.spacing * std::round(std::pow(particles_in_tank, 1.0 / Dim));
+  CaseSpec tank;
+  tank.general.dimension = Dim;
+  tank.particles = spec.particles;
+  tank.physics = spec.physics;
+  tank.scheme = spec.scheme;
+  tank.pressure_solver = spec.pressure_solver;
+  tank.time = spec.time;
+  FluidTable water;
+  water.min.assign(Dim, 0.0);
+  water.max.assign(Dim, side);
+  water.velocity.assign(Dim, 0.0);
+  tank.fluid.push_back(water);
+  WallTable wall;
+  wall.shape = WallShape::box;
+  wall.min = water.min;
+  wall.max = water.max;
+  wall.max.back() *= 1.5;
+  wall.open = {Dim == 2 ? "+y" : "+z"};
+  wall.displacement.assign(Dim, 0.0);
+  wall.fluid_side = FluidSide::inside;
+  tank.walls.push_back(wall);
+  return tank;
+}
 
 }  // namespace
 
@@ -62,8 +103,8 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   constexpr double number = sizeof(double);
   constexpr double index = 4.0;
   // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
-  // twice, for the state before the step and the solver's vectors.
-  constexpr double fields = 2.0 * (6 * Dim + 10) * number;
+  // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
+  constexpr double fields = 3.0 * (6 * Dim + 10) * number;
   // Per pair: the neighbour's index, unit vector, pair vector, distance, kernel and its derivative; a row entry of the
   // matrix with its place, and one of its factors.
   constexpr double pair = index + (2 * Dim + 3) * number + 3.0 * index + 2.0 * number;
@@ -71,7 +112,7 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
   // Lists grow by doubling, and libraries keep buffers. The peak in summary.json after some steps, less the program, is
   // 1.6 times the arrays for cases/zhou1999 at dx = 0.003 m (435 MB) and 0.7 times for the 3D tank of cases/robustness
-  // at 0.015 m (244 MB); long runs need a little more.
+  // at 0.015 m (244 MB), both before there were checkpoints; long runs need a little more.
   constexpr double slack = 1.9;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }
@@ -95,8 +136,8 @@ Findings check_memory(const CaseSpec& spec, double available) {
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
   return {Finding::error(
-      "a spacing of {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only {:.3g} "
-      "GB are free: use a spacing of at least {:.3g} m",
+      "particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only "
+      "{:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes",
       spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting)};
 }
 
@@ -112,23 +153,23 @@ void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
 }
 
 template <int Dim>
-RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow) {
+RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs) {
   RunEstimate estimate;
   const std::size_t fluid =
       count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
   estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.state.particles.owned - fluid)};
-  estimate.memory = memory_estimate<Dim>(estimate.particles, neighbours_in_support<Dim>(spec.scheme.support));
-
-  flow.neighbourhood.reorder(flow.state.particles);
-  double dt = std::min(next_time_step(flow), spec.time.end);
-  advance(flow, dt);
-  const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < trial_steps; ++k) {
-    dt = std::min(next_time_step(flow), spec.time.end);
-    advance(flow, dt);
+  const double neighbours = neighbours_in_support<Dim>(spec.scheme.support);
+  estimate.memory = memory_estimate<Dim>(estimate.particles, neighbours);
+  const double particles = estimate.particles.fluid + estimate.particles.wall;
+  estimate.is_from_tank = particles * neighbours > most_pairs;
+  double per_step = 0.0;
+  if (estimate.is_from_tank) {
+    Flow<Dim> tank(tank_instead_of<Dim>(spec));
+    per_step = time_of_a_step(tank, spec.time.end) * particles / static_cast<double>(tank.state.particles.owned);
+  } else {
+    per_step = time_of_a_step(flow, spec.time.end);
   }
-  const double per_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / trial_steps;
-  estimate.steps = spec.time.end / dt;
+  estimate.steps = spec.time.end / std::min(next_time_step(flow), spec.time.end);
   estimate.seconds = estimate.steps * per_step;
   return estimate;
 }
@@ -138,7 +179,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow) {
   template double neighbours_in_support<Dim>(double);                   \
   template double memory_estimate<Dim>(const ParticleCount&, double);   \
   template Findings check_memory<Dim>(const CaseSpec&, double);         \
-  template RunEstimate estimate_run<Dim>(const CaseSpec&, Flow<Dim>&);
+  template RunEstimate estimate_run<Dim>(const CaseSpec&, Flow<Dim>&, double);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

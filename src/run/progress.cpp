@@ -1,24 +1,16 @@
 #include "run/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tailwater {
 namespace {
 
-constexpr auto terminal_interval = std::chrono::milliseconds(200);
+constexpr auto live_interval = std::chrono::milliseconds(200);
 constexpr auto plain_interval = std::chrono::seconds(60);
 constexpr double plain_share = 0.05;
-
-std::size_t terminal_columns() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
-}
 
 }  // namespace
 
@@ -41,35 +33,32 @@ std::string progress_line(double time, double end_time, double elapsed, std::int
       report.passes, report.iterations, report.residual, 100.0 * measures.density_error_largest);
 }
 
-Progress::Progress(double end_time, bool quiet)
-    : end_time_(end_time), quiet_(quiet), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(double end_time, double elapsed)
+    : end_time_(end_time),
+      start_(Clock::now() - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(elapsed))) {}
 
 void Progress::show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
-  if (quiet_) return;
   const auto now = Clock::now();
   const double share = std::min(time / end_time_, 1.0);
-  const bool is_first = last_share_ < 0.0;
-  const bool is_due = is_terminal_ ? now - last_shown_ > terminal_interval
-                                   : now - last_shown_ > plain_interval || share - last_share_ >= plain_share;
-  if (!is_first && !is_due && share < 1.0) return;
-  last_shown_ = now;
-  last_share_ = share;
+  const bool is_end = last_plain_share_ < 0.0 || share >= 1.0;  // either end
+  const bool plain_is_due = is_end || now - last_plain_ > plain_interval || share - last_plain_share_ >= plain_share;
+  const bool live_is_due = is_on_terminal_ && (is_end || now - last_live_ > live_interval);
+  if (!plain_is_due && !live_is_due) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  std::string line = progress_line(time, end_time_, elapsed, step, report, measures);
-  if (is_terminal_) {
-    // A line that wraps cannot be rewritten in place.
-    line.resize(std::min(line.size(), terminal_columns() - 1));
-    fmt::print(stderr, "\r\033[K{}", line);
-    line_is_open_ = true;
-  } else {
-    fmt::print(stderr, "{}\n", line);
+  const std::string line = progress_line(time, end_time_, elapsed, step, report, measures);
+  if (live_is_due) {
+    last_live_ = now;
+    show_live(line);
   }
-  std::fflush(stderr);
-}
-
-void Progress::finish() {
-  if (line_is_open_) fmt::print(stderr, "\n");
-  line_is_open_ = false;
+  if (plain_is_due) {
+    last_plain_ = now;
+    last_plain_share_ = share;
+    if (is_on_terminal_) {
+      log_line(line);
+    } else {
+      tell(line);
+    }
+  }
 }
 
 }  // namespace tailwater

@@ -1,4 +1,4 @@
-// One line about the progress of the run, on standard error. On a terminal it is rewritten in place; elsewhere plain
+// One line about the progress of the run. On a terminal it is rewritten in place; elsewhere, and in the log, plain
 // lines are written now and then.
 #pragma once
 
@@ -7,29 +7,27 @@
 
 #include "flow/measure.h"
 #include "flow/step.h"
+#include "io/messages.h"
 
 namespace tailwater {
 
 class Progress {
  public:
-  Progress(double end_time, bool quiet);
+  /// `elapsed` [s]: what earlier runs, which this one goes on with, have taken.
+  explicit Progress(double end_time, double elapsed = 0.0);
 
   /// Shows the state after a step if a new line is due.
   void show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures);
-
-  /// Ends the line that is rewritten in place, so that the next output starts on a new line.
-  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   double end_time_;
-  bool quiet_;
-  bool is_terminal_;
-  bool line_is_open_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_shown_;
-  double last_share_ = -1.0;
+  bool is_on_terminal_ = is_on_terminal();
+  Clock::time_point start_;
+  Clock::time_point last_live_;
+  Clock::time_point last_plain_;
+  double last_plain_share_ = -1.0;
 };
 
 /// The line after `elapsed` seconds of work. The most important comes first, because a narrow terminal cuts off the

@@ -33,6 +33,8 @@ std::string host_name() {
 nlohmann::ordered_json provenance() {
   return {{"version", version},
           {"commit", commit},
+          {"compiler", compiler},
+          {"options", options},
           {"libraries", linear_library_version()},
           {"machine",
            {{"name", host_name()}, {"processor", processor_name()}, {"cores", std::thread::hardware_concurrency()}}}};

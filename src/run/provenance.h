@@ -1,4 +1,4 @@
-// Where a result comes from: program, commit, libraries, machine.
+// Where a result comes from: program, commit, compiler, libraries, machine.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace tailwater {
 
-/// {"version", "commit", "libraries", "machine": {"name", "processor", "cores"}}
+/// {"version", "commit", "compiler", "options", "libraries", "machine": {"name", "processor", "cores"}}
 nlohmann::ordered_json provenance();
 
 /// "tailwater 0.1.0 (commit abc123)"

@@ -3,13 +3,52 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "parallel/together.h"
+
 namespace tailwater {
 
-RankLog::RankLog(const Communicator& ranks, const std::filesystem::path& path) : ranks_(ranks) {
-  if (ranks.is_alone() || !ranks.is_root()) return;
-  csv_.emplace(
-      path, std::vector<std::string>{"time_s", "step", "imbalance", "is_cut_anew", "moved_particles", "particles_least",
-                                     "particles_most", "ghosts_mean", "exchange_share", "reduction_share"});
+RankLog::RankLog(const Communicator& ranks, const std::filesystem::path& path, std::optional<std::int64_t> kept)
+    : ranks_(ranks) {
+  if (ranks.is_alone()) return;
+  do_on_root(ranks, [&] {
+    csv_.emplace(
+        path,
+        std::vector<std::string>{"time_s", "step", "imbalance", "is_cut_anew", "moved_particles", "particles_least",
+                                 "particles_most", "ghosts_mean", "exchange_share", "reduction_share"},
+        kept);
+  });
+}
+
+/// Calls body with each number that grows over the run.
+template <class Self, class Body>
+void RankLog::for_each_sum(Self& self, Traffic& traffic, Body&& body) {
+  body(self.lines_);
+  body(self.cuts_);
+  body(self.moved_);
+  body(self.ghosts_sum_);
+  body(self.imbalance_sum_);
+  body(self.imbalance_largest_);
+  body(traffic.exchange_seconds);
+  body(traffic.reduction_seconds);
+  body(traffic.exchanges);
+  body(traffic.messages);
+  body(traffic.bytes);
+}
+
+std::vector<double> RankLog::saved() const {
+  Traffic traffic = ranks_.is_alone() ? Traffic() : *ranks_.traffic();
+  std::vector<double> saved{std::chrono::duration<double>(Clock::now() - start_).count()};
+  for_each_sum(*this, traffic, [&](const auto& value) { saved.push_back(static_cast<double>(value)); });
+  return saved;
+}
+
+void RankLog::restore(std::span<const double> saved) {
+  if (ranks_.is_alone()) return;
+  last_ = Clock::now();
+  start_ = last_ - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(saved[0]));
+  std::size_t k = 1;
+  for_each_sum(*this, *ranks_.traffic(), [&]<class Value>(Value& value) { value = static_cast<Value>(saved[k++]); });
+  at_last_ = *ranks_.traffic();
 }
 
 template <int Dim>
@@ -34,11 +73,12 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   cuts_ += sharing.is_cut_anew;
   moved_ += sharing.moved;
   ghosts_sum_ += ghosts;
-  if (!csv_) return;
-  csv_->write(std::array<double, 10>{flow.state.time, static_cast<double>(flow.state.step), sharing.imbalance,
-                                     static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
-                                     static_cast<double>(least), static_cast<double>(most), ghosts / ranks_.size(),
-                                     exchange, reduction});
+  do_on_root(ranks_, [&] {
+    csv_->write(std::array<double, 10>{flow.state.time, static_cast<double>(flow.state.step), sharing.imbalance,
+                                       static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
+                                       static_cast<double>(least), static_cast<double>(most), ghosts / ranks_.size(),
+                                       exchange, reduction});
+  });
 }
 
 nlohmann::ordered_json RankLog::json() const {

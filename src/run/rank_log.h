@@ -3,9 +3,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "flow/measure.h"
 #include "flow/step.h"
@@ -15,18 +18,28 @@ namespace tailwater {
 
 class RankLog {
  public:
-  /// Starts the file on the root. Throws IoError.
-  RankLog(const Communicator& ranks, const std::filesystem::path& path);
+  /// Starts the file on the root, or goes on with `kept` bytes of an earlier one. Throws IoError, on all ranks.
+  RankLog(const Communicator& ranks, const std::filesystem::path& path, std::optional<std::int64_t> kept = {});
 
-  /// Logs the result of sharing out and the traffic since the last call. Collective. Throws IoError.
+  /// Logs the result of sharing out and the traffic since the last call. Collective. Throws IoError, on all ranks.
   template <int Dim>
   void write(const Flow<Dim>& flow, const Sharing& sharing);
 
   /// Block "ranks" of the summary. Collective; valid on the root.
   nlohmann::ordered_json json() const;
 
+  /// All sums of this rank, for a checkpoint, and from one.
+  std::vector<double> saved() const;
+  void restore(std::span<const double> saved);
+
+  /// Bytes of the file; 0 where there is none.
+  std::int64_t size() const { return csv_ ? csv_->size() : 0; }
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  template <class Self, class Body>
+  static void for_each_sum(Self& self, Traffic& traffic, Body&& body);
 
   Communicator ranks_;
   std::optional<CsvWriter> csv_;

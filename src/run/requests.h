@@ -1,62 +1,93 @@
-// Requests to a run in progress: to stop, by a signal or by a file in its folder. A signal may reach all ranks, some or
-// none (not every mpirun forwards signals); the file works wherever the run was started.
+// Requests to a run in progress: to stop, or to write a checkpoint, by a signal or by a file in its folder. A signal
+// may reach all ranks, some or none (not every mpirun forwards signals); the files work wherever the run was started.
 #pragma once
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 
 #include "io/run_folder.h"
 #include "parallel/communicator.h"
 
 namespace tailwater {
 
+/// What a run is asked for.
+struct Asked {
+  bool stop = false;
+  bool checkpoint = false;
+};
+
+/// The wall-clock time that a run has, as batch systems give it.
+struct WallTime {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::optional<std::chrono::duration<double>> limit;
+};
+
 /// While this object lives, the first SIGINT, SIGTERM or SIGUSR1 (batch systems) asks the run to stop; a second one of
-/// the same kind ends the program at once. The file STOP in the run's folder also asks the run to stop.
+/// the same kind ends the program at once. SIGHUP, which says that the terminal is gone, asks for a checkpoint. The
+/// files STOP and CHECKPOINT in the run's folder ask for the same. The wall time asks the run to stop in time.
 class Requests {
  public:
-  Requests(const RunFolder& folder, const Communicator& ranks);
+  Requests(const RunFolder& folder, const Communicator& ranks, const WallTime& wall_time = {});
   ~Requests();
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
 
-  /// Whether any rank has been asked to stop; the same on all ranks. Removes the file when it finds it. Collective.
-  bool stop_is_asked();
+  /// What any rank has been asked for since the start; the same on all ranks. `checkpoint_is_due` on any rank counts as
+  /// asking. Removes the file STOP when it finds it. Collective.
+  Asked look(bool checkpoint_is_due = false);
+
+  /// The checkpoint that was asked for is written: removes the file CHECKPOINT, which tells whoever made it. Throws
+  /// IoError, on all ranks.
+  void fulfil_checkpoint();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool finds_stop_file();
+  void look_for_files(Clock::time_point now);
+  bool time_is_up(Clock::time_point now);
 
   std::filesystem::path stop_file_;
+  std::filesystem::path checkpoint_file_;
   Communicator ranks_;
-  Clock::time_point last_look_;
+  WallTime wall_time_;
+  std::optional<Clock::time_point> last_look_;
+  Clock::duration longest_between_looks_{};
+  Clock::time_point last_look_for_files_;
+  bool stop_was_found_ = false;
+  bool checkpoint_was_found_ = false;
   struct sigaction old_interrupt_ {};
   struct sigaction old_terminate_ {};
   struct sigaction old_user_ {};
+  struct sigaction old_hang_up_ {};
 };
 
-/// Asks a run to stop; used in the process that started it.
-class StopSender {
+/// Hands requests on to a run; used in the process that started it.
+class RequestSender {
  public:
   /// Call before starting the run that writes into `folder`, which need not exist yet.
-  explicit StopSender(const std::filesystem::path& folder);
-  /// Removes the file again if the run has ended without seeing it.
-  ~StopSender();
-  StopSender(const StopSender&) = delete;
-  StopSender& operator=(const StopSender&) = delete;
+  explicit RequestSender(const std::filesystem::path& folder);
+  /// Removes the files again if the run has ended without seeing them.
+  ~RequestSender();
+  RequestSender(const RequestSender&) = delete;
+  RequestSender& operator=(const RequestSender&) = delete;
 
-  /// Makes the file STOP. Returns false, without making it, if the run has not begun to write or the file cannot be
-  /// made.
-  bool send();
+  /// Makes the file STOP or CHECKPOINT. Returns false, without making it, if the run has not begun to write or the file
+  /// cannot be made.
+  bool ask_for_stop() { return make(stop_file_, stop_is_sent_); }
+  bool ask_for_checkpoint() { return make(checkpoint_file_, checkpoint_is_sent_); }
 
  private:
+  bool make(const std::filesystem::path& file, bool& is_sent) const;
   std::filesystem::file_time_type last_start() const;
 
   std::filesystem::path stop_file_;
-  std::filesystem::path effective_case_;  ///< a run writes it when it is ready
+  std::filesystem::path checkpoint_file_;
+  std::filesystem::path summary_;  ///< a run writes it when it is ready
   std::filesystem::file_time_type start_before_;
-  bool is_sent_ = false;
+  bool stop_is_sent_ = false;
+  bool checkpoint_is_sent_ = false;
 };
 
 }  // namespace tailwater

@@ -1,12 +1,15 @@
 #include "run/run_case.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <csignal>
+#include <optional>
+#include <utility>
 
 #include "flow/verbs.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
+#include "io/messages.h"
+#include "run/checkpoint_keeper.h"
 #include "run/estimate.h"
 #include "run/requests.h"
 #include "run/run_output.h"
@@ -23,29 +26,59 @@ constexpr std::int64_t steps_between_sorts = 5;
 template <int Dim>
 class Run {
  public:
-  Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks)
-      : end_(spec.time.end), flow_(spec, ranks), output_(spec, options, flow_), guard_(flow_, output_.folder()) {}
+  /// Goes on from the checkpoint if there is one.
+  Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
+      std::optional<Checkpoint<Dim>> checkpoint)
+      : end_(spec.time.end),
+        wall_time_(options.wall_time),
+        flow_(spec, ranks),
+        output_(spec, options, flow_, checkpoint ? &checkpoint->output : nullptr),
+        guard_(flow_, output_.folder(), spec.limits.smallest_step),
+        keeper_(spec, output_.folder(), ranks) {
+    if (!checkpoint) return;
+    go_on_from(*checkpoint);
+    tell(fmt::format("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time));
+  }
 
   ExitCode execute() {
     try {
+      output_.begin(flow_);
       const ExitCode code = loop();
       output_.finish(flow_, code);
       return code;
-    } catch (const SolverError& error) {
-      output_.finish_failed(flow_, error.what());
+    } catch (const UserError& error) {
+      output_.finish_failed(flow_, error.code(), error.what());
       throw;
     }
   }
 
  private:
+  void go_on_from(Checkpoint<Dim>& checkpoint) {
+    if (checkpoint.state.wall_velocity.size() != flow_.state.wall_velocity.size() ||
+        checkpoint.state.open_ends.size() != flow_.state.open_ends.size()) {
+      throw IoError("the checkpoint does not fit the walls and outlets of its case");
+    }
+    keeper_.go_on_from(checkpoint.state.step);
+    flow_.restore(std::move(checkpoint.state));
+    output_.rank_log().restore(checkpoint.rank_log);
+    guard_.restore_reference_step(checkpoint.reference_step);
+    goes_on_ = true;
+    if (!checkpoint.is_shared_out) return;
+    if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(checkpoint.cuts));
+    shared_out_step_ = flow_.state.step;
+  }
+
   ExitCode loop() {
-    Requests requests(output_.folder(), flow_.setup.ranks);
-    begin();
+    Requests requests(output_.folder(), flow_.setup.ranks, wall_time_);
+    if (!goes_on_) begin();
     while (flow_.state.time < end_) {
-      if (requests.stop_is_asked()) return ExitCode::interrupted;
+      const Asked asked = requests.look(keeper_.is_due());
+      if ((asked.stop || asked.checkpoint) && keeper_.write(flow_, output_)) requests.fulfil_checkpoint();
+      if (asked.stop) return ExitCode::interrupted;
       output_.write_due_fields(flow_);
       step();
     }
+    keeper_.write(flow_, output_);
     return ExitCode::done;
   }
 
@@ -70,22 +103,38 @@ class Run {
   }
 
   /// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
-  /// have passed an outlet are removed.
+  /// have passed an outlet are removed. A checkpoint is of the moment between: before water that may have limited the
+  /// time step has left.
   void rearrange() {
     const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
-    if (is_shared_out) output_.record_sharing(flow_, share_out(flow_));
+    if (is_shared_out) {
+      if (flow_.state.step != shared_out_step_) output_.record_sharing(flow_, share_out(flow_));
+      keeper_.remember(flow_, output_, guard_);
+    }
     const bool some_left = let_go(flow_);
     if (some_left || is_shared_out) guard_.remember_good();
   }
 
   double end_;  ///< s
+  WallTime wall_time_;
   Flow<Dim> flow_;
   RunOutput<Dim> output_;
   StepGuard<Dim> guard_;
+  CheckpointKeeper<Dim> keeper_;
+  bool goes_on_ = false;               ///< from a checkpoint
+  std::int64_t shared_out_step_ = -1;  ///< at which particles are as the checkpoint has them
 };
 
 template <int Dim>
-void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
+ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
+                const SealedFile* checkpoint) {
+  std::optional<Checkpoint<Dim>> read;
+  if (checkpoint != nullptr) read = read_checkpoint<Dim>(*checkpoint, ranks);
+  return Run<Dim>(spec, options, ranks, std::move(read)).execute();
+}
+
+template <int Dim>
+void require_sound_geometry_in(const CaseSpec& spec, bool warns) {
   std::vector<Finding> findings = check_memory<Dim>(spec, available_memory());
   if (findings.empty()) {
     const Boundary<Dim> boundary = make_boundary<Dim>(spec);
@@ -95,8 +144,8 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
       errors += (errors.empty() ? "" : "\n") + finding.message;
-    } else if (!quiet) {
-      fmt::print(stderr, "warning: {}\n", finding.message);
+    } else if (warns) {
+      warn(spec.sources.placed(finding.message));
     }
   }
   if (!errors.empty()) throw InputError(errors);
@@ -104,17 +153,23 @@ void require_sound_geometry_in(const CaseSpec& spec, bool quiet) {
 
 }  // namespace
 
-void require_sound_geometry(const CaseSpec& spec, bool quiet) {
+void require_sound_geometry(const CaseSpec& spec, bool warns) {
   if (spec.general.dimension == 2) {
-    require_sound_geometry_in<2>(spec, quiet);
+    require_sound_geometry_in<2>(spec, warns);
   } else {
-    require_sound_geometry_in<3>(spec, quiet);
+    require_sound_geometry_in<3>(spec, warns);
   }
 }
 
-ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks) {
-  require_sound_geometry(spec, options.quiet || !ranks.is_root());
-  return spec.general.dimension == 2 ? Run<2>(spec, options, ranks).execute() : Run<3>(spec, options, ranks).execute();
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
+                  const SealedFile* checkpoint) {
+  // A file that grows beyond the limit of a batch system is an error of the write, as on a full disk, and no signal.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return with_places(spec, [&] {
+    require_sound_geometry(spec, checkpoint == nullptr);
+    return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
+                                       : run_in<3>(spec, options, ranks, checkpoint);
+  });
 }
 
 }  // namespace tailwater

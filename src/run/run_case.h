@@ -3,18 +3,31 @@
 
 #include "base/error.h"
 #include "case/spec.h"
+#include "io/sealed_file.h"
 #include "parallel/communicator.h"
 #include "run/run_options.h"
 
 namespace tailwater {
 
-/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings go to standard
-/// error. Throws InputError with all errors found.
-void require_sound_geometry(const CaseSpec& spec, bool quiet);
+/// Does `work`; an InputError about the case that leaves it tells the place in the case file.
+template <class Work>
+auto with_places(const CaseSpec& spec, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(spec.sources.placed(error.what()));
+  }
+}
+
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told
+/// (io/messages.h), unless an earlier run of the case has told them. Throws InputError with all errors found.
+void require_sound_geometry(const CaseSpec& spec, bool warns = true);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
-/// and failure/ holds the last good fields. A later IoError is thrown only on the rank that met it.
-ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {});
+/// and failure/ holds the last good fields. Throws a later IoError on all ranks; the summary says so if it can be
+/// written. With a `checkpoint`, which counts on the root, goes on from it.
+ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {},
+                  const SealedFile* checkpoint = nullptr);
 
 }  // namespace tailwater

@@ -3,13 +3,15 @@
 
 #include <filesystem>
 
+#include "run/requests.h"
+
 namespace tailwater {
 
 struct RunOptions {
   std::filesystem::path case_file;  ///< as named in the summary
   std::filesystem::path out;
   bool force = false;  ///< replace the results of an earlier run
-  bool quiet = false;  ///< no progress lines
+  WallTime wall_time;
 };
 
 }  // namespace tailwater

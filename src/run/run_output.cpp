@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "case/writer.h"
+#include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
 #include "run/estimate.h"
@@ -18,6 +19,12 @@ namespace tailwater {
 namespace {
 
 constexpr double default_field_files = 100.0;
+
+/// A file system that a whole cluster shares is asked no more often whether the run's folder is still there.
+constexpr auto time_between_looks_at_folder = std::chrono::milliseconds(100);
+
+/// Spaces after the summary of a run that goes on, so that the last one fits into its place on a full disk.
+constexpr std::size_t room_for_last_summary = 4096;
 
 double cpu_seconds() {
   rusage usage{};
@@ -34,43 +41,135 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+/// Bytes of a file to go on with; none for a new run.
+std::optional<std::int64_t> kept_bytes(const nlohmann::json* kept, const char* file) {
+  if (kept == nullptr) return std::nullopt;
+  const auto bytes = kept->at("bytes").at(file).get<std::int64_t>();
+  return bytes > 0 ? std::optional(bytes) : std::nullopt;
+}
+
+std::vector<ProbeMark> marks_of(const nlohmann::json& kept) {
+  std::vector<ProbeMark> marks;
+  for (const nlohmann::json& mark : kept.at("probes")) marks.push_back({mark.at("taken"), mark.at("bytes")});
+  return marks;
+}
+
+/// Replaces the file as a whole, as always; where the disk is so full that this cannot be, writes over its bytes.
+void write_last_file(const std::filesystem::path& path, const std::string& text) {
+  try {
+    write_text_file(path, text);
+  } catch (const IoError&) {
+    if (!overwrite_file(path, text)) throw;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
-RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow)
+RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow,
+                          const nlohmann::json* kept)
     : spec_(spec),
       options_(options),
+      case_file_(options.case_file.string()),
       ranks_(flow.setup.ranks),
-      tells_(ranks_.is_root() && !options.quiet),
       probe_list_(make_probes<Dim>(spec, flow.walls.boundary)),
-      folder_(make_folder(flow)),
+      folder_(make_folder(flow, kept != nullptr)),
       series_(folder_.fields(), "fields", spec.output.compression),
       wall_series_(folder_.fields(), "walls", spec.output.compression),
-      rank_log_(ranks_, folder_.ranks()),
-      probes_(std::move(probe_list_), folder_, ranks_),
-      progress_(spec.time.end, !tells_),
+      rank_log_(ranks_, folder_.ranks(), kept_bytes(kept, "ranks")),
+      probes_(std::move(probe_list_), folder_, ranks_, kept ? std::optional(marks_of(*kept)) : std::nullopt),
+      progress_(spec.time.end, kept ? kept->at("cost").at("wall_seconds").get<double>() : 0.0),
       statistics_(measure(flow)),
+      limits_(spec.limits, flow),
       water_at_start_(water_in(flow)),
+      fields_interval_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
+                                                         : spec.time.end / default_field_files),
       cpu_start_(cpu_seconds()) {
-  do_on_root(ranks_, [&] {
-    step_log_.emplace(folder_.steps());
-    write_text_file(folder_.effective_case(), effective_case(spec));
-  });
+  do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), kept_bytes(kept, "steps")); });
+  if (kept != nullptr) take_up(*kept);
 }
 
 template <int Dim>
-RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow) const {
+RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const {
   require_reachable_end(spec_, flow.setup.time_step_rule);
-  return RunFolder::create(options_.out, options_.force, ranks_);
+  RunFolder folder =
+      goes_on ? RunFolder::open(options_.out, ranks_) : RunFolder::create(options_.out, options_.force, ranks_);
+  open_log(folder.log());
+  // First of all, because a run that is killed from now on can be started again from it.
+  do_on_root(ranks_, [&] { write_text_file(folder.effective_case(), effective_case(spec_)); });
+  return folder;
+}
+
+template <int Dim>
+nlohmann::json RunOutput<Dim>::saved() const {
+  nlohmann::json probes = nlohmann::json::array();
+  for (const ProbeMark& mark : probes_.marks()) probes.push_back({{"taken", mark.taken}, {"bytes", mark.size}});
+  return {{"case_file", case_file_},
+          {"bytes", {{"steps", step_log_ ? step_log_->csv().size() : 0}, {"ranks", rank_log_.size()}}},
+          {"probes", probes},
+          {"fields",
+           {{"times", series_.times()},
+            {"wall_times", wall_series_.times()},
+            {"interval", fields_interval_},
+            {"next", next_fields_},
+            {"last", last_fields_time_}}},
+          {"statistics", statistics_.saved()},
+          {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
+          {"warnings", warnings()},
+          {"limits", limits_.saved()},
+          {"warned_outside", warned_outside_}};
+}
+
+template <int Dim>
+void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
+  kept.at("case_file").get_to(case_file_);
+  const std::optional<std::int64_t> ranks_bytes = kept_bytes(&kept, "ranks");
+  do_on_root(ranks_, [&] {
+    if (ranks_.is_alone() && ranks_bytes) cut_file(folder_.ranks(), *ranks_bytes);
+  });
+  const nlohmann::json& fields = kept.at("fields");
+  series_.go_on(fields.at("times"), ranks_);
+  wall_series_.go_on(fields.at("wall_times"), ranks_);
+  last_fields_time_ = fields.at("last");
+  next_fields_ = fields.at("next");
+  if (fields.at("interval") != fields_interval_) {
+    next_fields_ = (std::floor(last_fields_time_ / fields_interval_) + 1.0) * fields_interval_;
+  }
+  statistics_.restore(kept.at("statistics"));
+  water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
+  recall_warnings(kept.at("warnings"));
+  limits_.restore(kept.at("limits"));
+  warned_outside_ = kept.at("warned_outside");
+  const nlohmann::json& cost = kept.at("cost");
+  wall_seconds_before_ = cost.at("wall_seconds");
+  cpu_seconds_before_ = cost.at("cpu_seconds");
+  runs_before_ = cost.at("runs");
+}
+
+template <int Dim>
+void RunOutput<Dim>::add_costs(nlohmann::json& saved) const {
+  saved["cost"] = {{"wall_seconds", wall_seconds()},
+                   {"cpu_seconds", cpu_seconds_before_ + ranks_.sum(cpu_seconds() - cpu_start_)},
+                   {"runs", runs_before_ + 1}};
+}
+
+template <int Dim>
+double RunOutput<Dim>::wall_seconds() const {
+  return wall_seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+/// Tells others, too, that the run is ready (RequestSender).
+template <int Dim>
+void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
+  write_summary(flow, "running", std::nullopt,
+                fmt::format("The run goes on, or it was killed; then: tailwater resume {}", options_.out.string()));
 }
 
 template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
   if (flow.state.time < next_fields_) return;
   write_fields(flow);
-  const double interval =
-      spec_.output.fields_interval > 0.0 ? spec_.output.fields_interval : spec_.time.end / default_field_files;
-  next_fields_ = (std::floor(flow.state.time / interval) + 1.0) * interval;
+  next_fields_ = (std::floor(flow.state.time / fields_interval_) + 1.0) * fields_interval_;
 }
 
 template <int Dim>
@@ -114,54 +213,76 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   const std::size_t outside = count_outside(flow);
   warn_if_outside(flow, outside);
   statistics_.add(report, measures, outside);
-  if (step_log_) step_log_->write(flow.state.time, flow.state.step, report, measures);
+  do_on_root(ranks_, [&] {
+    require_folder_in_place();
+    step_log_->write(flow.state.time, flow.state.step, report, measures);
+  });
   record_probes(flow, measures);
   progress_.show(flow.state.time, flow.state.step, report, measures);
+  try {
+    limits_.check(flow.state.time, statistics_.energy_rise(), measures);
+  } catch (const SolverError&) {
+    write_fields(flow);
+    throw;
+  }
+}
+
+/// A folder that was removed or replaced takes no more lines, and no write to an open file says so.
+template <int Dim>
+void RunOutput<Dim>::require_folder_in_place() {
+  const auto now = Clock::now();
+  if (now - last_look_at_folder_ < time_between_looks_at_folder) return;
+  last_look_at_folder_ = now;
+  step_log_->csv().require_in_place();
 }
 
 template <int Dim>
 void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside) {
-  if (outside == 0 || warned_outside_ || !tells_) return;
+  if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
-  progress_.finish();
-  fmt::print(stderr,
-             "warning: at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still "
-             "computed, and counted in summary.json. Remedy: higher walls\n",
-             flow.state.time, outside);
+  warn(
+      fmt::format("at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still computed, and "
+                  "counted in summary.json. Remedy: higher walls",
+                  flow.state.time, outside));
 }
 
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
-  progress_.finish();
   write_fields(flow);
+  do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
 }
 
 template <int Dim>
-void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, const std::string& message) {
-  progress_.finish();
-  write_summary(flow, "failed", ExitCode::solver_failed, message);
+void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message) {
+  try {
+    write_summary(flow, "failed", code, message);
+  } catch (const IoError&) {
+    // What went wrong first is what the user is told.
+  }
 }
 
 template <int Dim>
-void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& status, ExitCode code,
+void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,
                                    const std::string& message) {
-  const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double cpu = ranks_.sum(cpu_seconds() - cpu_start_);
+  const double cpu = cpu_seconds_before_ + ranks_.sum(cpu_seconds() - cpu_start_);
   const double memory = ranks_.sum(peak_memory_bytes());
   const auto fluid = static_cast<std::size_t>(water_in(flow).particles);
   const std::size_t all = ranks_.sum(flow.state.particles.owned);
   nlohmann::ordered_json summary = {{"title", spec_.general.title},
-                                    {"case", options_.case_file.string()},
+                                    {"case", case_file_},
                                     {"status", status},
-                                    {"exit_code", static_cast<int>(code)},
+                                    {"exit_code", nullptr},
                                     {"message", message},
+                                    {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
+                                    {"seed", spec_.particles.seed},
                                     {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
                                     {"cost",
-                                     {{"wall_clock_s", wall_seconds},
+                                     {{"runs", runs_before_ + 1},
+                                      {"wall_clock_s", wall_seconds()},
                                       {"cpu_s", cpu},
                                       {"cpu_s_per_simulated_s", flow.state.time > 0.0 ? cpu / flow.state.time : 0.0},
                                       {"peak_memory_bytes", memory}}},
@@ -169,16 +290,21 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
   summary.update(provenance());
-  if (ranks_.is_root()) write_text_file(folder_.summary(), summary.dump(2) + "\n");
+  if (code) summary["exit_code"] = static_cast<int>(*code);
+  std::string text = summary.dump(2) + "\n";
+  if (!code) text.append(room_for_last_summary, ' ');
+  do_on_root(ranks_, [&] { write_last_file(folder_.summary(), text); });
 }
 
 template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
-  if (flow.setup.open_ends.empty()) return;
-  const Water inside = water_in(flow);
-  if (!tells_) return;
-  fmt::print(stderr, "water: {} at the start, {} inside, {} out\n", water_at_start_.text(), inside.text(),
-             water_out(flow).text());
+  const Water outside = water_outside(flow);
+  if (flow.setup.open_ends.empty() && outside.particles == 0) return;
+  Water inside = water_in(flow);
+  inside.particles -= outside.particles;
+  inside.volume -= outside.volume;
+  tell(fmt::format("water: {} at the start, {} inside, {} outside the walls, {} out", water_at_start_.text(),
+                   inside.text(), outside.text(), water_out(flow).text()));
 }
 
 template class RunOutput<2>;

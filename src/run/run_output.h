@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "probes/probe_set.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
+#include "run/result_limits.h"
 #include "run/run_options.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
@@ -27,34 +29,54 @@ class RunOutput {
  public:
   /// The last check of a case: throws InputError for a probe in the wrong place, an end time out of reach or an
   /// unusable folder, and then leaves nothing behind. Otherwise creates the folder. Borrows `spec` and `options`.
-  RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow);
+  /// With `kept`, which is what an earlier run has `saved`, goes on with its files and cuts off what came later.
+  RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow,
+            const nlohmann::json* kept = nullptr);
 
   const RunFolder& folder() const { return folder_; }
+  RankLog& rank_log() { return rank_log_; }
+  const RankLog& rank_log() const { return rank_log_; }
+
+  /// How far the output has come, for a checkpoint: clocks, sums, and the sizes of all files. Not collective; the sizes
+  /// are those of the root.
+  nlohmann::json saved() const;
+  /// Adds to it what the run has cost so far. Collective.
+  void add_costs(nlohmann::json& saved) const;
+
+  /// Writes the summary of a run that goes on, which stays if the program is killed.
+  void begin(const Flow<Dim>& flow);
 
   /// Writes fields if they are due.
   void write_due_fields(const Flow<Dim>& flow);
   /// Records the probes that are due.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
   void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
-  /// Writes and shows everything that follows a step.
+  /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
+  /// case.
   void record_step(const Flow<Dim>& flow, const StepReport& report);
 
   /// Writes the last fields and the summary.
   void finish(const Flow<Dim>& flow, ExitCode code);
-  /// Writes the summary of a failed run.
-  void finish_failed(const Flow<Dim>& flow, const std::string& message);
+  /// Writes the summary of a failed run, if that can be.
+  void finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message);
 
  private:
-  RunFolder make_folder(const Flow<Dim>& flow) const;
+  using Clock = std::chrono::steady_clock;
+
+  RunFolder make_folder(const Flow<Dim>& flow, bool goes_on) const;
+  void take_up(const nlohmann::json& kept);
+  void require_folder_in_place();
+  double wall_seconds() const;
   void write_fields(const Flow<Dim>& flow);
   void warn_if_outside(const Flow<Dim>& flow, std::size_t outside);
-  void write_summary(const Flow<Dim>& flow, const std::string& status, ExitCode code, const std::string& message);
+  void write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,
+                     const std::string& message);
   void tell_water(const Flow<Dim>& flow) const;
 
   const CaseSpec& spec_;
   const RunOptions& options_;
+  std::string case_file_;  ///< as named in the summary
   Communicator ranks_;
-  bool tells_;                          ///< whether to print for the user: on the root, unless quiet
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
@@ -64,12 +86,19 @@ class RunOutput {
   ProbeSet<Dim> probes_;
   Progress progress_;
   RunStatistics statistics_;
+  ResultLimits limits_;
   Water water_at_start_;
+  double fields_interval_;    ///< s
   double next_fields_ = 0.0;  ///< s
   double last_fields_time_ = -1.0;
   bool warned_outside_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_look_at_folder_;
   double cpu_start_;
+  // Of the earlier runs that this one goes on with.
+  double wall_seconds_before_ = 0.0;
+  double cpu_seconds_before_ = 0.0;
+  int runs_before_ = 0;
 };
 
 }  // namespace tailwater

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 
 #include "flow/measure.h"
@@ -15,10 +16,20 @@ class RunStatistics {
 
   void add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped);
 
+  /// J; largest rise of the energy, outlets and walls accounted for.
+  double energy_rise() const { return energy_rise_; }
+
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
+  /// All sums, for a checkpoint, and from one.
+  nlohmann::json saved() const;
+  void restore(const nlohmann::json& saved);
+
  private:
+  template <class Self, class Body>
+  static void for_each_sum(Self& self, Body&& body);
+
   std::int64_t steps_ = 0;
   std::int64_t passes_ = 0;
   std::int64_t iterations_ = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -13,10 +14,6 @@
 namespace tailwater {
 namespace {
 
-/// A step below this share of the rule's own reference means that some particle has run away. An error now is better
-/// than a run that never ends.
-constexpr double collapsed_step = 1e-5;
-
 /// The fastest particle of this rank; none if the rank owns none.
 template <int Dim>
 std::optional<std::size_t> fastest_particle(const Particles<Dim>& particles) {
@@ -25,6 +22,27 @@ std::optional<std::size_t> fastest_particle(const Particles<Dim>& particles) {
     if (!fastest || particles.velocity[i].squaredNorm() > particles.velocity[*fastest].squaredNorm()) fastest = i;
   });
   return fastest;
+}
+
+/// The moving wall that goes farthest within dt, by a corner of each of its faces.
+template <int Dim>
+std::string fastest_wall(const Flow<Dim>& flow, double dt) {
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  const double time = flow.state.time;
+  double farthest = -1.0;
+  int wall = 0;
+  for (const auto& moving : flow.setup.wall_motion.moving()) {
+    const AffineMap<Dim> velocity = moving.path.mean_velocity(time, time + dt);
+    for (const WallFace<Dim>& face : boundary.faces) {
+      if (face.wall != moving.wall) continue;
+      const double speed = velocity(face.corners[0]).norm();
+      if (speed > farthest) {
+        farthest = speed;
+        wall = moving.wall;
+      }
+    }
+  }
+  return wall_label(boundary, wall);
 }
 
 }  // namespace
@@ -37,15 +55,34 @@ void StepGuard<Dim>::remember_good() {
 
 template <int Dim>
 void StepGuard<Dim>::require_sound_step(double dt) {
-  const double reference_step = flow_.setup.time_step_rule.largest(0.0, 0.0);
-  if (!std::isfinite(reference_step) || dt >= collapsed_step * reference_step) return;
-  const Particles<Dim>& particles = flow_.state.particles;
+  const Setup<Dim>& setup = flow_.setup;
+  if (reference_step_ == 0.0) {
+    // Without gravity no speed is too high for the water but by comparison with the start.
+    const double speed = setup.time_step_rule.reference_speed > 0.0 ? 0.0 : largest_speed(flow_);
+    reference_step_ = setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed));
+    if (!setup.wall_motion.moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
+  }
+  if (!std::isfinite(reference_step_) || dt >= smallest_step_ * reference_step_) return;
+  const std::string reason = fmt::format(
+      "the time step collapsed to {:.3g} s, less than limits.smallest_step = {:g} of {:.3g} s, the step at "
+      "the start",
+      dt, smallest_step_, reference_step_);
   const double speed = largest_speed(flow_);
+  const double rule_step =
+      setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed));
+  if (dt < rule_step) {
+    fail(fmt::format("{}: {} moves too fast or jumps. Remedy: a smoother displacement or rotation of the wall", reason,
+                     fastest_wall(flow_, dt)),
+         std::nullopt);
+  }
+  const bool is_viscous = rule_step < setup.time_step_rule.largest(speed, 0.0);
+  const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);
   if (culprit && particles.velocity[*culprit].norm() < speed) culprit.reset();
   blame(culprit, [&](std::size_t i) {
-    return fmt::format("the time step collapsed to {:.3g} s: particle {} at {} moves at {:.4g} m/s", dt,
-                       particles.id[i], place<Dim>(particles.position[i]), particles.velocity[i].norm());
+    return fmt::format("{}, by the {} limit: particle {} at {} moves at {:.4g} m/s", reason,
+                       is_viscous ? "viscous" : "advective", particles.id[i], place<Dim>(particles.position[i]),
+                       particles.velocity[i].norm());
   });
 }
 

@@ -14,15 +14,21 @@ namespace tailwater {
 template <int Dim>
 class StepGuard {
  public:
-  /// Borrows both.
-  StepGuard(Flow<Dim>& flow, const RunFolder& folder) : flow_(flow), folder_(folder) {}
+  /// Borrows flow and folder. `smallest_step` is limits.smallest_step of the case.
+  StepGuard(Flow<Dim>& flow, const RunFolder& folder, double smallest_step)
+      : flow_(flow), folder_(folder), smallest_step_(smallest_step) {}
 
   /// Keeps the present state as good. Indices must mean the same particles in it and after the step, so call it again
   /// after indices have changed.
   void remember_good();
 
-  /// Fails the run if the next step `dt` [s] is so short that some particle must have run away.
+  /// Fails the run if the next step `dt` [s] is below the limit: an error now is better than a run that never ends. The
+  /// message names the term of the time-step rule, and the particle or the wall behind it.
   void require_sound_step(double dt);
+
+  /// s; the step at the start, with which later ones are compared; for a checkpoint, and from one.
+  double reference_step() const { return reference_step_; }
+  void restore_reference_step(double step) { reference_step_ = step; }
 
   /// Does a part of the solution. Fails the run if `work` throws a SolverError or leaves a value that is not finite. If
   /// both happen it reports the particle with that value, because the error follows from it.
@@ -35,6 +41,8 @@ class StepGuard {
 
   Flow<Dim>& flow_;
   const RunFolder& folder_;
+  double smallest_step_;
+  double reference_step_ = 0.0;  ///< s; 0 before the first step
   Particles<Dim> last_good_;
   double last_good_time_ = 0.0;
 };

@@ -1,7 +1,9 @@
 // steps.csv: one line per time step.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "flow/measure.h"
 #include "flow/step.h"
@@ -11,8 +13,10 @@ namespace tailwater {
 
 class StepLog {
  public:
-  explicit StepLog(const std::filesystem::path& path);
+  /// `kept`: bytes of the file of an earlier run to go on with (io/csv_writer.h).
+  explicit StepLog(const std::filesystem::path& path, std::optional<std::int64_t> kept = {});
   void write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures);
+  const CsvWriter& csv() const { return csv_; }
 
  private:
   CsvWriter csv_;

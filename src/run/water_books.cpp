@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/for_each.h"
@@ -10,8 +11,8 @@
 namespace tailwater {
 namespace {
 
-nlohmann::ordered_json json_of(const Water& water) {
-  return {{"particles", water.particles}, {"volume_m3", water.volume}};
+nlohmann::ordered_json json_of(const Water& water, double density) {
+  return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
 /// The box around all walls; empty if there are none.
@@ -22,6 +23,30 @@ Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
     for (const Vec<Dim>& corner : face.corners) box.extend(corner);
   }
   return box;
+}
+
+/// Whether a body that falls from x meets the box, or is in it.
+template <int Dim>
+bool falls_into(const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x, const Vec<Dim>& gravity) {
+  double from = 0.0;  // of the way x + s gravity, the part within the box in all directions so far
+  double to = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double to_low = box.min()[axis] - x[axis];
+    const double to_high = box.max()[axis] - x[axis];
+    if (gravity[axis] == 0.0) {
+      if (to_low > 0.0 || to_high < 0.0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(to_low / gravity[axis], to_high / gravity[axis]));
+    to = std::min(to, std::max(to_low / gravity[axis], to_high / gravity[axis]));
+  }
+  return from <= to;
+}
+
+template <int Dim>
+bool is_passing_outlet(const Flow<Dim>& flow, const Vec<Dim>& x) {
+  return std::any_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
+                     [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
 }
 
 }  // namespace
@@ -45,6 +70,21 @@ Water water_in(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+Water water_outside(const Flow<Dim>& flow) {
+  const Eigen::AlignedBox<double, Dim> box = box_around(flow.walls.boundary);
+  if (box.isEmpty()) return {};
+  const Particles<Dim>& particles = flow.state.particles;
+  Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
+    const Vec<Dim>& x = particles.position[i];
+    const bool is_outside =
+        particles.is_fluid(i) && !falls_into(box, x, flow.setup.gravity) && !is_passing_outlet(flow, x);
+    return is_outside ? Water{1, particles.volume[i]} : Water();
+  });
+  flow.setup.ranks.sum_each(water.particles, water.volume);
+  return water;
+}
+
+template <int Dim>
 Water water_out(const Flow<Dim>& flow) {
   Water water;
   for (const OpenEndState& end : flow.state.open_ends) water += {end.departed.particles, end.departed.volume};
@@ -59,12 +99,17 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     outlets.push_back({{"name", flow.setup.open_ends[e].outlet.name},
                        {"particles", departed.particles},
                        {"volume_m3", departed.volume},
+                       {"mass_kg", flow.setup.density * departed.volume},
                        {"energy_J", departed.energy}});
   }
-  return {{"start", json_of(at_start)},
-          {"inside", json_of(water_in(flow))},
-          {"out", json_of(water_out(flow))},
-          {"outlets", outlets}};
+  const double density = flow.setup.density;
+  const Water outside = water_outside(flow);
+  Water inside = water_in(flow);
+  inside.particles -= outside.particles;
+  inside.volume -= outside.volume;
+  return {{"start", json_of(at_start, density)},      {"in", json_of({}, density)},
+          {"inside", json_of(inside, density)},       {"outside", json_of(outside, density)},
+          {"out", json_of(water_out(flow), density)}, {"outlets", outlets}};
 }
 
 template <int Dim>
@@ -74,15 +119,14 @@ std::size_t count_outside(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::size_t count = count_each(particles.owned, [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
-    return particles.is_fluid(i) && !box.contains(x) &&
-           std::none_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
-                        [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
+    return particles.is_fluid(i) && !box.contains(x) && !is_passing_outlet(flow, x);
   });
   return flow.setup.ranks.sum(count);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                    \
   template Water water_in<Dim>(const Flow<Dim>&);                                     \
+  template Water water_outside<Dim>(const Flow<Dim>&);                                \
   template Water water_out<Dim>(const Flow<Dim>&);                                    \
   template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&); \
   template std::size_t count_outside<Dim>(const Flow<Dim>&);

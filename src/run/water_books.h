@@ -1,4 +1,5 @@
-// The water balance of a run: the water at the start, the water inside, and the water that left through outlets.
+// The water balance of a run: start + in = inside + outside + out. What is outside has left the walls over a rim; what
+// is out has left through an outlet. There are no inlets, so nothing has come in.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,14 @@ struct Water {
   std::string text() const;  ///< "50 particles (0.5 m^3)"
 };
 
-/// The water inside, over all ranks; collective.
+/// All water that is computed, over all ranks; collective.
 template <int Dim>
 Water water_in(const Flow<Dim>& flow);
+
+/// The part of it that has left the walls for good, over all ranks: it is beyond the box around all walls, and does not
+/// fall back into it along gravity. Water on its way out through an outlet does not belong to it. Collective.
+template <int Dim>
+Water water_outside(const Flow<Dim>& flow);
 
 /// The water that left through all outlets since the start.
 template <int Dim>

@@ -77,8 +77,7 @@ class ProgramTest(unittest.TestCase):
         """A run that goes on until it is stopped; killed at the end of the test at the latest. `variables` are added to
         its environment."""
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env={**environment(), **variables},
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   restore_signals=False)  # a file that is too large is then an error, not a signal
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
         return process

@@ -1,5 +1,6 @@
 """A table of everything a user can get wrong in a case: one clear answer each, at once, and no trace."""
 
+import os
 import resource
 import unittest
 from typing import NamedTuple
@@ -81,8 +82,33 @@ TABLE = (
              ("[time]", '[[outlet]]\nname = "end"\nfrom = [2, 0.2]\nto = [2, 2]\n[time]')),
     BadInput("spacing that needs more memory than there is", ("1e-07 m", "GB", "use a spacing of at least"),
              ("= 0.1\n[[", "= 1e-7\n[[")),
-    BadInput("end time that no run reaches", ("time.end = 1e+300 s", "out of reach", "seconds"),
-             ("end = 0.1", "end = 1e300")),
+    BadInput("end time that no run reaches", ("case.toml:13:7", "time.end = 1e+09 s", "out of reach", "seconds"),
+             ("end = 0.1\n[output]\nfields_interval = 0.02", "end = 1e9")),
+    BadInput("number that overflows", ("case.toml:4:11", "particles.spacing = 1e+308", "beyond 1e+15"),
+             ("= 0.1\n[[", "= 1e308\n[[")),
+    BadInput("number that no double is", ("case.toml:4:11", "particles.spacing = 9223372036854775807", "beyond 1e+15"),
+             ("= 0.1\n[[", "= 9223372036854775807\n[[")),
+    BadInput("number that underflows", ("case.toml:13:11", "scheme.courant = 1e-300", "at least 1e-15"),
+             ("[time]", "[scheme]\ncourant = 1e-300\n[time]")),
+    BadInput("velocity that overflows", ("case.toml:9:12", "fluid 'column'", "velocity[0]", '"1e300*x"'),
+             (COLUMN, COLUMN + "\nvelocity = ['1e300*x', 0]")),
+    BadInput("spacing beyond the shapes", ("case.toml:11:10", "points[0] and points[1] are 2 m apart", "1e+09 m"),
+             ("= 0.1\n[[", "= 1e9\n[[")),
+    BadInput("endless walls", ("case.toml:4:11", "particles.spacing = 0.1 m", "3e+16 wall particles", "smaller shapes"),
+             (FLOOR, "points = [[0, 2], [0, 0], [1e15, 0], [1e15, 2]]")),
+    BadInput("probe that would fill the disk", ("case.toml:20:12", "probe[0].interval = 1e-12", "1e+11 lines"),
+             ("at = [0.5, 0]", "at = [0.5, 0]\ninterval = 1e-12")),
+    BadInput("fields that would fill the disk", ("case.toml:15:19", "output.fields_interval = 1e-12", "1e+11 field"),
+             ("= 0.02", "= 1e-12")),
+    BadInput("option that opens a file", ("case.toml:13:17", "-pressure_ksp_view", "open files"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_view ascii:trace"\n[time]')),
+    BadInput("option that names a file", ("case.toml:13:17", "ascii:trace", "open files"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_converged_reason ascii:trace"\n[time]')),
+    BadInput("option of the whole program", ("case.toml:13:17", "-options_left", "pressure_"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-options_left"\n[time]')),
+    BadInput("solver that does not exist", ("case.toml:13:17", "PETSc failed", "quickly"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_type quickly"\n[time]')),
+    BadInput("override of a key too deep", ("--set a.", "too many parts"), arguments=("--set", "a." * 50000 + "a=1")),
     BadInput("override without a value", ("--set particles.spacing", "--set table.key=value"),
              arguments=("--set", "particles.spacing")),
     BadInput("override of an unknown key", ("--set particles.spcing=1", 'did you mean "spacing"?'),
@@ -100,6 +126,18 @@ FILES = {
     "zeros": (bytes(1000), 2, ("not valid TOML",)),
     "cut off": (SMALL_CASE[:-2].encode(), 2, ("not valid TOML",)),
     "another format": (b'{"spacing": 0.1}\n', 2, ("case.toml:1:1", "not valid TOML")),
+    "keys too deep": ((SMALL_CASE + "a." * 50000 + "a = 1\n").encode(), 2, ("case.toml:27", "too many dots")),
+    "quoted keys too deep": ((SMALL_CASE + "'#'." * 50000 + "a = 1\n").encode(), 2, ("case.toml:27", "too many dots")),
+    "lists too deep": ((SMALL_CASE + "a = " + "[" * 50000).encode(), 2, ("case.toml:27", "nested")),
+    "large file": ((SMALL_CASE + "# \n" * 100000).encode(), 2, ("case.toml", "at most 262144")),
+    "many points": (SMALL_CASE.replace("[3, 0]", ", ".join(f"[{x}, 0]" for x in range(3, 10004))).encode(), 2,
+                    ("case.toml:11:10", "at most 10000")),
+    "many walls": (SMALL_CASE.replace("[3, 0]", ", ".join(f"[{x}, 0]" for x in range(3, 5100))).encode(), 2,
+                   ("case.toml:9:1", "wall 'tank'", "at most 5000")),
+    "long expression": (SMALL_CASE.replace("0.1\n[out", '"' + "(" * 6000 + '"\n[out').encode(), 2,
+                        ("case.toml:13:7", "at most 5000")),
+    "many parameters": ((SMALL_CASE + "[parameters]\n" + "".join(f"p{k} = 1\n" for k in range(1001))).encode(), 2,
+                        ("case.toml:27:1", "at most 1000")),
 }
 
 
@@ -137,6 +175,19 @@ class BadCases(ProgramTest):
 
     def test_missing_file(self):
         self.refuse(BadInput("", ("case.toml", "No such file", "tailwater new"), code=4), ())
+
+    def test_parameters_in_a_long_chain(self):
+        chain = "".join(f'p{k} = "p{k + 1}"\n' for k in range(999))
+        (self.folder / "case.toml").write_text(SMALL_CASE + "[parameters]\n" + chain + "p999 = 1\n")
+        start = cpu_seconds()
+        self.call("check", "case.toml")
+        self.assertLess(cpu_seconds() - start, 2)
+
+    def test_what_is_no_file(self):
+        os.mkfifo(self.folder / "pipe")
+        for name in ("pipe", "/dev/zero"):
+            for command in (("check", name), ("run", name, "--out", "out")):
+                self.assertIn("a device or a pipe", self.call(*command, expect=4).stderr)
 
     def test_folder_as_case_file(self):
         (self.folder / "case.toml").mkdir()

@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 from program import SMALL_CASE, ProgramTest
 
-COMMANDS = ("new", "check", "run", "info", "bench")
+COMMANDS = ("new", "check", "run", "resume", "info", "bench")
 TEMPLATES = ("dam-break", "tank")
 
 
@@ -138,7 +138,24 @@ class Info(ProgramTest):
 
     def test_shows_the_summary_of_a_run(self):
         self.call("run", "small.toml", "--out", "run", "--quiet")
-        self.assertEqual(json.loads(self.call("info", "run").stdout), self.summary("run"))
+        self.assertEqual(json.loads(self.call("info", "run", "--json").stdout), self.summary("run"))
+        digest = self.call("info", "run").stdout
+        for part in ("Small dam break\nstatus:    done\nwarnings:  none\n", "particles: 50 fluid, 228 wall",
+                     "water:     500 kg at the start, 0 in, 500 inside, 0 outside, 0 out"):
+            self.assertIn(part, digest)
+
+    def test_shows_warnings_and_why_a_run_failed(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set", "limits.volume_warning=1e-9", "--set",
+                  "limits.energy_stop=1e-9", "--set", "particles.jitter=0.3", "--set",
+                  "wall[0].points=[[0, 2], [0, 0], [1, 0], [1, 2]]", "--set", "time.end=0.3", expect=3)
+        digest = self.call("info", "run").stdout
+        self.assertIn("status:    failed\nmessage:   at t = ", digest)
+        self.assertIn("limits.energy_stop = 1e-09", digest)
+        self.assertIn("warnings:  1\n  at t = ", digest)
+
+    def test_a_summary_of_something_else(self):
+        (self.folder / "summary.json").write_text('{"title": [1, 2]}')
+        self.assertIn("not the summary of a run", self.call("info", ".", expect=4).stderr)
 
     def test_a_folder_that_is_no_run(self):
         for folder in ("nowhere", ".", "small.toml"):

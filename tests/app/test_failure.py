@@ -51,19 +51,11 @@ class Failure(ProgramTest):
         for line in neighbours.splitlines():
             self.assertRegex(line, "^  " + PARTICLE)
 
-    def test_a_value_that_is_not_finite(self):
-        # The speed, 1e160 m/s, has a square beyond the largest double. Without gravity no time step is too small.
-        report, summary = self.fail_run("--set", "fluid[0].velocity=[1e160, 0]", "--set", "physics.gravity=[0, 0]",
-                                       "--set", "probe=[]")
-        self.assertRegex(report, "^step 0 from t = 0 s failed: " + WHERE + "has a value that is not finite" + REMEDY)
-        self.check_culprit(report)
-        self.assertEqual(summary["time_s"]["reached"], 0.0)
-
     def test_a_time_step_that_collapses(self):
         # At 1e7 m/s the step is courant dx / u, 3e-7 of the first one by the rule, sqrt(2 g H) = 3 m/s.
         report, _ = self.fail_run("--set", "fluid[0].velocity=[1e7, 0]")
-        self.assertRegex(report, r"^step 0 from t = 0 s failed: the time step collapsed to 2\.5e-09 s: " + WHERE +
-                         r"moves at 1e\+07 m/s" + REMEDY)
+        self.assertRegex(report, r"^step 0 from t = 0 s failed: the time step collapsed to 2\.5e-09 s, .*smallest_step.*, "
+                         "by the advective limit: " + WHERE + r"moves at 1e\+07 m/s" + REMEDY)
         self.check_culprit(report)
 
     def test_a_run_that_becomes_unstable_on_its_way(self):

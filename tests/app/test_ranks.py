@@ -1,12 +1,12 @@
 """Several ranks: how a run gets them and how they end, by themselves or not."""
 
 import os
-import pathlib
 import signal
 import subprocess
 import time
 import unittest
 
+from processes import command_line, processes_of
 from program import PATIENCE, PROGRAM, ProgramTest, environment
 
 MPIRUN = os.environ["MPIRUN"]
@@ -14,14 +14,6 @@ MPIRUN = os.environ["MPIRUN"]
 # Open MPI's mpirun then hands no signal on to the ranks, as on some machines by itself.
 FORWARD_NOTHING = {"OMPI_MCA_ess_base_forward_signals": "none"}
 
-
-
-def command_line(process):
-    """The words of a process; none when it is gone."""
-    try:
-        return pathlib.Path(f"/proc/{process}/cmdline").read_text().split("\0")
-    except OSError:
-        return []
 
 
 class RanksTest(ProgramTest):
@@ -34,9 +26,11 @@ class RanksTest(ProgramTest):
 
     def processes(self):
         """Numbers of all processes that run a case into this test's folder."""
-        out = str(self.folder / "out")
-        found = [int(entry.name) for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit()]
-        return [process for process in found if out in command_line(process)]
+        return processes_of(self.folder / "out")
+
+    def ranks(self, process):
+        """Those that `process`, the program as the user called it, has started through mpirun."""
+        return [number for number in self.processes() if command_line(number)[:1] == [PROGRAM] and number != process.pid]
 
     def start_long_run(self, **variables):
         process = self.start("run", "small.toml", "--out", self.folder / "out", "-n", "2", "--set", "time.end=1000",
@@ -63,9 +57,9 @@ class RanksTest(ProgramTest):
             self.assertEqual(self.summary("out")["status"], "done")
 
     def test_refuses_wrong_counts_before_anything(self):
-        for count in ("0", "-1"):
+        for count, answer in (("0", "at least one rank"), ("-1", "at least one rank"), ("100000", "at most ")):
             error = self.call("run", "small.toml", "--out", "out", f"-n{count}", expect=2).stderr
-            self.assertIn("at least one rank", error)
+            self.assertIn(answer, error)
         error = self.mpirun("-n", "2", PROGRAM, "run", "small.toml", "--out", "out", "-n", "3", expect=2).stderr
         self.assertEqual(len(error.splitlines()), 1, error)
         self.assertIn("leave -n out", error)
@@ -106,10 +100,12 @@ class RanksTest(ProgramTest):
 
     def test_a_second_interrupt_ends_all_at_once(self):
         process = self.start_long_run(**FORWARD_NOTHING)
-        ranks = [number for number in self.processes() if command_line(number)[0] != MPIRUN and number != process.pid]
+        ranks = self.ranks(process)
         self.assertEqual(len(ranks), 2)
         for rank in ranks:
             os.kill(rank, signal.SIGSTOP)  # they see no request
+        message = self.call("run", "small.toml", "--out", self.folder / "out", "--force", expect=2).stderr
+        self.assertIn("is still going (process ", message)
         process.send_signal(signal.SIGINT)
         self.wait_for((self.folder / "out" / "STOP").exists, process)
         process.send_signal(signal.SIGINT)
@@ -118,12 +114,12 @@ class RanksTest(ProgramTest):
         self.assertFalse((self.folder / "out" / "STOP").exists())
 
     def test_an_interrupt_before_anything_is_written_ends_all_at_once(self):
-        """Results of an earlier run stay: ranks that wait for the text of their case have not touched them."""
+        """Results of an earlier run stay: ranks that still make their half a million particles have not touched them."""
         self.call("run", "small.toml", "--out", "out", "--quiet")
         before = self.summary("out")
-        os.mkfifo(self.folder / "waits.toml")
-        process = self.start("run", "waits.toml", "--out", self.folder / "out", "--force", "-n", "2", **FORWARD_NOTHING)
-        self.wait_for(lambda: len(self.processes()) >= 4, process)
+        process = self.start("run", "small.toml", "--out", self.folder / "out", "--force", "-n", "2", "--set",
+                             "particles.spacing=0.001", **FORWARD_NOTHING)
+        self.wait_for(lambda: len(self.ranks(process)) == 2, process)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
         self.wait_for_end_of_all()

@@ -1,13 +1,16 @@
 """run: what it writes, what it leaves alone, and what is left when it is stopped."""
 
+import fcntl
+import os
 import resource
 import signal
+import subprocess
 import unittest
 
 import numpy as np
 
 from fields import read_points, read_series
-from program import PATIENCE, ProgramTest
+from program import PATIENCE, PROGRAM, ProgramTest, environment
 
 # Hours of work: such a run goes on until it is stopped.
 ENDLESS = ("--set", "time.end=1000", "--set", "output.fields_interval=0.05")
@@ -19,7 +22,8 @@ class OutputContract(ProgramTest):
         self.call("run", "small.toml", "--out", "deep/below/run", "--quiet")
         run = self.folder / "deep/below/run"
         self.assertEqual({path.name for path in run.iterdir()},
-                         {"case.effective.toml", "steps.csv", "summary.json", "probes", "fields"})
+                         {"case.effective.toml", "steps.csv", "summary.json", "log.txt", "probes", "fields",
+                          "checkpoints"})
         self.assertEqual({path.name for path in (run / "probes").iterdir()}, {f"{name}.csv" for name in PROBES})
         series = read_series(run / "fields/fields.pvd")
         self.assertEqual({path.name for path in (run / "fields").iterdir()},
@@ -67,9 +71,10 @@ class OutputContract(ProgramTest):
         self.assertEqual(summary["volume"]["fluid_particles_end"], summary["volume"]["fluid_particles_start"])
         self.assertGreater(summary["cost"]["wall_clock_s"], 0.0)
         self.assertGreater(summary["cost"]["peak_memory_bytes"], 0.0)
-        for block in ("pressure_solver", "divergence", "energy", "interventions", "version", "commit", "libraries",
-                      "machine"):
+        for block in ("pressure_solver", "divergence", "energy", "interventions", "version", "commit", "compiler", "options",
+                      "libraries", "machine"):
             self.assertIn(block, summary)
+        self.assertEqual((summary["seed"], summary["ranks"]["count"]), (1, 1))
 
     def test_the_effective_case_gives_the_same_run(self):
         overrides = ("--set", "scheme.integrator=implicit", "--set", "particles.jitter=0.2", "--set",
@@ -124,7 +129,8 @@ class Outlet(ProgramTest):
                     self.assertAlmostEqual(balance[key]["volume_m3"], 0.01 * balance[key]["particles"])
                 self.assertEqual([(o["name"], o["particles"]) for o in balance["outlets"]], [("end", out)])
                 *_, water, _ = result.stderr.splitlines()
-                self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, {out} .* out$")
+                self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, 0 .* outside the "
+                                        rf"walls, {out} .* out$")
 
                 names, steps = self.table(f"{integrator}/steps.csv")
                 volume_out = [row[names.index("volume_out_m3")] for row in steps]
@@ -149,6 +155,47 @@ class Outlet(ProgramTest):
         self.assertIn(">end</text>", (self.folder / "small.preview.svg").read_text())
 
 
+class Books(ProgramTest):
+    # Thrown at 3 m/s over a rim 0.2 m away and 0.1 m higher than the water.
+    OVER_THE_RIM = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.2, 0], [1.2, 0.6]]", "--set",
+                    "fluid[0].velocity=[3, 2]", "--set", "time.end=0.2")
+
+    def test_water_that_left_over_a_rim_is_outside(self):
+        for ranks in ("1", "2"):
+            with self.subTest(ranks=ranks):
+                self.call("run", "small.toml", "--out", ranks, "--quiet", "-n", ranks, *self.OVER_THE_RIM)
+                balance = self.summary(ranks)["water_balance"]
+                self.assertGreater(balance["outside"]["particles"], 0)
+                positions, _ = read_points(read_series(self.folder / ranks / "fields/fields.pvd")[-1][1])
+                # Above the box around the walls it may still fall back in.
+                beyond = (positions[:, 0] > 1.2) | (positions[:, 0] < 0.0) | (positions[:, 1] < 0.0)
+                self.assertEqual(balance["outside"]["particles"], np.count_nonzero(beyond))
+                for key in ("particles", "volume_m3", "mass_kg"):
+                    before, after = ([balance[part][key] for part in parts]
+                                     for parts in (("start", "in"), ("inside", "outside", "out")))
+                    self.assertAlmostEqual(sum(before), sum(after), delta=1e-12 * sum(before))
+                self.assertEqual(balance["start"]["mass_kg"], 1000 * balance["start"]["volume_m3"])
+
+    def test_warnings_are_kept(self):
+        run = self.call("run", "small.toml", "--out", "run", *self.OVER_THE_RIM)
+        warnings = [line.removeprefix("warning: ") for line in run.stderr.splitlines() if line.startswith("warning: ")]
+        self.assertGreater(len(warnings), 0)
+        self.assertEqual(self.summary("run")["warnings"], warnings)
+
+    def test_an_error_beyond_its_limit_ends_the_run_with_fields_for_a_look(self):
+        for limit in ("energy_stop", "volume_stop"):
+            with self.subTest(limit):
+                self.call("run", "small.toml", "--out", limit, "--quiet", "--set", f"limits.{limit}=1e-9", "--set",
+                          "particles.jitter=0.3", "--set", "wall[0].points=[[0, 2], [0, 0], [1, 0], [1, 2]]", "--set",
+                          "time.end=0.3", expect=3)
+                summary = self.summary(limit)
+                self.assertEqual(summary["status"], "failed")
+                self.assertIn(f"limits.{limit} = 1e-09", summary["message"])
+                time, path = read_series(self.folder / limit / "fields/fields.pvd")[-1]
+                self.assertEqual(time, summary["time_s"]["reached"])
+                read_points(path)
+
+
 class Messages(ProgramTest):
     def test_progress_goes_to_standard_error_in_plain_lines(self):
         result = self.call("run", "small.toml", "--out", "run")
@@ -168,6 +215,66 @@ class Messages(ProgramTest):
         self.assertIn("Remedy: higher walls", loud.stderr)
         quiet = self.call("run", "small.toml", "--out", "quiet", "--quiet", *low)
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
+        for run in ("loud", "quiet"):
+            self.assertIn("warning: at t = ", (self.folder / run / "log.txt").read_text())
+        self.assertEqual((self.folder / "loud/log.txt").read_text(), loud.stderr)
+
+    def test_the_log_has_the_error_that_ends_a_run(self):
+        failed = self.call("run", "small.toml", "--out", "run", "--set", "pressure_solver.max_iterations=1", expect=3,
+                           errors_only=False)
+        self.assertEqual((self.folder / "run/log.txt").read_text(), failed.stderr)
+        self.assertIn("error: step 0 ", failed.stderr)
+
+
+class LostTerminal(ProgramTest):
+    """Whatever becomes of the terminal, the run goes on to its end, and its log has what it would have shown."""
+
+    def check_done(self, run, *expected):
+        self.assertEqual(self.summary(run)["status"], "done")
+        log = (self.folder / run / "log.txt").read_text()
+        for text in ("100.0 %", f"done: results in {run}", *expected):
+            self.assertIn(text, log)
+
+    def test_standard_error_that_takes_nothing(self):
+        words = {"all closed": "<&- >&- 2>&-", "full": "2>/dev/full", "broken": "2> >(exec true; )",
+                 "ranks closed": "-n 2 2>&-"}
+        for name, redirection in words.items():
+            with self.subTest(name):
+                subprocess.run(["bash", "-c", f'"$0" run small.toml --out "{name}" {redirection}', PROGRAM],
+                               cwd=self.folder, env=environment(), check=True, timeout=PATIENCE)
+                self.check_done(name)
+
+    def test_a_pipe_that_nobody_reads(self):
+        read, write = os.pipe()
+        fcntl.fcntl(write, fcntl.F_SETPIPE_SZ, 4096)
+        os.write(write, bytes(4096))  # full
+        process = subprocess.run([PROGRAM, "run", "small.toml", "--out", "run"], cwd=self.folder, env=environment(),
+                                 stderr=write, check=False, timeout=PATIENCE)
+        self.assertEqual(process.returncode, 0)
+        self.check_done("run")
+        os.close(read)
+        os.close(write)
+
+    def test_hanging_up(self):
+        for ranks in ("1", "2"):
+            with self.subTest(ranks=ranks):
+                process = self.start("run", "small.toml", "--out", ranks, "-n", ranks, *ENDLESS)
+                self.wait_for((self.folder / ranks / "fields/fields_00001.vtp").exists, process)
+                process.send_signal(signal.SIGHUP)
+                process.stderr.close()
+                fields = len(list((self.folder / ranks / "fields").iterdir()))
+                self.wait_for(lambda: len(list((self.folder / ranks / "fields").iterdir())) > fields + 2, process)
+                process.send_signal(signal.SIGTERM)
+                self.assertEqual(process.wait(timeout=PATIENCE), 130)
+                self.assertIn(f"interrupted: results in {ranks}; to go on: ", (self.folder / ranks / "log.txt").read_text())
+                process.stderr = None  # nothing to read for the end of the test
+
+    def test_standard_output_that_takes_nothing_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "check", "small.toml"], cwd=self.folder, env=environment(), stdout=full,
+                                    stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE)
+        self.assertEqual(result.returncode, 4)
+        self.assertRegex(result.stderr, "^error: cannot write to standard output")
 
 
 class ExistingFolder(ProgramTest):
@@ -195,6 +302,36 @@ class ExistingFolder(ProgramTest):
         before = self.listing()
         self.call("run", "small.toml", "--out", "run", "--force", "--set", "probe.depth.at=[9, 0]", expect=2)
         self.assertEqual(self.listing(), before)
+
+    def test_force_leaves_files_that_no_run_has_written(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        foreign = [self.folder / "run" / name for name in ("probes/laboratory.csv", "fields/mine.vtp", "fields/note.txt")]
+        for path in foreign:
+            path.write_text("mine")
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--force", "--set", "probe=[]")
+        for path in foreign:
+            self.assertEqual(path.read_text(), "mine")
+        self.assertFalse((self.folder / "run/probes/depth.csv").exists())
+
+    def test_of_a_run_that_goes_on_is_refused(self):
+        """Over several ranks too: test_ranks."""
+        process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
+        self.wait_for((self.folder / "run/fields/fields_00001.vtp").exists, process)
+        for command in (("run", "small.toml", "--out", "run"), ("run", "small.toml", "--out", "run", "--force"),
+                        ("resume", "run")):
+            message = self.call(*command, expect=2).stderr
+            self.assertIn("'run' is still going (process ", message)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=PATIENCE), 130)
+        self.table("run/steps.csv")
+
+    def test_of_a_killed_run_is_free(self):
+        process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
+        self.wait_for((self.folder / "run/fields/fields_00001.vtp").exists, process)
+        process.kill()
+        process.wait()
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--force")
+        self.assertFalse((self.folder / "run/.lock").exists())
 
     def test_an_empty_folder_will_do(self):
         (self.folder / "run").mkdir()
@@ -277,8 +414,9 @@ class Stopped(ProgramTest):
         process.kill()
         process.wait(timeout=PATIENCE)
         self.check_readable()
-        self.assertFalse((self.folder / "run/summary.json").exists())
-        self.assertIn("run/summary.json", self.call("info", "run", expect=4).stderr)
+        summary = self.summary("run")
+        self.assertEqual((summary["status"], summary["exit_code"]), ("running", None))
+        self.assertIn("tailwater resume run", summary["message"])
 
     def test_lines_are_flushed_as_the_run_goes(self):
         process = self.start_endless_run()

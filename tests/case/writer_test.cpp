@@ -27,8 +27,8 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
   expect_round_trip(
       "[parameters]\nH = \"0.1 + 0.2\"\nT = \"1/3\"\n"
       "[case]\ntitle = \"a \\\"quoted\\\" \\\\ title\\twith tab, \\u0001 and \u00e4\"\n"
-      "[physics]\ngravity = [\"-0.0\", \"-9.81/3\"]\nviscosity = 1e-300\n"
-      "[particles]\nspacing = \"H/7\"\njitter = 0.1\n[domain]\nperiodic_x = [\"-1/3\", \"1e20\"]\n"
+      "[physics]\ngravity = [\"-0.0\", \"-9.81/3\"]\nviscosity = 1e-15\n"
+      "[particles]\nspacing = \"H/7\"\njitter = 0.1\n[domain]\nperiodic_x = [\"-1/3\", \"1e15\"]\n"
       "[time]\nend = \"T\"\n[scheme]\nformulation = \"published\"\nintegrator = \"implicit\"\n"
       "[pressure_solver]\npetsc_options = \"-pressure_ksp_view\"\n"
       "[[fluid]]\nmin = [0, 0]\nmax = [\"H\", \"H\"]\nvelocity = [0.1, \"T\"]\n"

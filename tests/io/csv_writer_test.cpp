@@ -47,6 +47,45 @@ TEST(CsvWriter, EmptiesAnOlderFile) {
   EXPECT_EQ(text_of(path), "time_s\n");
 }
 
+TEST(CsvWriter, GoesOnWhereAnEarlierOneWas) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  std::int64_t size = 0;
+  {
+    CsvWriter csv(path, {"time_s"});
+    csv.write(std::array{1.0});
+    size = csv.size();
+    csv.write(std::array{2.5});
+  }
+  CsvWriter csv(path, {"time_s"}, size);
+  EXPECT_EQ(text_of(path), "time_s\n1\n");
+  csv.write(std::array{2.0});
+  EXPECT_EQ(text_of(path), "time_s\n1\n2\n");
+  EXPECT_EQ(csv.size(), static_cast<std::int64_t>(text_of(path).size()));
+}
+
+TEST(CsvWriter, DoesNotGoOnWithAnotherFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  EXPECT_THROW(CsvWriter(path, {"time_s"}, 7), IoError);
+  { const CsvWriter csv(path, {"time_s"}); }
+  EXPECT_THROW(CsvWriter(path, {"depth_m"}, 7), IoError);
+  const std::string message = message_of<IoError>([&] { CsvWriter(path, {"time_s"}, 8); });
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+  EXPECT_EQ(text_of(path), "time_s\n");
+}
+
+TEST(CsvWriter, MissesItsFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  const CsvWriter csv(path, {"time_s"});
+  csv.require_in_place();
+  std::filesystem::remove(path);
+  EXPECT_THROW(csv.require_in_place(), IoError);
+  const CsvWriter other(path, {"time_s"});
+  EXPECT_THROW(csv.require_in_place(), IoError);
+}
+
 TEST(CsvWriter, ReportsAFolderThatDoesNotExist) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing" / "probe.csv";

@@ -31,7 +31,7 @@ TEST(RunFolder, IsMadeWithItsParents) {
   const TemporaryFolder folder;
   const RunFolder run = RunFolder::create(folder.path() / "a" / "b", false);
   EXPECT_EQ(run.path(), folder.path() / "a" / "b");
-  EXPECT_EQ(tree(run.path()), (Names{"fields", "probes"}));
+  EXPECT_EQ(tree(run.path()), (Names{".lock", "fields", "probes"}));
   EXPECT_EQ(run.probe("wall"), run.path() / "probes" / "wall.csv");
 }
 
@@ -50,21 +50,54 @@ TEST(RunFolder, IsNeverOverwrittenUnasked) {
   EXPECT_EQ(tree(folder.path()), (Names{"summary.json"}));
 }
 
+TEST(RunFolder, IsLockedWhileItsRunGoes) {
+  const TemporaryFolder folder;
+  {
+    const RunFolder run = RunFolder::create(folder.path(), false);
+    write_text_file(run.steps(), "result");
+    for (const bool force : {false, true}) {
+      const std::string message = message_of<InputError>([&] { RunFolder::create(folder.path(), force); });
+      EXPECT_NE(message.find("still going (process "), std::string::npos) << message;
+    }
+    EXPECT_EQ(text_of(run.steps()), "result");
+  }
+  EXPECT_EQ(tree(folder.path()), (Names{"fields", "probes", "steps.csv"}));
+  EXPECT_NO_THROW(RunFolder::create(folder.path(), true));
+}
+
+TEST(RunFolder, TheLockOfAKilledRunLocksNothing) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / ".lock", "process 1 on a machine");
+  EXPECT_NO_THROW(RunFolder::create(folder.path(), false));
+}
+
 TEST(RunFolder, ForceRemovesWhatARunWroteAndNothingElse) {
   const TemporaryFolder folder;
-  const RunFolder run = RunFolder::create(folder.path(), false);
-  for (const fs::path& path : {run.effective_case(), run.steps(), run.ranks(), run.summary(), run.stop(),
-                               run.probe("wall"), run.fields() / "fields.pvd", run.fields() / "fields_00000.vtp",
-                               run.fields() / "fields_00001.vtp.part", run.make_failure() / "last.vtp"}) {
-    write_text_file(path, "result");
+  {
+    const RunFolder run = RunFolder::create(folder.path(), false);
+    fs::create_directory(run.checkpoints());
+    for (const fs::path& path :
+         {run.steps(), run.ranks(), run.summary(), run.stop(), run.checkpoint_request(), run.log(), run.checkpoint(5),
+          run.checkpoints() / "step_000000000010.h5.part", run.probe("wall"), run.fields() / "fields.pvd",
+          run.fields() / "fields_00000.vtp", run.fields() / "fields_00001.vtp.part", run.fields() / "walls_123456.vtp",
+          run.make_failure() / "last_good.vtp"}) {
+      write_text_file(path, "result");
+    }
+    write_text_file(run.effective_case(), "[[wall]]\nname = \"other\"\n[[probe]]\nname = \"wall\"  # a \"name\"\n");
   }
-  for (const char* name : {"notes.txt", "case.toml", "fields/view.pvsm", "probes/plot.py"}) {
+  for (const char* name :
+       {"notes.txt", "case.toml", "fields/view.pvsm", "fields/fields_a.vtp", "fields/fields_01.vtp", "fields/mine.vtp",
+        "probes/plot.py", "probes/laboratory.csv", "probes/other.csv", "failure/why.txt", "checkpoints/copy.h5"}) {
     write_text_file(folder.path() / name, "foreign");
   }
-  fs::create_directory(folder.path() / "fields" / "old.vtp");
+  fs::create_directory(folder.path() / "fields" / "fields_00002.vtp");
   RunFolder::create(folder.path(), true);
-  EXPECT_EQ(tree(folder.path()), (Names{"case.toml", "fields", "fields/old.vtp", "fields/view.pvsm", "notes.txt",
-                                        "probes", "probes/plot.py"}));
+  // The case stays until the new run replaces it.
+  EXPECT_EQ(tree(folder.path()),
+            (Names{"case.effective.toml", "case.toml", "checkpoints", "checkpoints/copy.h5", "failure",
+                   "failure/why.txt", "fields", "fields/fields_00002.vtp", "fields/fields_01.vtp",
+                   "fields/fields_a.vtp", "fields/mine.vtp", "fields/view.pvsm", "notes.txt", "probes",
+                   "probes/laboratory.csv", "probes/other.csv", "probes/plot.py"}));
 }
 
 TEST(RunFolder, ForceDoesNotFollowLinks) {

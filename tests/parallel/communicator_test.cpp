@@ -34,6 +34,14 @@ TEST(Communicator, TransposeBringsEveryRankItsOwn) {
   for (int q = 0; q < world().size(); ++q) EXPECT_EQ(received[q], 10 * q + world().rank());
 }
 
+TEST(Communicator, ScatterIsTheInverseOfGather) {
+  // Rank r has r values: the root none.
+  std::vector<double> own(world().rank());
+  std::iota(own.begin(), own.end(), 100.0 * world().rank());
+  const auto counts = world().all_gather(static_cast<std::int64_t>(own.size()));
+  EXPECT_EQ(world().scatter(world().gather(own), counts), own);
+}
+
 TEST(Communicator, GatherKeepsTheOrderOfRanksAndEmptyOnes) {
   // Rank r has r values: the root none.
   std::vector<double> own(world().rank());

@@ -84,6 +84,30 @@ TYPED_TEST(SpaceCutsTest, RanksAgreeAlsoAboutFarPlaces) {
   }
 }
 
+/// Restored cuts are the same, and so are those that are made next: bisection starts from the cuts before.
+TYPED_TEST(SpaceCutsTest, CanBeSavedAndRestored) {
+  constexpr int Dim = TypeParam::value;
+  Cloud<Dim> cloud;
+  const auto expect_same = [&](const SpaceCuts<Dim>& a, const SpaceCuts<Dim>& b) {
+    for (const Vec<Dim>& place : cloud.all) ASSERT_EQ(a.part_of(place), b.part_of(place));
+  };
+  for (const DecompositionMethod method : methods) {
+    SpaceCuts<Dim> cuts(cloud.ranks, method);
+    cuts.cut(cloud.own, cloud.own_weights);
+    for (double& weight : cloud.own_weights) weight = 1.0 / weight;
+    cuts.cut(cloud.own, cloud.own_weights);
+    SpaceCuts<Dim> restored(cloud.ranks, method);
+    if (cloud.ranks.is_alone()) continue;
+    restored.restore(cuts.bytes());
+    EXPECT_TRUE(restored.are_made());
+    expect_same(cuts, restored);
+    for (std::size_t i = 0; i < cloud.own.size(); ++i) cloud.own_weights[i] = 2.0 + cloud.own[i][0];
+    cuts.cut(cloud.own, cloud.own_weights);
+    restored.cut(cloud.own, cloud.own_weights);
+    expect_same(cuts, restored);
+  }
+}
+
 /// Recursive bisection cuts space by planes: a far place belongs to the part of what is nearest to it in the cloud when
 /// it lies straight out from a face, and every part is a box.
 TYPED_TEST(SpaceCutsTest, PartsOfBisectionAreBoxesWithoutBound) {

@@ -38,7 +38,7 @@ TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
   CaseSpec spec = tank();
   EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
   spec.particles.spacing = 1e-12;
-  expect_one_error(check_memory<2>(spec, 1e9), {"spacing of 1e-12 m", "1 GB are free", "at least"});
+  expect_one_error(check_memory<2>(spec, 1e9), {"particles.spacing = 1e-12 m", "1 GB are free", "at least"});
 }
 
 TEST(CheckMemory, TheSpacingItProposesFits) {
@@ -81,6 +81,20 @@ TEST(EstimateRun, CountsWhatThereIs) {
   const double largest_step = spec.scheme.courant * 0.1 / std::sqrt(2.0 * 9.81 * 0.2);
   EXPECT_NEAR(estimate.steps, spec.time.end / largest_step, 1e-9 * estimate.steps);
   EXPECT_GT(estimate.seconds, 0.0);
+}
+
+TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
+  CaseSpec spec = pond_case<2>();
+  Flow<2> tried(spec);
+  const RunEstimate from_case = estimate_run(spec, tried);
+  EXPECT_FALSE(from_case.is_from_tank);
+  Flow<2> flow(spec);
+  const RunEstimate estimate = estimate_run(spec, flow, 1.0);
+  EXPECT_TRUE(estimate.is_from_tank);
+  EXPECT_EQ(estimate.particles.fluid, 8.0);
+  EXPECT_NEAR(estimate.steps, from_case.steps, 1e-9 * estimate.steps);
+  EXPECT_GT(estimate.seconds, 0.0);
+  EXPECT_EQ(flow.state.step, 0);
 }
 
 }  // namespace

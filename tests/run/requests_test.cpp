@@ -12,23 +12,62 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Waits for the look at the file that comes next; they are rare.
-bool stop_is_asked_soon(Requests& requests) {
+/// Waits for the look at the files that comes next; they are rare.
+Asked asked_soon(Requests& requests) {
   for (int looks = 0; looks < 10000; ++looks) {
-    if (requests.stop_is_asked()) return true;
+    const Asked asked = requests.look();
+    if (asked.stop || asked.checkpoint) return asked;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return false;
+  return {};
 }
 
 TEST(Requests, AFileAsksOnce) {
   const TemporaryFolder folder;
   const RunFolder run = RunFolder::create(folder.path(), false);
   Requests requests(run, {});
-  EXPECT_FALSE(requests.stop_is_asked());
+  EXPECT_FALSE(requests.look().stop);
   write_text_file(run.stop(), "");
-  EXPECT_TRUE(stop_is_asked_soon(requests));
+  EXPECT_TRUE(asked_soon(requests).stop);
   EXPECT_FALSE(fs::exists(run.stop()));
+}
+
+TEST(Requests, AFileAsksForACheckpointUntilThereIsOne) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path(), false);
+  Requests requests(run, {});
+  write_text_file(run.checkpoint_request(), "");
+  EXPECT_TRUE(asked_soon(requests).checkpoint);
+  EXPECT_TRUE(requests.look().checkpoint);
+  EXPECT_FALSE(requests.look().stop);
+  EXPECT_TRUE(fs::exists(run.checkpoint_request()));
+  requests.fulfil_checkpoint();
+  EXPECT_FALSE(fs::exists(run.checkpoint_request()));
+  EXPECT_FALSE(requests.look().checkpoint);
+}
+
+TEST(Requests, TheLossOfTheTerminalAsksForACheckpoint) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path(), false);
+  Requests requests(run, {});
+  for (int loss = 0; loss < 2; ++loss) {
+    EXPECT_FALSE(requests.look().checkpoint);
+    std::raise(SIGHUP);
+    EXPECT_TRUE(requests.look().checkpoint);
+    EXPECT_FALSE(requests.look().stop);
+    requests.fulfil_checkpoint();
+  }
+}
+
+TEST(Requests, TheWallTimeAsksBeforeItIsUp) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path(), false);
+  const auto now = std::chrono::steady_clock::now();
+  Requests early(run, {}, {now, std::chrono::hours(1)});
+  EXPECT_FALSE(early.look().stop);
+  // Of an hour 36 s are kept.
+  Requests late(run, {}, {now - std::chrono::minutes(59) - std::chrono::seconds(30), std::chrono::hours(1)});
+  EXPECT_TRUE(late.look().stop);
 }
 
 TEST(Requests, AnySignalAsks) {
@@ -36,31 +75,31 @@ TEST(Requests, AnySignalAsks) {
   const RunFolder run = RunFolder::create(folder.path(), false);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) {
     Requests requests(run, {});
-    EXPECT_FALSE(requests.stop_is_asked());
+    EXPECT_FALSE(requests.look().stop);
     std::raise(signal);
-    EXPECT_TRUE(requests.stop_is_asked());
+    EXPECT_TRUE(requests.look().stop);
   }
 }
 
-TEST(StopSender, AsksOnlyARunThatHasBegunSince) {
+TEST(RequestSender, AsksOnlyARunThatHasBegunSince) {
   const TemporaryFolder folder;
   RunFolder run = RunFolder::create(folder.path() / "run", false);
   for (int start = 0; start < 2; ++start) {  // the second time over the results of the first
-    StopSender sender(run.path());
-    EXPECT_FALSE(sender.send());
+    RequestSender sender(run.path());
+    EXPECT_FALSE(sender.ask_for_stop());
     EXPECT_FALSE(fs::exists(run.stop()));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file systems know times to some milliseconds
-    write_text_file(run.effective_case(), "");
-    EXPECT_TRUE(sender.send());
+    write_text_file(run.summary(), "");
+    EXPECT_TRUE(sender.ask_for_stop());
     EXPECT_TRUE(fs::exists(run.stop()));
   }
   EXPECT_FALSE(fs::exists(run.stop()));  // nobody has obeyed
 }
 
-TEST(StopSender, SaysWhenItCannotAsk) {
+TEST(RequestSender, SaysWhenItCannotAsk) {
   const TemporaryFolder folder;
-  StopSender sender(folder.path() / "run");
-  EXPECT_FALSE(sender.send());
+  RequestSender sender(folder.path() / "run");
+  EXPECT_FALSE(sender.ask_for_stop());
 }
 
 }  // namespace

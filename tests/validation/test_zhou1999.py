@@ -175,12 +175,14 @@ class Command(RunTest):
         self.assertEqual(json.loads((run / "comparison.json").read_text()), zhou1999.score(run))
         self.assertTrue((run / "zhou1999.png").is_file())
 
-    def test_a_run_without_a_summary_is_told_from_a_finished_one(self):
+    def test_a_run_that_has_not_ended_is_told_from_a_finished_one(self):
         run = self.write_run()
-        (run / "summary.json").unlink()
-        code, out, _ = self.run_command("zhou1999", run)
-        self.assertEqual(code, 0)
-        self.assertIn("no summary.json", out)
+        summary = run / "summary.json"
+        for change in (lambda: summary.write_text('{"status": "running"}'), summary.unlink):
+            change()
+            code, out, _ = self.run_command("zhou1999", run)
+            self.assertEqual(code, 0)
+            self.assertIn("The run has not ended", out)
 
     def test_a_folder_that_is_no_run(self):
         with tempfile.TemporaryDirectory() as folder:

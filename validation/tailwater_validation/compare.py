@@ -52,7 +52,7 @@ def recognise(run_folder):
 def cost_and_health(summary):
     """One line on what the run cost and whether it stayed sound; scores mean little without it."""
     if not summary:
-        return "The run left no summary.json: it was killed or still goes on."
+        return "The run has not ended: it was killed or still goes on."
     particles, steps, cost = summary["particles"], summary["steps"], summary["cost"]
     energy, volume = summary["energy"], summary["volume"]
     return (f"{summary['status']}: {particles['fluid']} fluid and {particles['wall']} wall particles, "

@@ -44,10 +44,11 @@ class RunFolder:
 
     @property
     def summary(self):
-        """summary.json; empty when there is none, which is how a run that was killed looks."""
+        """summary.json of a run that has ended; empty when it goes on or was killed."""
         path = self.path / "summary.json"
         try:
-            return json.loads(path.read_text(encoding="utf-8"))
+            summary = json.loads(path.read_text(encoding="utf-8"))
+            return {} if summary.get("status") == "running" else summary
         except FileNotFoundError:
             return {}
         except (OSError, ValueError) as error:

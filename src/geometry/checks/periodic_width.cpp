@@ -13,7 +13,8 @@ Findings check_periodic_width(const CaseSpec& spec) {
     const double width = range[1] - range[0];
     if (width >= (4.0 - corner_tolerance) * support) continue;
     findings.push_back(Finding::error(
-        "periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so a particle "
+        "domain.periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so a "
+        "particle "
         "would meet its own image: make it at least {:.6g} m wide, or the spacing at most {:.6g} m",
         "xyz"[axis], range[0], range[1], width, support, 4.0 * support, width / (4.0 * spec.scheme.support)));
   }

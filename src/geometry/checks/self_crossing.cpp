@@ -5,6 +5,7 @@ namespace tailwater {
 
 Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary) {
   Findings findings;
+  constexpr std::size_t most = 10;  // points in random order make millions
   const double tolerance = corner_tolerance * spec.particles.spacing;
   for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -14,6 +15,7 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary) 
           crosses(b, a.corners[0], a.corners[1], tolerance)) {
         findings.push_back(Finding::error("{} crosses itself at {}: correct the order of its points",
                                           wall_label(boundary, a.wall), place(meet(a, b.corners[0], b.corners[1]))));
+        if (findings.size() >= most) return findings;
       }
     }
   }

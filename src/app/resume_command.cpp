@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/ranks.h"
+#include "app/run_arguments.h"
+#include "linear/session.h"
+#include "run/resume.h"
+
+namespace tailwater {
+namespace {
+
+struct ResumeArguments {
+  RunOptions run;
+  RankArguments ranks;
+  std::string wall_time;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+  survive_hang_up_and_speak(ranks, arguments.quiet);
+  arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
+  const int wanted = arguments.ranks.count.value_or(ranks.is_alone() ? ranks_of_run(arguments.run.out) : ranks.size());
+  if (arguments.ranks.count) require_possible(wanted);
+  if (wanted > 1 && ranks_in_environment() == 0) return launch_ranks(wanted, words, arguments.run.out);
+  std::optional<LinearSession> session;  // several ranks have one already
+  if (ranks.is_alone()) session.emplace();
+  const ExitCode code = resume_run(arguments.run, arguments.overrides, ranks);
+  tell_end(code, arguments.run.out);
+  return code;
+}
+
+}  // namespace
+
+void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
+                        const std::vector<std::string>& words) {
+  auto arguments = std::make_shared<ResumeArguments>();
+  CLI::App* command = app.add_subcommand("resume", "Go on with a run that was stopped, was killed or is done");
+  command->add_option("run", arguments->run.out, "Folder of the run")->required()->type_name("");
+  command->add_option("--set", arguments->overrides, "Override a key that changes no result, as in --set time.end=20")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
+                            "Number of ranks; default: as many as wrote the checkpoint");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
+  command->footer(
+      "Examples: tailwater resume my_run\n"
+      "          tailwater resume my_run --set time.end=20\n"
+      "Goes on from the newest checkpoint in DIR/checkpoints, or from the start if there is none yet. Tables and "
+      "field\n"
+      "files are cut back to it, so that the run leaves what it would have left without a break: bit for bit on the\n"
+      "number of ranks that wrote the checkpoint. --set may change time.end, output.fields_interval and\n"
+      "output.checkpoint_interval.");
+  command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
+}
+
+}  // namespace tailwater

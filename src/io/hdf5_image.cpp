@@ -1,0 +1,141 @@
+#include "io/hdf5_image.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <array>
+#include <type_traits>
+
+#include "base/error.h"
+#include "base/fp_traps.h"
+
+namespace tailwater {
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+/// Owns an HDF5 identifier.
+using Handle = std::shared_ptr<const hid_t>;
+
+/// Room that a growing file in memory is given at a time.
+constexpr std::size_t image_growth = std::size_t{1} << 20;
+
+Handle own(hid_t id, herr_t (*close)(hid_t), std::string_view what) {
+  if (id < 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  return {new hid_t(id), [close](const hid_t* held) {
+            close(*held);
+            delete held;
+          }};
+}
+
+void require(herr_t status, std::string_view what) {
+  if (status < 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+}
+
+/// Errors are ours to tell, and HDF5 prints them by default.
+void begin_hdf5() {
+  const SuspendFpTraps suspended;
+  require(H5open(), "start");
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// Access to a file that lives in memory and never on disk.
+Handle in_memory() {
+  const Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list of properties");
+  require(H5Pset_fapl_core(*access, image_growth, false), "work in memory");
+  require(H5Pset_fclose_degree(*access, H5F_CLOSE_STRONG), "work in memory");
+  return access;
+}
+
+/// HDF5 takes files in memory of equal name for one and the same.
+std::string new_name() {
+  static int files = 0;
+  return fmt::format("image {}", files++);
+}
+
+template <class Value>
+hid_t type_of() {
+  if constexpr (std::is_same_v<Value, double>) {
+    return H5T_NATIVE_DOUBLE;
+  } else if constexpr (std::is_same_v<Value, std::int64_t>) {
+    return H5T_NATIVE_INT64;
+  } else if constexpr (std::is_same_v<Value, std::int32_t>) {
+    return H5T_NATIVE_INT32;
+  } else {
+    static_assert(std::is_same_v<Value, std::uint8_t>);
+    return H5T_NATIVE_UINT8;
+  }
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer() {
+  begin_hdf5();
+  file_ =
+      own(H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, *in_memory()), H5Fclose, "make a file in memory");
+}
+
+template <class Value>
+void Hdf5Writer::put(const std::string& name, std::span<const Value> values, std::size_t columns) {
+  const SuspendFpTraps suspended;
+  const std::string what = fmt::format("store '{}'", name);
+  const std::array<hsize_t, 2> size{values.size() / columns, columns};
+  const Handle space = own(H5Screate_simple(columns == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
+  const Handle set =
+      own(H5Dcreate2(*file_, name.c_str(), type_of<Value>(), *space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+          what);
+  if (values.empty()) return;
+  require(H5Dwrite(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+}
+
+void Hdf5Writer::put(const std::string& name, std::string_view text) {
+  put(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string Hdf5Writer::image() const {
+  require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "finish a file");
+  const ssize_t size = H5Fget_file_image(*file_, nullptr, 0);
+  if (size < 0) throw IoError("HDF5 cannot give the bytes of a file");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(*file_, bytes.data(), bytes.size()) < 0) throw IoError("HDF5 cannot give the bytes of a file");
+  return bytes;
+}
+
+Hdf5Reader::Hdf5Reader(std::string_view image) {
+  begin_hdf5();
+  const SuspendFpTraps suspended;
+  const Handle access = in_memory();
+  // HDF5 copies the bytes, and its interface lacks a const.
+  require(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
+  file_ = own(H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, *access), H5Fclose, "read it as one of its files");
+}
+
+template <class Value>
+std::vector<Value> Hdf5Reader::get(const std::string& name) const {
+  const SuspendFpTraps suspended;
+  const std::string what = fmt::format("read '{}'", name);
+  const Handle set = own(H5Dopen2(*file_, name.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Handle type = own(H5Dget_type(*set), H5Tclose, what);
+  const Handle space = own(H5Dget_space(*set), H5Sclose, what);
+  const hssize_t count = H5Sget_simple_extent_npoints(*space);
+  if (count < 0 || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  std::vector<Value> values(static_cast<std::size_t>(count));
+  if (count > 0) require(H5Dread(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+  return values;
+}
+
+std::string Hdf5Reader::text(const std::string& name) const {
+  const std::vector<std::uint8_t> bytes = get<std::uint8_t>(name);
+  return {bytes.begin(), bytes.end()};
+}
+
+#define TAILWATER_INSTANTIATE(Value)                                                             \
+  template void Hdf5Writer::put<Value>(const std::string&, std::span<const Value>, std::size_t); \
+  template std::vector<Value> Hdf5Reader::get<Value>(const std::string&) const;
+TAILWATER_INSTANTIATE(double)
+TAILWATER_INSTANTIATE(std::int64_t)
+TAILWATER_INSTANTIATE(std::int32_t)
+TAILWATER_INSTANTIATE(std::uint8_t)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

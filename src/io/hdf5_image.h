@@ -1,0 +1,44 @@
+// An HDF5 file as bytes in memory: datasets of numbers and texts by name. The bytes go to disk, and come from there, by
+// the functions for whole files, which report a full disk and see damage before the HDF5 library does.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+class Hdf5Writer {
+ public:
+  Hdf5Writer();
+
+  /// A dataset of one value per row or, with more columns, of a table; for double, int64, int32 and uint8.
+  template <class Value>
+  void put(const std::string& name, std::span<const Value> values, std::size_t columns = 1);
+  void put(const std::string& name, std::string_view text);
+
+  /// The whole file.
+  std::string image() const;
+
+ private:
+  std::shared_ptr<const std::int64_t> file_;
+};
+
+class Hdf5Reader {
+ public:
+  /// Copies the image. Throws IoError if it is not an HDF5 file.
+  explicit Hdf5Reader(std::string_view image);
+
+  /// All values of a dataset, row by row. Throws IoError if there is none of this name and type.
+  template <class Value>
+  std::vector<Value> get(const std::string& name) const;
+  std::string text(const std::string& name) const;
+
+ private:
+  std::shared_ptr<const std::int64_t> file_;
+};
+
+}  // namespace tailwater

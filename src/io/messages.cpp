@@ -1,0 +1,140 @@
+#include "io/messages.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <limits.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <utility>
+
+namespace tailwater {
+namespace {
+
+/// How long a message waits for a terminal or pipe that takes nothing; once one has waited in vain, the next do not.
+constexpr int patience = 1000;  // ms
+
+struct Messages {
+  Voice voice = Voice::aloud;
+  bool live_line_is_open = false;
+  bool is_stuck = false;
+  int log = -1;
+  std::string told;  ///< before there is a log
+  std::vector<std::string> warnings;
+};
+
+Messages& messages() {
+  static Messages all;
+  return all;
+}
+
+/// Writes what can be written within `milliseconds`; returns whether that was all.
+bool write_what_is_taken(int file, std::string_view text, int milliseconds) {
+  while (!text.empty()) {
+    pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};
+    const int count = poll(&ready, 1, milliseconds);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    // A pipe that is ready takes this many bytes without waiting.
+    const ssize_t written = write(file, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void show(std::string_view text) {
+  Messages& all = messages();
+  const std::string_view new_line = all.live_line_is_open ? "\n" : "";
+  all.live_line_is_open = false;
+  all.is_stuck = !write_what_is_taken(STDERR_FILENO, fmt::format("{}{}", new_line, text), all.is_stuck ? 0 : patience);
+}
+
+void keep(std::string_view text) {
+  Messages& all = messages();
+  if (all.log < 0) {
+    all.told += text;
+  } else {
+    write_what_is_taken(all.log, text, patience);
+  }
+}
+
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+void survive_lost_terminal() {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    [[maybe_unused]] const int lowest_free = open("/dev/null", O_RDWR);
+  }
+}
+
+void set_voice(Voice voice) { messages().voice = voice; }
+
+void tell(std::string_view line) {
+  const Voice voice = messages().voice;
+  const std::string text = fmt::format("{}\n", line);
+  if (voice == Voice::aloud) show(text);
+  if (voice != Voice::silent) keep(text);
+}
+
+void warn(const std::string& line) {
+  messages().warnings.push_back(line);
+  tell(fmt::format("warning: {}", line));
+}
+
+void tell_error(std::string_view message, std::string_view prefix) {
+  std::string text;
+  for (std::size_t start = 0; start < message.size();) {
+    const std::size_t end = std::min(message.find('\n', start), message.size());
+    text += fmt::format("error: {}{}\n", prefix, message.substr(start, end - start));
+    start = end + 1;
+  }
+  if (text.empty()) return;
+  show(text);
+  keep(text);
+}
+
+void log_line(std::string_view line) {
+  if (messages().voice != Voice::silent) keep(fmt::format("{}\n", line));
+}
+
+bool is_on_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void show_live(std::string line) {
+  Messages& all = messages();
+  if (all.voice != Voice::aloud) return;
+  // A line that wraps cannot be rewritten in place.
+  line.resize(std::min(line.size(), terminal_columns() - 1));
+  all.live_line_is_open = write_what_is_taken(STDERR_FILENO, fmt::format("\r\033[K{}", line), 0);
+}
+
+void open_log(const std::filesystem::path& path) {
+  Messages& all = messages();
+  if (all.log >= 0) close(all.log);
+  all.log = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (all.log >= 0) write_what_is_taken(all.log, all.told, patience);
+  all.told.clear();
+}
+
+const std::vector<std::string>& warnings() { return messages().warnings; }
+
+void recall_warnings(std::vector<std::string> earlier) {
+  std::vector<std::string>& all = messages().warnings;
+  for (const std::string& warning : all) {
+    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end()) earlier.push_back(warning);
+  }
+  all = std::move(earlier);
+}
+
+}  // namespace tailwater

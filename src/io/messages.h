@@ -1,0 +1,49 @@
+// What a command tells its user while it works: on standard error, and in the log of a run once there is one. Standard
+// error is one per process, and so is this. Losing the terminal is no error: what cannot be shown is dropped, and the
+// work goes on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+/// Call before any file is opened. Standard streams that are closed become /dev/null, since a file of results would
+/// otherwise take their place and receive the messages. Writing to a pipe that nobody reads is an error from now on,
+/// not a signal.
+void survive_lost_terminal();
+
+enum class Voice {
+  aloud,   ///< everything is shown
+  quiet,   ///< only errors are shown; the log has everything
+  silent,  ///< only errors are shown and logged: a rank that is not the root
+};
+void set_voice(Voice voice);
+
+/// A line for the user.
+void tell(std::string_view line);
+/// "warning: LINE"; kept for `warnings`.
+void warn(const std::string& line);
+/// "error: PREFIX LINE" for each line of the message: a case may have several problems.
+void tell_error(std::string_view message, std::string_view prefix = "");
+/// A line for the log alone.
+void log_line(std::string_view line);
+
+bool is_on_terminal();
+/// Shows a line in place of the last such line, cut off where the terminal ends; for terminals. The log does not get
+/// it.
+void show_live(std::string line);
+
+/// What was told so far, and everything from now on, is appended to the file `path`. A log that cannot be written is no
+/// error: the files of results tell of a full disk.
+void open_log(const std::filesystem::path& path);
+
+/// All warnings so far, without the word "warning".
+const std::vector<std::string>& warnings();
+/// Puts the warnings of an earlier run, which this one goes on with, before those so far; what both have counts once.
+/// Nothing is told again.
+void recall_warnings(std::vector<std::string> earlier);
+
+}  // namespace tailwater

@@ -1,0 +1,250 @@
+#include "run/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+#include "case/reader.h"
+#include "io/hdf5_image.h"
+#include "parallel/together.h"
+#include "run/provenance.h"
+
+namespace tailwater {
+namespace {
+
+constexpr std::array particle_fields{"position", "velocity", "pressure", "volume", "kind", "wall_row", "id"};
+
+/// How an HDF5 file holds a value: as `columns` numbers.
+template <class Value>
+struct Stored {
+  using Number = Value;
+  static constexpr std::size_t columns = 1;
+};
+template <>
+struct Stored<ParticleKind> {
+  using Number = std::underlying_type_t<ParticleKind>;
+  static constexpr std::size_t columns = 1;
+};
+template <int Dim>
+struct Stored<Eigen::Matrix<double, Dim, 1>> {
+  using Number = double;
+  static constexpr std::size_t columns = Dim;
+};
+
+template <class Value>
+void put(Hdf5Writer& file, const std::string& name, const std::vector<Value>& values) {
+  using Number = typename Stored<Value>::Number;
+  constexpr std::size_t columns = Stored<Value>::columns;
+  static_assert(sizeof(Value) == columns * sizeof(Number));
+  file.put(name, std::span(reinterpret_cast<const Number*>(values.data()), columns * values.size()), columns);
+}
+
+template <class Value>
+std::vector<Value> get(const Hdf5Reader& file, const std::string& name) {
+  using Number = typename Stored<Value>::Number;
+  constexpr std::size_t columns = Stored<Value>::columns;
+  const std::vector<Number> numbers = file.get<Number>(name);
+  std::vector<Value> values(numbers.size() / columns);
+  const auto* first = reinterpret_cast<const Value*>(numbers.data());
+  std::copy(first, first + values.size(), values.begin());
+  return values;
+}
+
+/// Calls body with each field of particles and its name.
+template <int Dim, class Body>
+void for_each_field(Particles<Dim>& particles, Body&& body) {
+  particles.apply_to_fields([&](auto&... field) {
+    static_assert(sizeof...(field) == particle_fields.size(), "every field has a name");
+    std::size_t k = 0;
+    (body(particle_fields[k++], field), ...);
+  });
+}
+
+nlohmann::json json_of(const OpenEndState& end) {
+  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, departed] = end;
+  const auto& [particles, volume, energy] = departed;
+  return {{"is_wet", is_wet},       {"wet_time", wet_time},   {"speed", speed},   {"speed_beyond", speed_beyond},
+          {"invariant", invariant}, {"particles", particles}, {"volume", volume}, {"energy", energy}};
+}
+
+OpenEndState open_end_of(const nlohmann::json& json) {
+  return {json.at("is_wet"),       json.at("wet_time"),  json.at("speed"),
+          json.at("speed_beyond"), json.at("invariant"), {json.at("particles"), json.at("volume"), json.at("energy")}};
+}
+
+/// Everything that is the same on all ranks and not an array of numbers.
+template <int Dim>
+std::string text_of(const Checkpoint<Dim>& checkpoint) {
+  // A member that is new in State does not compile here until it is saved.
+  const auto& [time, step, particles, wall_velocity, open_ends, energy_rise, density_share] = checkpoint.state;
+  nlohmann::json json{{"time", time},
+                      {"step", step},
+                      {"energy_rise", energy_rise},
+                      {"density_share", density_share},
+                      {"reference_step", checkpoint.reference_step},
+                      {"open_ends", nlohmann::json::array()},
+                      {"output", checkpoint.output}};
+  for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
+  return json.dump(1);
+}
+
+template <int Dim>
+void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
+  const nlohmann::json json = nlohmann::json::parse(text);
+  State<Dim>& state = checkpoint.state;
+  state.time = json.at("time");
+  state.step = json.at("step");
+  state.energy_rise = json.at("energy_rise");
+  state.density_share = json.at("density_share");
+  checkpoint.reference_step = json.at("reference_step");
+  for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
+  checkpoint.output = json.at("output");
+}
+
+/// Shares of `count` particles that are as equal as can be.
+std::vector<std::int64_t> equal_shares(std::int64_t count, int ranks) {
+  std::vector<std::int64_t> shares;
+  for (int q = 0; q < ranks; ++q) shares.push_back(count * (q + 1) / ranks - count * q / ranks);
+  return shares;
+}
+
+/// The numbers of each rank; for another number of ranks those of the first.
+std::vector<std::vector<double>> share_rank_log(const std::vector<double>& saved, std::size_t writers,
+                                                std::size_t readers) {
+  const std::size_t width = saved.size() / writers;
+  std::vector<std::vector<double>> shares(readers, std::vector<double>(saved.begin(), saved.begin() + width));
+  if (readers != writers) return shares;
+  for (std::size_t q = 0; q < readers; ++q)
+    shares[q].assign(saved.begin() + q * width, saved.begin() + (q + 1) * width);
+  return shares;
+}
+
+std::string bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+/// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
+void require_fit(bool condition, const char* part) {
+  if (!condition) throw IoError(fmt::format("the checkpoint is not one of this program: its '{}' does not fit", part));
+}
+
+template <class Work>
+auto expecting_a_checkpoint(Work&& work) {
+  try {
+    return work();
+  } catch (const nlohmann::json::exception& error) {
+    throw IoError(fmt::format("the checkpoint is not one of this program: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& checkpoint,
+                      const std::string& case_text, const Communicator& ranks) {
+  const std::vector<std::int64_t> owned = ranks.all_gather(static_cast<std::int64_t>(checkpoint.state.particles.owned));
+  const std::vector<std::string> cuts = ranks.gather(checkpoint.cuts);
+  const std::vector<double> rank_log = ranks.gather(checkpoint.rank_log);
+  std::optional<Hdf5Writer> file;
+  do_on_root(ranks, [&] { file.emplace(); });
+  Particles<Dim> particles = checkpoint.state.particles;  // without ghosts: lists are forgotten
+  for_each_field(particles, [&](const char* name, auto& field) {
+    const auto all = ranks.gather(field);
+    do_on_root(ranks, [&] { put(*file, name, all); });
+  });
+  do_on_root(ranks, [&] {
+    std::vector<std::int64_t> cuts_size;
+    std::string all_cuts;
+    for (const std::string& part : cuts) {
+      cuts_size.push_back(static_cast<std::int64_t>(part.size()));
+      all_cuts += part;
+    }
+    file->put("case", case_text);
+    file->put("run", text_of(checkpoint));
+    file->put("owned", std::span<const std::int64_t>(owned));
+    put(*file, "wall_velocity", checkpoint.state.wall_velocity);
+    file->put("rank_log", std::span<const double>(rank_log), checkpoint.rank_log.size());
+    file->put("cuts", all_cuts);
+    file->put("cuts_size", std::span<const std::int64_t>(cuts_size));
+    write_sealed_file(path, {checkpoint_format, version_line(), ranks.size(), file->image()});
+  });
+}
+
+template <int Dim>
+Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& ranks) {
+  Checkpoint<Dim> checkpoint;
+  std::optional<Hdf5Reader> image;
+  std::string text;
+  std::vector<std::int64_t> shares;
+  std::vector<std::string> cuts(static_cast<std::size_t>(ranks.size()));
+  std::vector<std::string> rank_logs(static_cast<std::size_t>(ranks.size()));
+  std::int64_t writers = 0;
+  do_on_root(ranks, [&] {
+    expecting_a_checkpoint([&] {
+      image.emplace(file.body);
+      text = image->text("run");
+      take_text(text, checkpoint);
+      shares = image->get<std::int64_t>("owned");
+      writers = static_cast<std::int64_t>(shares.size());
+      require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(), [](auto share) { return share >= 0; }),
+                  "owned");
+      const auto logs = share_rank_log(image->get<double>("rank_log"), shares.size(), rank_logs.size());
+      std::transform(logs.begin(), logs.end(), rank_logs.begin(), bytes_of);
+      if (writers != ranks.size()) {
+        shares = equal_shares(std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), ranks.size());
+        return;
+      }
+      const std::string all_cuts = image->text("cuts");
+      const std::vector<std::int64_t> cuts_size = image->get<std::int64_t>("cuts_size");
+      require_fit(cuts_size.size() == cuts.size(), "cuts_size");
+      for (std::size_t q = 0, begin = 0; q < cuts.size(); begin += cuts_size[q++]) {
+        require_fit(begin <= all_cuts.size(), "cuts");
+        cuts[q] = all_cuts.substr(begin, cuts_size[q]);
+      }
+    });
+  });
+  text = ranks.broadcast(text);
+  if (!ranks.is_root()) take_text(text, checkpoint);
+  checkpoint.cuts = ranks.scatter(cuts);
+  const std::string rank_log = ranks.scatter(rank_logs);
+  checkpoint.rank_log.resize(rank_log.size() / sizeof(double));
+  rank_log.copy(reinterpret_cast<char*>(checkpoint.rank_log.data()), rank_log.size());
+
+  State<Dim>& state = checkpoint.state;
+  for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
+    std::vector<Value> all;
+    do_on_root(ranks, [&] {
+      all = get<Value>(*image, name);
+      const auto count = static_cast<std::int64_t>(all.size());
+      require_fit(count == std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), name);
+    });
+    field = ranks.scatter(all, shares);
+  });
+  state.particles.owned = state.particles.size();
+  std::vector<Vec<Dim>> wall_velocity;
+  do_on_root(ranks, [&] { wall_velocity = get<Vec<Dim>>(*image, "wall_velocity"); });
+  const std::string bytes =
+      ranks.broadcast({reinterpret_cast<const char*>(wall_velocity.data()), wall_velocity.size() * sizeof(Vec<Dim>)});
+  state.wall_velocity.resize(bytes.size() / sizeof(Vec<Dim>));
+  bytes.copy(reinterpret_cast<char*>(state.wall_velocity.data()), bytes.size());
+
+  checkpoint.is_shared_out = ranks.largest(writers) == ranks.size();
+  return checkpoint;
+}
+
+CaseSpec case_of_checkpoint(const SealedFile& file) {
+  return read_case_text(Hdf5Reader(file.body).text("case"), "the case of the checkpoint");
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                              \
+  template void write_checkpoint<Dim>(const std::filesystem::path&, const Checkpoint<Dim>&, const std::string&, \
+                                      const Communicator&);                                                     \
+  template Checkpoint<Dim> read_checkpoint<Dim>(const SealedFile&, const Communicator&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,59 @@
+#include "run/step_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "flow/verbs.h"
+#include "io/temporary_folder.h"
+#include "run/pond.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+template <class Dimension>
+class StepGuardTest : public testing::Test {
+ protected:
+  static constexpr int Dim = Dimension::value;
+
+  TemporaryFolder temporary;
+  RunFolder folder = RunFolder::create(temporary.path(), false);
+  Flow<Dim> flow{pond_case<Dim>()};
+  StepGuard<Dim> guard{flow, folder, 1e-3};
+
+  void SetUp() override {
+    locate(flow);
+    guard.remember_good();
+  }
+};
+
+TYPED_TEST_SUITE(StepGuardTest, Dimensions);
+
+TYPED_TEST(StepGuardTest, LetsSoundStepsPass) {
+  this->guard.attempt([&] { this->flow.state.particles.velocity[5][0] = 1.0; });
+  EXPECT_EQ(this->flow.state.particles.velocity[5][0], 1.0);
+}
+
+TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack) {
+  const auto spoil = [&] {
+    this->flow.state.particles.velocity[5][0] = std::numeric_limits<double>::quiet_NaN();
+    throw SolverError("the source of the pressure equation is not finite");  // it follows from the particle
+  };
+  const std::string message = message_of<SolverError>([&] { this->guard.attempt(spoil); });
+  EXPECT_NE(message.find("particle 5, which was at ("), std::string::npos) << message;
+  EXPECT_NE(message.find("has a value that is not finite"), std::string::npos) << message;
+  EXPECT_EQ(this->flow.state.particles.velocity[5][0], 0.0);
+  EXPECT_TRUE(text_of(this->folder.path() / "failure" / "report.txt").starts_with("step 0 from t = 0 s failed: "));
+  EXPECT_TRUE(std::filesystem::exists(this->folder.path() / "failure" / "last_good.vtp"));
+}
+
+TYPED_TEST(StepGuardTest, PassesOnWhatTheSolverSays) {
+  const std::string message =
+      message_of<SolverError>([&] { this->guard.attempt([] { throw SolverError("it did not converge"); }); });
+  EXPECT_NE(message.find("it did not converge"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace tailwater
