@@ -24,8 +24,8 @@
 // exact and what each is worth: docs/theory/operators.md.
 #pragma once
 
-#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "neighbours/pairs.h"
 
@@ -49,12 +49,11 @@ template <int Dim>
 void find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const Mat<Dim>> correction,
                               std::span<Vec<Dim>> pair_vectors);
 
-/// The equation for l: row by row, the Jacobi divisor [1/m^2], damped (0 where there is no equation), and the
-/// right-hand side -1/2 sum_j w_j a_ij [1/m].
+/// The equation for l, row by row.
 template <int Dim>
 struct OpenFaces {
-  std::vector<double> divisor;
-  std::vector<Vec<Dim>> half;
+  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j k_ij / interior_i, 0 where there is no equation
+  std::vector<Vec<Dim>> half;   ///< 1/m; the right-hand side, -1/2 sum_j w_j a_ij
 };
 
 template <int Dim>
