@@ -20,9 +20,9 @@ ResultLimits::ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow)
                        flow.setup.length) {}
 
 void ResultLimits::check(double time, double energy_rise, const FlowMeasures& measures) {
+  check(volume_, time, std::abs(measures.density_error_mean));
   const double at_hand = potential_scale_ + measures.kinetic_energy;
   if (at_hand > 0.0) check(energy_, time, energy_rise / at_hand);
-  check(volume_, time, std::abs(measures.density_error_mean));
 }
 
 void ResultLimits::check(Limit& limit, double time, double error) {
