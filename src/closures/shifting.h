@@ -1,11 +1,10 @@
 // Particle shifting: small displacements that keep the set evenly spread.
 //
-//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W. Direction, 0.2, 4
-//   are
-//           Lind et al.'s (2012). The coefficient has the form of Skillen et al. (2013), but takes the largest speed of
-//           the flow, not the particle's own: at a stagnation point the strain lines particles up while their own speed
-//           is 0, and a Taylor-Green vortex dies of it (docs/theory/closures.md). The minimum keeps this explicit
-//           diffusion stable at the long steps of the implicit integrator.
+//   lind    dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W. The direction and
+//           the numbers are Lind et al.'s (2012). The coefficient has the form of Skillen et al. (2013), but takes the
+//           largest speed of the flow, not the particle's own: at a stagnation point the strain lines particles up
+//           while their own speed is 0, and a Taylor-Green vortex dies of it (docs/theory/closures.md). The minimum
+//           keeps this explicit diffusion stable at the long steps of the implicit integrator.
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
 // Both keep of their part along the free surface's normal only a share: 0 where `interior` (free_surface.h) is 0, 1

@@ -48,27 +48,12 @@ void find_surface(Flow<Dim>& flow, bool keep_marks) {
 template <int Dim>
 void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Setup<Dim>& setup = flow.setup;
-  const Pairs<Dim>& pairs = flow.pairs();
-  const std::vector<double>& volume = flow.state.particles.volume;
-  here.pair_vectors.resize(pairs.j.size());
   if (setup.scheme.pair_vectors == PairVectors::kernel) {
-    find_kernel_gradients<Dim>(pairs, here.pair_vectors);
+    find_kernel_gradients(flow.pairs(), here.pair_vectors);
     return;
   }
-  std::vector<Mat<Dim>> correction(flow.state.particles.size());
-  find_moment_corrections<Dim>(pairs, kernel_radius(setup.kernel), here.interior, here.first_moment, correction);
-  flow.halo().exchange(correction);
-  find_corrected_gradients<Dim>(pairs, correction, here.pair_vectors);
-
-  const OpenFaces<Dim> faces = find_open_faces<Dim>(pairs, volume, here.interior, here.pair_vectors);
-  std::vector<Vec<Dim>> l(flow.state.particles.size(), Vec<Dim>::Zero());
-  std::vector<Vec<Dim>> next = l;
-  for (int sweep = 0; sweep < closing_sweeps; ++sweep) {
-    sweep_faces<Dim>(pairs, volume, faces, l, next);
-    flow.halo().exchange(next);
-    std::swap(l, next);
-  }
-  close_faces<Dim>(pairs, l, here.pair_vectors);
+  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), kernel_radius(setup.kernel), flow.state.particles.volume,
+                                   here.interior, here.first_moment, here.pair_vectors);
 }
 
 }  // namespace

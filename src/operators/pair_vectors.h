@@ -27,6 +27,7 @@
 #include <span>
 #include <vector>
 
+#include "neighbours/halo.h"
 #include "neighbours/pairs.h"
 
 namespace tailwater {
@@ -36,37 +37,23 @@ inline constexpr int closing_sweeps = 3;
 
 /// The kernel's gradient at i, dW e_ij, of every pair.
 template <int Dim>
-void find_kernel_gradients(const Pairs<Dim>& pairs, std::span<Vec<Dim>> pair_vectors);
+void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors);
 
-/// B_i of owned particles from the first moments M. `interior` is 0 at walls; both must be up to date on ghosts.
-/// `radius` [m] is that of the support.
+/// The corrected vector of every pair. `interior` is 0 at walls; it and the first moments M must be up to date on
+/// ghosts. `radius` [m] is that of the support. Collective.
 template <int Dim>
-void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<const double> interior,
-                             std::span<const Mat<Dim>> first_moment, std::span<Mat<Dim>> correction);
+void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
+                                 std::span<const double> volume, std::span<const double> interior,
+                                 std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
+                                 int sweeps = closing_sweeps);
 
-/// dW (B_i + B_j)/2 e_ij of every pair; `correction` must be up to date on ghosts.
+/// sum_j w_j a_ij [1/m], what is open of the faces of particle i: a uniform pressure p has the force -2 p times it.
 template <int Dim>
-void find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const Mat<Dim>> correction,
-                              std::span<Vec<Dim>> pair_vectors);
-
-/// The equation for l, row by row.
-template <int Dim>
-struct OpenFaces {
-  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j k_ij / interior_i, 0 where there is no equation
-  std::vector<Vec<Dim>> half;   ///< 1/m; the right-hand side, -1/2 sum_j w_j a_ij
-};
-
-template <int Dim>
-OpenFaces<Dim> find_open_faces(const Pairs<Dim>& pairs, std::span<const double> volume,
-                               std::span<const double> interior, std::span<const Vec<Dim>> pair_vectors);
-
-/// One sweep: `next` of owned particles from l [m], which must be up to date on ghosts.
-template <int Dim>
-void sweep_faces(const Pairs<Dim>& pairs, std::span<const double> volume, const OpenFaces<Dim>& faces,
-                 std::span<const Vec<Dim>> l, std::span<Vec<Dim>> next);
-
-/// a_ij <- a_ij - dW/r (l_i - l_j); l must be up to date on ghosts.
-template <int Dim>
-void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> l, std::span<Vec<Dim>> pair_vectors);
+Vec<Dim> open_faces(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
+                    std::span<const Vec<Dim>> pair_vectors) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += volume[pairs.j[k]] * pair_vectors[k];
+  return sum;
+}
 
 }  // namespace tailwater

@@ -20,6 +20,7 @@
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
+#include "operators/pair_vectors.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -88,13 +89,9 @@ double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.setup.air_law.weight(sum, full_sum(flow.setup));
   const double interior = flow.here.interior[i];
   if (interior == 0.0) return air;
-  const Pairs<Dim>& pairs = flow.pairs();
-  Vec<Dim> open_faces = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    open_faces += flow.state.particles.volume[pairs.j[k]] * flow.here.pair_vectors[k];
-  }
+  const Vec<Dim> open = open_faces<Dim>(flow.pairs(), i, flow.state.particles.volume, flow.here.pair_vectors);
   const double spacing = flow.setup.spacing;
-  const double inside = 4.0 * open_faces.squaredNorm() + softness / (spacing * spacing);
+  const double inside = 4.0 * open.squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
 }
 

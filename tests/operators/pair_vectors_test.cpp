@@ -37,11 +37,9 @@ ParticleSet<Dim> periodic_set(double jitter) {
 
 template <int Dim>
 std::vector<Vec<Dim>> sums_over_faces(const ParticleSet<Dim>& set, const std::vector<Vec<Dim>>& vectors) {
-  std::vector<Vec<Dim>> sums(set.pairs().owned(), Vec<Dim>::Zero());
+  std::vector<Vec<Dim>> sums(set.pairs().owned());
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
-      sums[i] += set.particles.volume[set.pairs().j[k]] * vectors[k];
-    }
+    sums[i] = open_faces<Dim>(set.pairs(), i, set.particles.volume, vectors);
   }
   return sums;
 }
