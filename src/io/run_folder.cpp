@@ -32,9 +32,7 @@ constexpr std::string_view checkpoint_start = "step_";
 constexpr std::string_view checkpoint_ending = ".h5";
 
 void require(const std::error_code& error, std::string_view what, const fs::path& path) {
-  if (error) {
-    throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), error.message()));
-  }
+  if (error) throw_io_error(what, path, error.value());
 }
 
 void make_folder(const fs::path& path) {
@@ -65,23 +63,29 @@ fs::path final_name(const fs::path& path) {
 
 bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
 
+void remove_if_empty(const fs::path& folder) {
+  if (is_folder(folder) && entries(folder).empty()) remove_file(folder);
+}
+
+/// START012
+bool is_numbered(std::string_view stem, std::string_view start, std::size_t least_digits) {
+  return stem.starts_with(start) && stem.size() >= start.size() + least_digits &&
+         stem.find_first_not_of("0123456789", start.size()) == stem.npos;
+}
+
 /// FIELDS.pvd, FIELDS_00012.vtp
 bool is_field_file(const fs::path& name) {
   const std::string stem = name.stem();
   const bool is_list = name.extension() == ".pvd";
   return std::any_of(series_names.begin(), series_names.end(), [&](std::string_view series) {
     if (is_list) return stem == series;
-    return name.extension() == ".vtp" && stem.starts_with(fmt::format("{}_", series)) &&
-           stem.size() >= series.size() + 6 && stem.find_first_not_of("0123456789", series.size() + 1) == stem.npos;
+    return name.extension() == ".vtp" && is_numbered(stem, fmt::format("{}_", series), 5);
   });
 }
 
 /// step_000000000012.h5
 bool is_checkpoint(const fs::path& name) {
-  const std::string stem = name.stem();
-  return name.extension() == checkpoint_ending && stem.starts_with(checkpoint_start) &&
-         stem.size() > checkpoint_start.size() &&
-         stem.find_first_not_of("0123456789", checkpoint_start.size()) == stem.npos;
+  return name.extension() == checkpoint_ending && is_numbered(name.stem().string(), checkpoint_start, 1);
 }
 
 /// The files of the probes of the run that has left its effective case in `folder`: only this case tells them from
@@ -127,36 +131,20 @@ std::vector<fs::path> earlier_results(const fs::path& folder) {
 }
 
 void remove_earlier_results(const fs::path& folder) {
-  std::error_code error;
   for (const fs::path& path : earlier_results(folder)) {
     // The new run replaces the case at once. A run that is killed in between can still be started again from it.
-    if (path.filename() == effective_case_name) continue;
-    fs::remove(path, error);
-    require(error, "remove", path);
+    if (path.filename() != effective_case_name) remove_file(path);
   }
-  for (const std::string_view name : rare_folders) {
-    const fs::path rare = folder / name;
-    if (is_folder(rare) && entries(rare).empty()) {
-      fs::remove(rare, error);
-      require(error, "remove", rare);
-    }
-  }
+  for (const std::string_view name : rare_folders) remove_if_empty(folder / name);
 }
 
 /// What an earlier run has left and a run that goes on would not replace.
 void remove_traces_of_the_end(const fs::path& folder) {
-  std::error_code error;
   for (const fs::path& path : earlier_results(folder)) {
     const bool is_request = path.filename() == stop_file_name || path.filename() == checkpoint_file_name;
-    if (!is_request && path.parent_path().filename() != "failure") continue;
-    fs::remove(path, error);
-    require(error, "remove", path);
+    if (is_request || path.parent_path().filename() == "failure") remove_file(path);
   }
-  const fs::path failure = folder / "failure";
-  if (is_folder(failure) && entries(failure).empty()) {
-    fs::remove(failure, error);
-    require(error, "remove", failure);
-  }
+  remove_if_empty(folder / "failure");
 }
 
 /// Whether nothing is in the folder; a run that was killed at its very start leaves its lock.

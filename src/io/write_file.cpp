@@ -164,4 +164,10 @@ bool overwrite_file(const std::filesystem::path& path, std::string_view text) {
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) { write_file(path, {&text, 1}); }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_io_error("remove", path, error.value());
+}
+
 }  // namespace tailwater

@@ -33,4 +33,7 @@ bool overwrite_file(const std::filesystem::path& path, std::string_view text);
 /// Throws IoError: "cannot WHAT 'path': the system's reason for `error_number`".
 [[noreturn]] void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number);
 
+/// Removes a file or an empty folder; one that is not there is no error. Throws IoError.
+void remove_file(const std::filesystem::path& path);
+
 }  // namespace tailwater

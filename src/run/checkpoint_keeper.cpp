@@ -16,12 +16,6 @@ namespace fs = std::filesystem;
 /// The older one is used when the newer is damaged.
 constexpr std::size_t kept_files = 2;
 
-void remove_file(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) throw_io_error("remove", path, error.value());
-}
-
 /// What a run that was killed has left half-written.
 void remove_parts(const fs::path& folder) {
   std::error_code error;

@@ -89,10 +89,7 @@ void Requests::fulfil_checkpoint() {
   do_on_root(ranks_, [this] {
     if (!checkpoint_was_found_) return;
     checkpoint_was_found_ = false;
-    std::error_code error;
-    std::filesystem::remove(checkpoint_file_, error);
-    // If it stayed, a checkpoint would be written ten times a second.
-    if (error) throw_io_error("remove", checkpoint_file_, error.value());
+    remove_file(checkpoint_file_);  // if it stayed, a checkpoint would be written ten times a second
   });
 }
 
