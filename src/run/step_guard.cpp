@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/for_each.h"
 #include "flow/verbs.h"
 #include "geometry/from_spec.h"
 #include "run/failure.h"
@@ -17,11 +16,12 @@ namespace {
 /// The fastest particle of this rank; none if the rank owns none.
 template <int Dim>
 std::optional<std::size_t> fastest_particle(const Particles<Dim>& particles) {
-  std::optional<std::size_t> fastest;
-  for_each(particles.owned, [&](std::size_t i) {
-    if (!fastest || particles.velocity[i].squaredNorm() > particles.velocity[*fastest].squaredNorm()) fastest = i;
-  });
-  return fastest;
+  if (particles.owned == 0) return std::nullopt;
+  const auto first = particles.velocity.begin();
+  const auto fastest =
+      std::max_element(first, first + static_cast<std::ptrdiff_t>(particles.owned),
+                       [](const Vec<Dim>& a, const Vec<Dim>& b) { return a.squaredNorm() < b.squaredNorm(); });
+  return static_cast<std::size_t>(fastest - first);
 }
 
 /// The moving wall that goes farthest within dt, by a corner of each of its faces.
