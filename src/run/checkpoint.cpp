@@ -111,19 +111,13 @@ std::vector<std::int64_t> equal_shares(std::int64_t count, int ranks) {
   return shares;
 }
 
-/// The numbers of each rank; for another number of ranks those of the first.
-std::vector<std::vector<double>> share_rank_log(const std::vector<double>& saved, std::size_t writers,
-                                                std::size_t readers) {
-  const std::size_t width = saved.size() / writers;
-  std::vector<std::vector<double>> shares(readers, std::vector<double>(saved.begin(), saved.begin() + width));
-  if (readers != writers) return shares;
-  for (std::size_t q = 0; q < readers; ++q)
-    shares[q].assign(saved.begin() + q * width, saved.begin() + (q + 1) * width);
+/// The numbers of all ranks; for another number of ranks those of the first for each.
+std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t writers, std::size_t readers) {
+  if (readers == writers) return saved;
+  const auto first_end = saved.begin() + static_cast<std::ptrdiff_t>(saved.size() / writers);
+  std::vector<double> shares;
+  for (std::size_t q = 0; q < readers; ++q) shares.insert(shares.end(), saved.begin(), first_end);
   return shares;
-}
-
-std::string bytes_of(const std::vector<double>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
 }
 
 /// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
@@ -180,7 +174,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   std::string text;
   std::vector<std::int64_t> shares;
   std::vector<std::string> cuts(static_cast<std::size_t>(ranks.size()));
-  std::vector<std::string> rank_logs(static_cast<std::size_t>(ranks.size()));
+  std::vector<double> rank_logs;
   std::int64_t writers = 0;
   do_on_root(ranks, [&] {
     expecting_a_checkpoint([&] {
@@ -191,8 +185,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
       writers = static_cast<std::int64_t>(shares.size());
       require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(), [](auto share) { return share >= 0; }),
                   "owned");
-      const auto logs = share_rank_log(image->get<double>("rank_log"), shares.size(), rank_logs.size());
-      std::transform(logs.begin(), logs.end(), rank_logs.begin(), bytes_of);
+      rank_logs = share_rank_log(image->get<double>("rank_log"), shares.size(), cuts.size());
       if (writers != ranks.size()) {
         shares = equal_shares(std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), ranks.size());
         return;
@@ -209,9 +202,8 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   text = ranks.broadcast(text);
   if (!ranks.is_root()) take_text(text, checkpoint);
   checkpoint.cuts = ranks.scatter(cuts);
-  const std::string rank_log = ranks.scatter(rank_logs);
-  checkpoint.rank_log.resize(rank_log.size() / sizeof(double));
-  rank_log.copy(reinterpret_cast<char*>(checkpoint.rank_log.data()), rank_log.size());
+  const auto width = static_cast<std::int64_t>(rank_logs.size() / cuts.size());
+  checkpoint.rank_log = ranks.scatter(rank_logs, std::vector<std::int64_t>(cuts.size(), width));
 
   State<Dim>& state = checkpoint.state;
   for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
