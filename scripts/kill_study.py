@@ -3,9 +3,9 @@
 
 A dam break is run on -n ranks with frequent checkpoints. Every --apart seconds at most, at a moment drawn at random, it
 is killed by SIGKILL: alone the process, of several ranks in turn the launcher alone, mpirun alone and one rank alone.
-Nothing may be left of it within --patience seconds. Every file that a reader could have opened is read: tables have whole lines,
-field files and lists open, checkpoints are whole. Then `tailwater resume` goes on. At the end tables, fields and the
-summary must be those of an undisturbed run, bit for bit.
+Nothing may be left of it within --patience seconds. Every file that a reader could have opened is read: tables have
+whole lines, field files and lists open, checkpoints are whole. Then `tailwater resume` goes on. At the end tables,
+fields and the summary must be those of an undisturbed run, bit for bit.
 
     scripts/kill_study.py --kills 100
     scripts/kill_study.py --kills 30 -n 2

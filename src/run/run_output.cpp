@@ -26,7 +26,7 @@ constexpr auto time_between_looks_at_folder = std::chrono::milliseconds(100);
 /// Spaces after the summary of a run that goes on, so that the last one fits into its place on a full disk.
 constexpr std::size_t room_for_last_summary = 4096;
 
-double cpu_seconds() {
+double cpu_seconds_of_process() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& t) {
@@ -84,7 +84,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       water_at_start_(water_in(flow)),
       fields_interval_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
                                                          : spec.time.end / default_field_files),
-      cpu_start_(cpu_seconds()) {
+      cpu_start_(cpu_seconds_of_process()) {
   do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), kept_bytes(kept, "steps")); });
   if (kept != nullptr) take_up(*kept);
 }
@@ -132,9 +132,7 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   wall_series_.go_on(fields.at("wall_times"), ranks_);
   last_fields_time_ = fields.at("last");
   next_fields_ = fields.at("next");
-  if (fields.at("interval") != fields_interval_) {
-    next_fields_ = (std::floor(last_fields_time_ / fields_interval_) + 1.0) * fields_interval_;
-  }
+  if (fields.at("interval") != fields_interval_) next_fields_ = fields_due_after(last_fields_time_);
   statistics_.restore(kept.at("statistics"));
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
   recall_warnings(kept.at("warnings"));
@@ -148,14 +146,17 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
 
 template <int Dim>
 void RunOutput<Dim>::add_costs(nlohmann::json& saved) const {
-  saved["cost"] = {{"wall_seconds", wall_seconds()},
-                   {"cpu_seconds", cpu_seconds_before_ + ranks_.sum(cpu_seconds() - cpu_start_)},
-                   {"runs", runs_before_ + 1}};
+  saved["cost"] = {{"wall_seconds", wall_seconds()}, {"cpu_seconds", cpu_seconds()}, {"runs", runs_before_ + 1}};
 }
 
 template <int Dim>
 double RunOutput<Dim>::wall_seconds() const {
   return wall_seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+template <int Dim>
+double RunOutput<Dim>::cpu_seconds() const {
+  return cpu_seconds_before_ + ranks_.sum(cpu_seconds_of_process() - cpu_start_);
 }
 
 /// Tells others, too, that the run is ready (RequestSender).
@@ -169,7 +170,12 @@ template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
   if (flow.state.time < next_fields_) return;
   write_fields(flow);
-  next_fields_ = (std::floor(flow.state.time / fields_interval_) + 1.0) * fields_interval_;
+  next_fields_ = fields_due_after(flow.state.time);
+}
+
+template <int Dim>
+double RunOutput<Dim>::fields_due_after(double time) const {
+  return (std::floor(time / fields_interval_) + 1.0) * fields_interval_;
 }
 
 template <int Dim>
@@ -266,7 +272,7 @@ void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const s
 template <int Dim>
 void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,
                                    const std::string& message) {
-  const double cpu = cpu_seconds_before_ + ranks_.sum(cpu_seconds() - cpu_start_);
+  const double cpu = cpu_seconds();
   const double memory = ranks_.sum(peak_memory_bytes());
   const auto fluid = static_cast<std::size_t>(water_in(flow).particles);
   const std::size_t all = ranks_.sum(flow.state.particles.owned);
@@ -301,8 +307,7 @@ void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   const Water outside = water_outside(flow);
   if (flow.setup.open_ends.empty() && outside.particles == 0) return;
   Water inside = water_in(flow);
-  inside.particles -= outside.particles;
-  inside.volume -= outside.volume;
+  inside -= outside;
   tell(fmt::format("water: {} at the start, {} inside, {} outside the walls, {} out", water_at_start_.text(),
                    inside.text(), outside.text(), water_out(flow).text()));
 }

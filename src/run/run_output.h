@@ -66,7 +66,9 @@ class RunOutput {
   RunFolder make_folder(const Flow<Dim>& flow, bool goes_on) const;
   void take_up(const nlohmann::json& kept);
   void require_folder_in_place();
-  double wall_seconds() const;
+  double wall_seconds() const;  ///< of the earlier runs too, as the next
+  double cpu_seconds() const;   ///< of all ranks; collective
+  double fields_due_after(double time) const;
   void write_fields(const Flow<Dim>& flow);
   void warn_if_outside(const Flow<Dim>& flow, std::size_t outside);
   void write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,

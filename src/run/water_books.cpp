@@ -57,6 +57,12 @@ Water& Water::operator+=(const Water& other) {
   return *this;
 }
 
+Water& Water::operator-=(const Water& other) {
+  particles -= other.particles;
+  volume -= other.volume;
+  return *this;
+}
+
 std::string Water::text() const { return fmt::format("{} particles ({:.6g} m^3)", particles, volume); }
 
 template <int Dim>
@@ -105,8 +111,7 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
   const double density = flow.setup.density;
   const Water outside = water_outside(flow);
   Water inside = water_in(flow);
-  inside.particles -= outside.particles;
-  inside.volume -= outside.volume;
+  inside -= outside;
   return {{"start", json_of(at_start, density)},      {"in", json_of({}, density)},
           {"inside", json_of(inside, density)},       {"outside", json_of(outside, density)},
           {"out", json_of(water_out(flow), density)}, {"outlets", outlets}};

@@ -15,6 +15,7 @@ struct Water {
   double volume = 0.0;  ///< m^3; in 2D per metre of width
 
   Water& operator+=(const Water& other);
+  Water& operator-=(const Water& other);
   std::string text() const;  ///< "50 particles (0.5 m^3)"
 };
 
