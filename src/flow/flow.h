@@ -34,6 +34,7 @@ struct Flow {
   // Now.
   Walls<Dim> walls;                  ///< at their present positions
   Surroundings<Dim> here;            ///< as `locate` found them
+  bool is_located = false;           ///< whether no particle has moved since
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
 
   /// Builds a case that is already drawn.

@@ -61,6 +61,7 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks) {
   const Setup<Dim>& setup = flow.setup;
+  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_lists())) return;
   flow.neighbourhood.update(flow.state.particles);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
@@ -74,6 +75,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   if (setup.uses_tensors()) compute_renormalisation<Dim>(pairs, particles.volume, here.takes_part, here.tensors);
   find_surface(flow, keep_marks);
   if (setup.uses_pair_vectors()) find_pair_vectors(flow, here);
+  flow.is_located = true;
 }
 
 template void locate<2>(Flow<2>&, bool);

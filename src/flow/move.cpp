@@ -21,6 +21,7 @@ void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& 
     if (particles.is_fluid(i)) particles.position[i] = start.position[i] + dt * predicted.velocity[i];
   });
   place_walls(flow, flow.state.time + dt);
+  flow.is_located = false;
 }
 
 template <int Dim>
@@ -34,6 +35,7 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
     particles.position[i] = start.position[i] + dt * velocity;
   });
   place_walls(flow, flow.state.time + dt);
+  flow.is_located = false;
   return keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.spacing, ways_of_walls(flow, dt),
                              start.position, particles, particles.velocity);
 }

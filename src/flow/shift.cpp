@@ -48,7 +48,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   for_each(particles.owned, [&](std::size_t i) { particles.position[i] += shift[i]; });
   interventions.put_back =
       keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, setup.spacing, {}, before, particles, {});
-  flow.halo().exchange_positions(particles.position);
+  flow.is_located = false;
   return interventions;
 }
 

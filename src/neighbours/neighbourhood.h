@@ -46,6 +46,9 @@ class Neighbourhood {
   /// Cost of a step for each owned particle, in pairs; 1 for each if the lists are not of the present indices.
   std::vector<double> work(const Particles<Dim>& particles) const;
 
+  /// Whether lists and ghosts are of the present indices.
+  bool has_lists() const { return has_lists_; }
+
   const Pairs<Dim>& pairs() const { return pairs_; }
   const Halo<Dim>& halo() const { return halo_; }
   /// All particles, ghosts included, as they were when the lists were built: search half a skin farther.

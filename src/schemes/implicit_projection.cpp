@@ -40,6 +40,7 @@ template <int Dim>
 StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = project(flow, start, dt);
   report.interventions.put_back += move(flow, start, dt);
+  report.interventions += shift(flow, dt);
   locate(flow);
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   flow.state.wall_velocity = drive.velocity;
@@ -50,7 +51,6 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
   report.divergence_old = bulk_rms(flow, find_divergence(flow));
   report.divergence_new = report.divergence_old;  // the last solve was at the new positions
-  report.interventions += shift(flow, dt);
   return report;
 }
 
@@ -86,9 +86,9 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     // The first pass starts from the previous step, not from an iterate of this one.
     settled = report.passes > 1 && report.pressure_change < scheme.pass_tolerance;
   }
+  report.interventions += shift(flow, dt);  // (F28)-(F32)
   locate(flow);
   report_divergence(flow, divergence_old, report);  // (F19)
-  report.interventions += shift(flow, dt);          // (F28)-(F32)
   return report;
 }
 

@@ -18,6 +18,7 @@ void start(Flow<Dim>& flow) {
     predict_pressure(flow, start, drive, dt);
     std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
     place_walls(flow, flow.state.time);
+    flow.is_located = false;
     locate(flow);
     return;
   }

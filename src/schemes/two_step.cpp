@@ -30,9 +30,9 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   const std::vector<double> divergence_old = find_divergence(flow);
   report.divergence_old = bulk_rms(flow, divergence_old);
   report.interventions.put_back += move(flow, start, dt);  // (B19)
+  report.interventions += shift(flow, dt);
   locate(flow);
   report_divergence(flow, divergence_old, report);
-  report.interventions += shift(flow, dt);
   return report;
 }
 
