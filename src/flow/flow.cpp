@@ -15,22 +15,34 @@ namespace {
 /// than they save in searches (docs/theory/neighbours.md).
 constexpr double skin_over_spacing = 0.6;
 
-/// Fluid first, then walls; ids in that order.
+/// How far [m] water feels walls, and moves in a step. Rows of walls that hold pairs with each other need the walls
+/// around those that the water touches.
 template <int Dim>
-Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, double volume) {
-  Particles<Dim> particles;
+double reach_of_walls(const Setup<Dim>& setup) {
+  const double supports = setup.wall_traits.pairs == WallRows::all ? 2.0 : 1.0;
+  return supports * kernel_radius(setup.kernel) + setup.spacing;
+}
+
+/// Fluid first, then the walls that are near; ids in the order of fluid and table.
+template <int Dim>
+Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls,
+                              const NearWalls<Dim>& near_walls) {
   const std::size_t fluid_count = fluid.position.size();
-  particles.resize(fluid_count + walls.size());
+  const std::vector<std::size_t> rows = indices_where(
+      walls.particles.size(), [&](std::size_t row) { return near_walls.is_near(static_cast<std::int32_t>(row)); });
+  Particles<Dim> particles;
+  particles.resize(fluid_count + rows.size());
   particles.owned = particles.size();
   for_each(particles.owned, [&](std::size_t i) {
     const bool is_fluid = i < fluid_count;
-    particles.position[i] = is_fluid ? fluid.position[i] : walls.position[i - fluid_count];
+    const std::size_t row = is_fluid ? 0 : rows[i - fluid_count];
+    particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
     particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
-    particles.volume[i] = volume;
+    particles.volume[i] = power<Dim>(setup.spacing);
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
-    particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(i - fluid_count);
-    particles.id[i] = static_cast<std::int64_t>(i);
+    particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
+    particles.id[i] = static_cast<std::int64_t>(is_fluid ? i : fluid_count + row);
   });
   return particles;
 }
@@ -58,9 +70,10 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
                     setup.domain, ranks),
       pressure_rows(ranks),
       pressure_solver(spec.pressure_solver, setup.rows_deep),
-      walls(std::move(drawing.walls)) {
+      walls(std::move(drawing.walls)),
+      near_walls(walls, setup.domain, reach_of_walls(setup)) {
   Particles<Dim>& particles = state.particles;
-  particles = make_particles(drawing.fluid, walls.particles, power<Dim>(setup.spacing));
+  particles = make_particles(setup, drawing.fluid, walls, near_walls);
   keep_any_share(ranks, neighbourhood, particles);
   decomposition.share_out(particles, neighbourhood.work(particles));
   end_of.assign(particles.owned, -1);
@@ -68,6 +81,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   setup.wall_motion.get_velocity(0.0, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
   pressure_rows.set_constant_is_free(setup.is_closed);
+  regather_walls(*this);
 }
 
 template <int Dim>
@@ -76,6 +90,7 @@ void Flow<Dim>::restore(State<Dim> saved) {
   neighbourhood.forget(state.particles);
   end_of.assign(state.particles.owned, -1);
   here = {};
+  near_walls.restore(setup.ranks, state.particles);
   place_walls(*this, state.time);
 }
 

@@ -13,6 +13,7 @@
 #include "linear/linear_system.h"
 #include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
+#include "walls/near_walls.h"
 
 namespace tailwater {
 
@@ -33,6 +34,7 @@ struct Flow {
 
   // Now.
   Walls<Dim> walls;                  ///< at their present positions
+  NearWalls<Dim> near_walls;         ///< which of their rows are among the particles
   Surroundings<Dim> here;            ///< as `locate` found them
   bool is_located = false;           ///< whether no particle has moved since
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1

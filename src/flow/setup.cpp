@@ -81,6 +81,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       scheme(spec.scheme),
       density(spec.physics.density),
       spacing(spec.particles.spacing),
+      first_wall_id(static_cast<std::int64_t>(drawing.fluid.position.size())),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
       length(scheme.length > 0.0 ? scheme.length : fluid_height(drawing.fluid, gravity, spacing)),
       rows_deep(fluid_height(drawing.fluid, gravity, spacing) / spacing),

@@ -37,11 +37,12 @@ struct Setup {
 
   Communicator ranks;
   SchemeTable scheme;
-  double density;    ///< kg/m^3
-  double spacing;    ///< m
-  Vec<Dim> gravity;  ///< m/s^2
-  double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start
-  double rows_deep;  ///< the fluid's height along gravity at the start, in particles
+  double density;              ///< kg/m^3
+  double spacing;              ///< m
+  std::int64_t first_wall_id;  ///< of the first row of the table of wall particles
+  Vec<Dim> gravity;            ///< m/s^2
+  double length;               ///< m; L of (F41): from the case, or the fluid's height along gravity at the start
+  double rows_deep;            ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
   bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;

@@ -21,6 +21,15 @@ void locate(Flow<Dim>& flow, bool keep_marks = false);
 template <int Dim>
 StepStart<Dim> remember(Flow<Dim>& flow);
 
+/// Makes particles of the walls that water may reach in the coming step and that are none yet. Indices stay, behind the
+/// owned particles there may be more; then lists and ghosts are forgotten. Collective.
+template <int Dim>
+void gather_walls(Flow<Dim>& flow);
+
+/// The same, and takes the walls away that the water has left. Indices change; call between steps only.
+template <int Dim>
+void regather_walls(Flow<Dim>& flow);
+
 /// How moving walls are driven in a step of dt from `start`: to their mean velocity over the step, so that the water
 /// leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at its end.
 template <int Dim>

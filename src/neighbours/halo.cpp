@@ -25,7 +25,8 @@ Box<Dim> box_around(const Particles<Dim>& particles, double margin) {
   return box;
 }
 
-/// The zero shift, and every shift by one period in one or more directions.
+}  // namespace
+
 template <int Dim>
 std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain) {
   std::vector<Vec<Dim>> shifts{Vec<Dim>::Zero()};
@@ -42,8 +43,6 @@ std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain) {
   }
   return shifts;
 }
-
-}  // namespace
 
 template <int Dim>
 void Halo<Dim>::exchange_positions(std::vector<Vec<Dim>>& position) const {
@@ -99,6 +98,8 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
 
 template struct Halo<2>;
 template struct Halo<3>;
+template std::vector<Vec<2>> image_shifts<2>(const PeriodicDomain<2>&);
+template std::vector<Vec<3>> image_shifts<3>(const PeriodicDomain<3>&);
 template Vec<2> wrapped<2>(const PeriodicDomain<2>&, Vec<2>);
 template Vec<3> wrapped<3>(const PeriodicDomain<3>&, Vec<3>);
 template void wrap_positions<2>(const PeriodicDomain<2>&, Particles<2>&);

@@ -32,6 +32,10 @@ struct Halo {
   void exchange_positions(std::vector<Vec<Dim>>& position) const;
 };
 
+/// The zero shift, and every shift [m] by one period in one or more directions.
+template <int Dim>
+std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain);
+
 /// The equivalent of `position` inside a periodic domain.
 template <int Dim>
 Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position);

@@ -62,6 +62,8 @@ class Communicator {
   void largest_each(Number&... number) const {
     reduce_each(MPI_MAX, number...);
   }
+  /// The largest value of each entry, in place. All ranks give as many.
+  void largest_of_each(std::span<int> values) const { reduce(values.data(), values.size(), MPI_INT, MPI_MAX); }
   bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }
 
   /// Sum over the ranks before this one.

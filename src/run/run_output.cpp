@@ -275,7 +275,6 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   const double cpu = cpu_seconds();
   const double memory = ranks_.sum(peak_memory_bytes());
   const auto fluid = static_cast<std::size_t>(water_in(flow).particles);
-  const std::size_t all = ranks_.sum(flow.state.particles.owned);
   nlohmann::ordered_json summary = {{"title", spec_.general.title},
                                     {"case", case_file_},
                                     {"status", status},
@@ -284,7 +283,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
                                     {"seed", spec_.particles.seed},
-                                    {"particles", {{"fluid", fluid}, {"wall", all - fluid}}},
+                                    {"particles", {{"fluid", fluid}, {"wall", flow.walls.particles.size()}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
                                     {"cost",
                                      {{"runs", runs_before_ + 1},

@@ -20,6 +20,7 @@ StepReport take_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
 
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
+  gather_walls(flow);
   hold_open_ends(flow, dt);
   const StepStart<Dim> start = remember(flow);
   StepReport report = take_step(flow, start, dt);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/for_each.h"
 #include "case/formulation.h"
 #include "pressure/verbs.h"
 #include "schemes/advance.h"
@@ -62,6 +63,11 @@ inline CaseSpec zhou_case(double spacing, Integrator integrator) {
   spec.walls = {wall};
   spec.scheme.integrator = integrator;
   return spec;
+}
+
+template <int Dim>
+std::size_t count_fluid(const Flow<Dim>& flow) {
+  return count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
 }
 
 /// Sorts now and then, as a run does, and takes the largest allowed step.

@@ -1,0 +1,150 @@
+#include "walls/near_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+constexpr std::int32_t nowhere = -1;
+
+}  // namespace
+
+template <int Dim>
+NearWalls<Dim>::NearWalls(const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach)
+    : images_(image_shifts<Dim>(domain)), edge_(reach) {
+  const std::vector<Vec<Dim>>& position = walls.particles.position;
+  always_near_.resize(position.size());
+  for_each(position.size(),
+           [&](std::size_t row) { always_near_[row] = walls.boundary.walls[walls.particles.wall[row]].moves(); });
+
+  Eigen::AlignedBox<double, Dim> box;
+  for (std::size_t row = 0; row < position.size(); ++row) {
+    if (!always_near_[row]) box.extend(position[row]);
+  }
+  if (box.isEmpty()) box.extend(Vec<Dim>::Zero());
+  // A few distant walls must not make the grid huge. Coarser cells only bring more walls near.
+  const double most_cells = 64.0 * static_cast<double>(position.size()) + 1e5;
+  while ((box.sizes() / edge_).array().ceil().cwiseMax(1.0).prod() > most_cells) edge_ *= 2.0;
+  origin_ = box.min() - Vec<Dim>::Constant(edge_);
+  std::size_t cells = 1;
+  for (int d = 0; d < Dim; ++d) {
+    count_[d] = static_cast<std::int32_t>(box.sizes()[d] / edge_) + 3;
+    cells *= static_cast<std::size_t>(count_[d]);
+  }
+  is_near_.assign(cells, 0);
+
+  cell_of_row_.assign(position.size(), 0);
+  row_begin_.assign(cells + 1, 0);
+  for (std::size_t row = 0; row < position.size(); ++row) {
+    if (always_near_[row]) continue;
+    cell_of_row_[row] = cell_of(position[row]);
+    ++row_begin_[cell_of_row_[row] + 1];
+  }
+  for (std::size_t cell = 0; cell < cells; ++cell) row_begin_[cell + 1] += row_begin_[cell];
+  rows_.resize(row_begin_.back());
+  std::vector<std::int32_t> next(row_begin_.begin(), row_begin_.end() - 1);
+  for (std::size_t row = 0; row < position.size(); ++row) {
+    if (!always_near_[row]) rows_[next[cell_of_row_[row]]++] = static_cast<std::int32_t>(row);
+  }
+  find_covered();
+}
+
+template <int Dim>
+std::vector<std::int32_t> NearWalls<Dim>::update(const Communicator& ranks, const Particles<Dim>& particles,
+                                                 bool drops_far) {
+  std::vector<int> is_wet(is_near_.size(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: many particles mark one cell
+    if (!particles.is_fluid(i)) continue;
+    for (const Vec<Dim>& shift : images_) {
+      const std::int32_t cell = cell_of(particles.position[i] + shift);
+      if (cell != nowhere) is_wet[cell] = 1;
+    }
+  }
+  ranks.largest_of_each(is_wet);
+
+  const std::vector<std::uint8_t> was_near = is_near_;
+  if (drops_far) std::fill(is_near_.begin(), is_near_.end(), 0);
+  for (std::size_t cell = 0; cell < is_wet.size(); ++cell) {
+    if (is_wet[cell]) for_each_beside(static_cast<std::int32_t>(cell), [&](std::int32_t c) { is_near_[c] = 1; });
+  }
+  find_covered();
+  std::vector<std::int32_t> arrived;
+  for (std::size_t cell = 0; cell < is_near_.size(); ++cell) {
+    if (!is_near_[cell] || was_near[cell]) continue;
+    arrived.insert(arrived.end(), rows_.begin() + row_begin_[cell], rows_.begin() + row_begin_[cell + 1]);
+  }
+  return arrived;
+}
+
+template <int Dim>
+bool NearWalls<Dim>::misses_some(const Particles<Dim>& particles) const {
+  return count_each(particles.owned, [&](std::size_t i) {
+           return particles.is_fluid(i) && std::ranges::any_of(images_, [&](const Vec<Dim>& shift) {
+                    const std::int32_t cell = cell_of(particles.position[i] + shift);
+                    return cell != nowhere && !is_covered_[cell];
+                  });
+         }) > 0;
+}
+
+template <int Dim>
+void NearWalls<Dim>::restore(const Communicator& ranks, const Particles<Dim>& particles) {
+  std::vector<int> is_near(is_near_.size(), 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: many particles mark one cell
+    if (!particles.is_fluid(i) && !always_near_[particles.wall_row[i]])
+      is_near[cell_of_row_[particles.wall_row[i]]] = 1;
+  }
+  ranks.largest_of_each(is_near);
+  is_near_.assign(is_near.begin(), is_near.end());
+  find_covered();
+}
+
+/// The cell that holds `place`, or `nowhere` outside the grid, where no wall is near.
+template <int Dim>
+std::int32_t NearWalls<Dim>::cell_of(const Vec<Dim>& place) const {
+  std::int32_t cell = 0;
+  for (int d = 0; d < Dim; ++d) {
+    const double index = (place[d] - origin_[d]) / edge_;
+    if (!(index >= 0.0 && index < count_[d])) return nowhere;
+    cell = cell * count_[d] + static_cast<std::int32_t>(index);
+  }
+  return cell;
+}
+
+/// Calls visit(c) for the cell and all that touch it.
+template <int Dim>
+template <class Visit>
+void NearWalls<Dim>::for_each_beside(std::int32_t cell, Visit&& visit) const {
+  std::array<std::int32_t, Dim> index;
+  for (int d = Dim; d-- > 0; cell /= count_[d]) index[d] = cell % count_[d];
+  std::array<std::int32_t, 3> low{};
+  std::array<std::int32_t, 3> high{};
+  for (int d = 0; d < Dim; ++d) {
+    low[d] = std::max(index[d] - 1, 0);
+    high[d] = std::min(index[d] + 1, count_[d] - 1);
+  }
+  for (std::int32_t a = low[0]; a <= high[0]; ++a) {
+    for (std::int32_t b = low[1]; b <= high[1]; ++b) {
+      for (std::int32_t c = low[2]; c <= high[2]; ++c) {
+        visit(Dim == 3 ? (a * count_[1] + b) * count_[Dim - 1] + c : a * count_[1] + b);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void NearWalls<Dim>::find_covered() {
+  is_covered_.assign(is_near_.size(), 1);
+  for (std::size_t cell = 0; cell < is_near_.size(); ++cell) {
+    if (is_near_[cell] || row_begin_[cell] == row_begin_[cell + 1]) continue;
+    for_each_beside(static_cast<std::int32_t>(cell), [&](std::int32_t c) { is_covered_[c] = 0; });
+  }
+}
+
+template class NearWalls<2>;
+template class NearWalls<3>;
+
+}  // namespace tailwater

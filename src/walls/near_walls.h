@@ -1,0 +1,53 @@
+// Which wall particles are near the water. Only they become particles of the flow: dry walls take no part in lists,
+// pairs and rows, so a tank twice as high costs the same. Space is divided into cells. A cell is near if it or one
+// beside it holds water; its edge is as long as the water reaches within a step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "neighbours/halo.h"
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+template <int Dim>
+class NearWalls {
+ public:
+  /// No wall is near yet, but for those that move, which always are. `reach` [m] is how far water feels walls, and how
+  /// far it moves in a step.
+  NearWalls(const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach);
+
+  /// Finds which walls are near, and returns the rows of the table that were not before. Those that no longer are stay
+  /// near unless `drops_far`. All ranks get the same rows. Collective.
+  std::vector<std::int32_t> update(const Communicator& ranks, const Particles<Dim>& particles, bool drops_far);
+
+  bool is_near(std::int32_t row) const { return always_near_[row] || is_near_[cell_of_row_[row]]; }
+
+  /// Whether water of this rank is where walls that it may reach are not near.
+  bool misses_some(const Particles<Dim>& particles) const;
+
+  /// Takes the walls that are among the particles of all ranks as those that are near. Collective.
+  void restore(const Communicator& ranks, const Particles<Dim>& particles);
+
+ private:
+  std::int32_t cell_of(const Vec<Dim>& place) const;
+  template <class Visit>
+  void for_each_beside(std::int32_t cell, Visit&& visit) const;
+  void find_covered();
+
+  std::vector<Vec<Dim>> images_;  ///< m; shifts of the water to its periodic images and to itself
+  Vec<Dim> origin_ = Vec<Dim>::Zero();
+  double edge_;                            ///< m
+  std::array<std::int32_t, Dim> count_{};  ///< cells per direction: those that hold rows, and one more on each side
+  std::vector<std::uint8_t> always_near_;  ///< by row: on a moving wall
+  std::vector<std::int32_t> cell_of_row_;
+  std::vector<std::int32_t> row_begin_;   ///< by cell, of rows_
+  std::vector<std::int32_t> rows_;        ///< of resting walls, cell by cell
+  std::vector<std::uint8_t> is_near_;     ///< by cell
+  std::vector<std::uint8_t> is_covered_;  ///< by cell: whether all rows in it and beside it are near
+};
+
+}  // namespace tailwater
