@@ -20,7 +20,7 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const double ratio = pairs.W[k] * inverse_W;
     const double tensile = 1.0 + 0.2 * ratio * ratio * ratio * ratio;
-    gradient += particles.volume[pairs.j[k]] * tensile * pairs.dW[k] * pairs.e[k];
+    gradient += particles.volume[pairs.j[k]] * tensile * pairs.grad_W(k);
   }
   return -law.spacing * gradient;
 }
@@ -28,12 +28,12 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
 template <int Dim>
 Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   double sum = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r[k];
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r(k);
   const double mean_distance = sum / static_cast<double>(pairs.end(i) - pairs.begin(i));
   Vec<Dim> direction = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double ratio = mean_distance / pairs.r[k];
-    direction += ratio * ratio * ratio * pairs.e[k];
+    const double ratio = mean_distance / pairs.r(k);
+    direction += ratio * ratio * ratio * pairs.e(k);
   }
   return direction;
 }

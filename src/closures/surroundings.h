@@ -23,6 +23,7 @@ struct Surroundings {
   std::vector<std::uint8_t> is_surface;          ///< ghosts too
   std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
   std::vector<Vec<Dim>> pair_vectors;            ///< 1/m^(Dim+1); one entry per pair (pair_vectors.h)
+  std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles: sum_j w_j a_ij
 
   void resize(std::size_t count, bool with_tensors) {
     concentration.resize(count);

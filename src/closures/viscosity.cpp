@@ -11,6 +11,22 @@
 #include "operators/laplacian_shao_lo.h"
 
 namespace tailwater {
+namespace {
+
+/// Acceleration of a pair by the noise in its velocity `difference` u_j - u_i, over the viscosity [1/(m s)].
+/// `gradients` is the sum of both particles' velocity gradients.
+template <int Dim>
+inline Vec<Dim> noise_force(const Pairs<Dim>& pairs, std::size_t k, double volume_j, double spacing,
+                            const Vec<Dim>& difference, const Mat<Dim>& gradients) {
+  const Vec<Dim> d = pairs.d[k];  // r_i - r_j
+  Vec<Dim> noise = difference + 0.5 * (gradients * d);
+  // No branch, because the sign is unpredictable. The divisor's lower bound prevents 0/0.
+  const double work = std::min(0.0, noise.dot(difference));
+  noise -= work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
+  return morris_laplacian_weight(volume_j, pairs.F[k], d.squaredNorm(), spacing) * noise;
+}
+
+}  // namespace
 
 double ViscosityLaw::at_wall(double speed) const {
   return std::max(molecular, std::pow(8.3, -1.75) * std::pow(speed * wall_distance, 0.75) * std::pow(molecular, 0.25));
@@ -31,17 +47,22 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
-                             std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
-                             std::span<Vec<Dim>> acceleration) {
+                             double noise_viscosity, std::span<const Vec<Dim>> velocity,
+                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
+      const Vec<Dim> difference = velocity[j] - velocity[i];
+      const Mat<Dim> gradients = gradient[i] + gradient[j];
+      const Vec<Dim> a = pair_vectors[k];
+      const double squared = pairs.d[k].squaredNorm();
       // Only of pairs that nearly coincide may the corrections turn the sign.
-      const double a_e = std::min(0.0, pair_vectors[k].dot(pairs.e[k]));
-      const double laplacian = morris_laplacian_weight(particles.volume[j], pairs.r[k], a_e, spacing);
-      return 0.5 * (viscosity[i] + viscosity[j]) *
-             (laplacian * (velocity[j] - velocity[i]) +
-              particles.volume[j] * ((gradient[i] + gradient[j]).transpose() * pair_vectors[k]));
+      const double F = std::max(0.0, -a.dot(pairs.d[k])) / squared;
+      const double laplacian = morris_laplacian_weight(particles.volume[j], F, squared, spacing);
+      const Vec<Dim> force = 0.5 * (viscosity[i] + viscosity[j]) *
+                             (laplacian * difference + particles.volume[j] * (gradients.transpose() * a));
+      if (noise_viscosity == 0.0) return force;
+      return force + noise_viscosity * noise_force<Dim>(pairs, k, particles.volume[j], spacing, difference, gradients);
     });
   });
 }
@@ -54,7 +75,7 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
       const double weight =
-          shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r[k], pairs.dW[k], eta_squared);
+          shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(k), pairs.dW(k), eta_squared);
       return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
     });
   });
@@ -76,14 +97,8 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += viscosity * sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-                         const Vec<Dim> difference = velocity[j] - velocity[i];
-                         // r_j - r_i = -r e
-                         Vec<Dim> noise = difference + 0.5 * pairs.r[k] * ((gradient[i] + gradient[j]) * pairs.e[k]);
-                         // No branch, because the sign is unpredictable. The divisor's lower bound prevents 0/0.
-                         const double work = std::min(0.0, noise.dot(difference));
-                         noise -=
-                             work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
-                         return morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing) * noise;
+                         return noise_force<Dim>(pairs, k, particles.volume[j], spacing, velocity[j] - velocity[i],
+                                                 gradient[i] + gradient[j]);
                        });
   });
 }
@@ -104,7 +119,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!takes_part[j]) continue;
-      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r[k], pairs.W[k], spacing) *
+      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(k), pairs.W[k], spacing) *
              (velocity[j] - velocity[i]);
     }
     acceleration[i] += viscosity[i] * sum;
@@ -114,7 +129,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
 #define TAILWATER_INSTANTIATE(Dim)                                                                                    \
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
   template void add_newtonian_viscosity<Dim>(                                                                         \
-      const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const Vec<Dim>>, std::span<const double>,           \
+      const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const Vec<Dim>>, std::span<const double>, double,   \
       std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);                                     \
   template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
                                            std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \

@@ -53,8 +53,8 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
-                             std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
-                             std::span<Vec<Dim>> acceleration);
+                             double noise_viscosity, std::span<const Vec<Dim>> velocity,
+                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration);
 
 /// Two-point viscous acceleration with the weights of (B8), as in (B9): sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i).
 /// Conserves momentum and never adds energy. `density` is each particle's density over the water's.

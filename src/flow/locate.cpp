@@ -50,10 +50,11 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Setup<Dim>& setup = flow.setup;
   if (setup.scheme.pair_vectors == PairVectors::kernel) {
     find_kernel_gradients(flow.pairs(), here.pair_vectors);
+    here.open_faces = here.concentration_gradient;
     return;
   }
   find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), kernel_radius(setup.kernel), flow.state.particles.volume,
-                                   here.interior, here.first_moment, here.pair_vectors);
+                                   here.interior, here.first_moment, here.pair_vectors, here.open_faces);
 }
 
 }  // namespace

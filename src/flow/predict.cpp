@@ -9,13 +9,14 @@
 namespace tailwater {
 namespace {
 
-/// Adds the viscous force by the scheme's operator.
+/// Adds the viscous force by the scheme's operator, and the dissipation of noise.
 template <int Dim>
 void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
                    std::vector<Vec<Dim>>& acceleration) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size());
+  const double noise_viscosity = setup.scheme.noise_viscosity > 0.0 ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
   effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
   switch (setup.scheme.laplacian) {
     case LaplacianKind::consistent:
@@ -28,8 +29,12 @@ void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gra
       break;
     case LaplacianKind::morris:
       add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.here.pair_vectors, viscosity,
-                                   particles.velocity, velocity_gradient, acceleration);
-      break;
+                                   noise_viscosity, particles.velocity, velocity_gradient, acceleration);
+      return;
+  }
+  if (noise_viscosity > 0.0) {
+    add_noise_viscosity<Dim>(flow.pairs(), particles, setup.spacing, noise_viscosity, particles.velocity,
+                             velocity_gradient, acceleration);
   }
 }
 
@@ -90,10 +95,6 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
   add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
   add_friction(flow, acceleration);
-  if (setup.scheme.noise_viscosity > 0.0) {
-    add_noise_viscosity<Dim>(flow.pairs(), particles, setup.spacing, setup.noise_viscosity(largest_speed(flow)),
-                             particles.velocity, predicted.velocity_gradient, acceleration);
-  }
   if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
 
   const bool with_gravity = setup.wall_traits.gravity_in_prediction;

@@ -17,10 +17,14 @@ template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
   std::vector<std::int32_t> j;         ///< neighbour, owned or ghost
-  std::vector<Vec<Dim>> e;             ///< unit vector e_ij = (r_i - r_j)/|r_ij|, from j to i
-  std::vector<double> r;               ///< m; |r_ij|, never 0
+  std::vector<Vec<Dim>> d;             ///< m; r_ij = r_i - r_j, from j to i, never 0
   std::vector<double> W;               ///< 1/m^Dim; kernel
-  std::vector<double> dW;              ///< 1/m^(Dim+1); dW/dr, so grad_i W_ij = dW e
+  std::vector<double> F;               ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+
+  double r(std::size_t k) const { return d[k].norm(); }          ///< m; |r_ij|
+  Vec<Dim> e(std::size_t k) const { return d[k] / r(k); }        ///< unit vector along r_ij
+  double dW(std::size_t k) const { return -F[k] * r(k); }        ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> grad_W(std::size_t k) const { return -F[k] * d[k]; }  ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }

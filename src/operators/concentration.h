@@ -30,11 +30,11 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<co
   columns.fill(Vec<Dim>::Zero());
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const double volume_j = volume[pairs.j[k]];
-    const Vec<Dim> weight = (volume_j * pairs.dW[k]) * pairs.e[k];
-    const Vec<Dim> arm = -pairs.r[k] * pairs.e[k];
+    const Vec<Dim> d = pairs.d[k];
+    const Vec<Dim> weight = (volume_j * pairs.F[k]) * d;
     concentration += volume_j * pairs.W[k];
-    gradient += weight;
-    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * arm;
+    gradient -= weight;
+    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * d;
   }
   KernelSums<Dim> sums{concentration, gradient, {}};
   for (int b = 0; b < Dim; ++b) sums.first_moment.col(b) = columns[b];

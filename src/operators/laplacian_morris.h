@@ -1,12 +1,12 @@
 // Two-point Laplacian of Brookshaw (1985) and Morris et al. (1997), (F11):
 //
-//   lap v_i = sum_j 2 w_j (-dW_ij/dr / r_ij) (v_j - v_i)
+//   lap v_i = sum_j 2 w_j F_ij (v_j - v_i),    F_ij = -(dW_ij/dr) / r_ij
 //
 // All weights have one sign, so a matrix made of it is an M-matrix; pairs are antisymmetric, so it conserves. Exact
 // only for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 
 namespace tailwater {
 
@@ -14,8 +14,10 @@ namespace tailwater {
 inline constexpr double least_morris_distance = 0.1;
 
 /// Coefficient of (v_j - v_i) [1/m^2], never negative.
-inline double morris_laplacian_weight(double volume_j, double r, double dW, double spacing) {
-  return -2.0 * volume_j * dW / std::max(r, least_morris_distance * spacing);
+inline double morris_laplacian_weight(double volume_j, double F, double distance_squared, double spacing) {
+  const double least = least_morris_distance * spacing;
+  const double weight = 2.0 * volume_j * F;
+  return distance_squared < least * least ? weight * std::sqrt(distance_squared) / least : weight;
 }
 
 }  // namespace tailwater

@@ -25,7 +25,7 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
         const double wW = volume * kernel_value(kernel, r);
         sums.concentration += wW;
         if (r == 0.0) continue;
-        sums.morris += morris_laplacian_weight(volume, r, kernel_derivative(kernel, r), spacing);
+        sums.morris += morris_laplacian_weight(volume, -kernel_derivative(kernel, r) / r, r * r, spacing);
         sums.shao_lo += shao_lo_laplacian_weight(volume, 1.0, 1.0, r, kernel_derivative(kernel, r), eta_squared);
         trace_A += wW;
         inverse_squares += wW / (r * r);

@@ -11,6 +11,7 @@ namespace {
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<const double> interior,
                              std::span<const Mat<Dim>> first_moment, std::span<Mat<Dim>> correction) {
+  const double inverse_square = 1.0 / (radius * radius);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = interior[i];
     correction[i].setIdentity();
@@ -20,8 +21,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<c
     double weights = share;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      const double q = pairs.r[k] / radius;
-      const double weight = interior[j] * (1.0 - q * q);
+      const double weight = interior[j] * (1.0 - pairs.d[k].squaredNorm() * inverse_square);
       sum += weight * first_moment[j];
       weights += weight;
     }
@@ -30,43 +30,35 @@ void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<c
   });
 }
 
-/// dW (B_i + B_j)/2 e_ij of every pair.
-template <int Dim>
-void find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const Mat<Dim>> correction,
-                              std::span<Vec<Dim>> pair_vectors) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    const Mat<Dim> own = correction[i];
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      pair_vectors[k] = (0.5 * pairs.dW[k]) * ((own + correction[pairs.j[k]]) * pairs.e[k]);
-    }
-  });
-}
-
-/// k_ij w_j of a pair [1/m^2].
-template <int Dim>
-double graph_weight(const Pairs<Dim>& pairs, std::size_t k, std::span<const double> volume) {
-  return -volume[pairs.j[k]] * pairs.dW[k] / pairs.r[k];
-}
-
 /// The equation for l, row by row.
 template <int Dim>
 struct ClosingEquation {
-  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j k_ij / interior_i, 0 where there is no equation
+  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j F_ij / interior_i, 0 where there is no equation
   std::vector<Vec<Dim>> rhs;    ///< 1/m; -1/2 sum_j w_j a_ij
 };
 
+/// Sets a_ij = -F (B_i + B_j)/2 d_ij of every pair, and poses the equation that closes half of the faces they leave
+/// open.
 template <int Dim>
-ClosingEquation<Dim> pose_closing(const Pairs<Dim>& pairs, std::span<const double> volume,
-                                  std::span<const double> interior, std::span<const Vec<Dim>> pair_vectors) {
+ClosingEquation<Dim> find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const double> volume,
+                                              std::span<const double> interior, std::span<const Mat<Dim>> correction,
+                                              std::span<Vec<Dim>> pair_vectors) {
   ClosingEquation<Dim> equation;
-  equation.divisor.assign(pairs.owned(), 0.0);
-  equation.rhs.assign(pairs.owned(), Vec<Dim>::Zero());
+  equation.divisor.resize(pairs.owned());
+  equation.rhs.resize(pairs.owned());
   for_each(pairs.owned(), [&](std::size_t i) {
-    if (interior[i] == 0.0) return;
+    const Mat<Dim> own = 0.5 * correction[i];
+    Vec<Dim> open = Vec<Dim>::Zero();
     double diagonal = 0.0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) diagonal += graph_weight(pairs, k, volume);
-    equation.divisor[i] = diagonal / interior[i];
-    equation.rhs[i] = -0.5 * open_faces(pairs, i, volume, pair_vectors);
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      const Vec<Dim> a = -pairs.F[k] * ((own + 0.5 * correction[j]) * pairs.d[k]);
+      pair_vectors[k] = a;
+      open += volume[j] * a;
+      diagonal += volume[j] * pairs.F[k];
+    }
+    equation.divisor[i] = interior[i] == 0.0 ? 0.0 : diagonal / interior[i];
+    equation.rhs[i] = -0.5 * open;
   });
   return equation;
 }
@@ -80,19 +72,27 @@ void sweep(const Pairs<Dim>& pairs, std::span<const double> volume, const Closin
     if (equation.divisor[i] == 0.0) return;
     Vec<Dim> sum = equation.rhs[i];
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      sum += graph_weight(pairs, k, volume) * l[pairs.j[k]];
+      const auto j = pairs.j[k];
+      sum += (volume[j] * pairs.F[k]) * l[j];
     }
     next[i] = sum / equation.divisor[i];
   });
 }
 
-/// a_ij <- a_ij - dW/r (l_i - l_j).
+/// a_ij <- a_ij + F (l_i - l_j), and their sums.
 template <int Dim>
-void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> l, std::span<Vec<Dim>> pair_vectors) {
+void close_faces(const Pairs<Dim>& pairs, std::span<const double> volume, std::span<const Vec<Dim>> l,
+                 std::span<Vec<Dim>> pair_vectors, std::span<Vec<Dim>> open_faces) {
   for_each(pairs.owned(), [&](std::size_t i) {
+    const Vec<Dim> own = l[i];
+    Vec<Dim> open = Vec<Dim>::Zero();
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      pair_vectors[k] -= (pairs.dW[k] / pairs.r[k]) * (l[i] - l[pairs.j[k]]);
+      const auto j = pairs.j[k];
+      const Vec<Dim> a = pair_vectors[k] + pairs.F[k] * (own - l[j]);
+      pair_vectors[k] = a;
+      open += volume[j] * a;
     }
+    open_faces[i] = open;
   });
 }
 
@@ -101,36 +101,44 @@ void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> l, std::span
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors) {
   pair_vectors.resize(pairs.j.size());
-  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.dW[k] * pairs.e[k]; });
+  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.grad_W(k); });
 }
 
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
                                  std::span<const double> volume, std::span<const double> interior,
                                  std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
-                                 int sweeps) {
+                                 std::vector<Vec<Dim>>& open_faces, int sweeps) {
   std::vector<Mat<Dim>> correction(volume.size());
   find_moment_corrections<Dim>(pairs, radius, interior, first_moment, correction);
   halo.exchange(correction);
   pair_vectors.resize(pairs.j.size());
-  find_corrected_gradients<Dim>(pairs, correction, pair_vectors);
+  const ClosingEquation<Dim> equation =
+      find_corrected_gradients<Dim>(pairs, volume, interior, correction, pair_vectors);
 
-  const ClosingEquation<Dim> equation = pose_closing<Dim>(pairs, volume, interior, pair_vectors);
+  // The first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(volume.size(), Vec<Dim>::Zero());
-  std::vector<Vec<Dim>> next = l;
-  for (int n = 0; n < sweeps; ++n) {
+  if (sweeps > 0) {
+    for_each(pairs.owned(), [&](std::size_t i) {
+      if (equation.divisor[i] != 0.0) l[i] = equation.rhs[i] / equation.divisor[i];
+    });
+    halo.exchange(l);
+  }
+  std::vector<Vec<Dim>> next(volume.size());
+  for (int n = 1; n < sweeps; ++n) {
     sweep<Dim>(pairs, volume, equation, l, next);
     halo.exchange(next);
     std::swap(l, next);
   }
-  close_faces<Dim>(pairs, l, pair_vectors);
+  open_faces.resize(pairs.owned());
+  close_faces<Dim>(pairs, volume, l, pair_vectors, open_faces);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                     \
   template void find_kernel_gradients<Dim>(const Pairs<Dim>&, std::vector<Vec<Dim>>&);                                 \
   template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, double, std::span<const double>, \
                                                  std::span<const double>, std::span<const Mat<Dim>>,                   \
-                                                 std::vector<Vec<Dim>>&, int);
+                                                 std::vector<Vec<Dim>>&, std::vector<Vec<Dim>>&, int);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

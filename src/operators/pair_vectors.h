@@ -8,17 +8,16 @@
 // fields are scaled by the first moment M_i = sum_j w_j r (-dW) e e, which is not I on a strained or disordered set:
 // waves then see an elastic medium. Within the two bonds there is room to do better:
 //
-//   a_ij = dW [ (B_i + B_j)/2 e_ij - (l_i - l_j)/r ]
+//   a_ij = -F [ (B_i + B_j)/2 d_ij - (l_i - l_j) ],    d_ij = r_i - r_j,  F = -(dW/dr)/r
 //
 // B_i    corrects the first moment: B_i = <M>_i^-1 inside, I at the surface and at walls, blended by `interior`. The
 //        mean <M> over the neighbours follows the strain of the set; the M of single particles does not enter. With
 //        it, the force of a uniform pressure would have a curl from particle to particle, which drives rolls in water
 //        at rest.
 // l_i    closes half of the faces: a uniform pressure p has the force -2 p sum_j w_j a_ij, which orders the particles
-//        and hinders the flow. A graph Laplacian, sum_j w_j k_ij (l_i - l_j) = -1/2 sum_j w_j a_ij with k_ij = -dW/r,
-//        takes half of it away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far
-//        as it matters: what varies from particle to particle. The row is divided by `interior`, so l is 0 at the
-//        surface.
+//        and hinders the flow. A graph Laplacian, sum_j w_j F_ij (l_i - l_j) = -1/2 sum_j w_j a_ij, takes half of it
+//        away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far as it matters: what
+//        varies from particle to particle. The row is divided by `interior`, so l is 0 at the surface.
 //
 // Both corrections are continuous in the positions and need no surface detection. Where they come from, what is
 // exact and what each is worth: docs/theory/operators.md.
@@ -39,21 +38,13 @@ inline constexpr int closing_sweeps = 3;
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors);
 
-/// The corrected vector of every pair. `interior` is 0 at walls; it and the first moments M must be up to date on
-/// ghosts. `radius` [m] is that of the support. Collective.
+/// The corrected vector of every pair, and of each owned particle what they leave open of its faces, sum_j w_j a_ij
+/// [1/m]. `interior` is 0 at walls; it and the first moments M must be up to date on ghosts. `radius` [m] is that of
+/// the support. Collective.
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
                                  std::span<const double> volume, std::span<const double> interior,
                                  std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
-                                 int sweeps = closing_sweeps);
-
-/// sum_j w_j a_ij [1/m], what is open of the faces of particle i: a uniform pressure p has the force -2 p times it.
-template <int Dim>
-Vec<Dim> open_faces(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
-                    std::span<const Vec<Dim>> pair_vectors) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += volume[pairs.j[k]] * pair_vectors[k];
-  return sum;
-}
+                                 std::vector<Vec<Dim>>& open_faces, int sweeps = closing_sweeps);
 
 }  // namespace tailwater

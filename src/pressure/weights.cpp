@@ -20,7 +20,6 @@
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
-#include "operators/pair_vectors.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -39,15 +38,16 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem:
   const double spacing = flow.setup.spacing;
   if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
     return row.set_weights([&](std::size_t k) {
-      return here.takes_part[pairs.j[k]] ? morris_laplacian_weight(volume[pairs.j[k]], pairs.r[k], pairs.dW[k], spacing)
-                                         : 0.0;
+      return here.takes_part[pairs.j[k]]
+                 ? morris_laplacian_weight(volume[pairs.j[k]], pairs.F[k], pairs.d[k].squaredNorm(), spacing)
+                 : 0.0;
     });
   }
   if (flow.setup.scheme.laplacian == LaplacianKind::shao_lo) {
     const std::vector<double>& density = here.concentration;
     return row.set_weights([&](std::size_t k) {
       const auto j = pairs.j[k];
-      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r[k], pairs.dW[k],
+      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(k), pairs.dW(k),
                                                            flow.setup.eta_squared)
                                 : 0.0;
     });
@@ -56,7 +56,7 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem:
   if (tensors.laplacian_is_sound()) {
     const double sum = row.set_weights([&](std::size_t k) {
       return here.takes_part[pairs.j[k]]
-                 ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e[k], pairs.r[k], pairs.W[k])
+                 ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e(k), pairs.r(k), pairs.W[k])
                  : 0.0;
     });
     if (sum > 0.0) return sum;
@@ -64,7 +64,7 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem:
   fell_back = true;
   return row.set_weights([&](std::size_t k) {
     return here.takes_part[pairs.j[k]]
-               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r[k], pairs.W[k], spacing)
+               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(k), pairs.W[k], spacing)
                : 0.0;
   });
 }
@@ -89,9 +89,8 @@ double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   const double air = flow.setup.air_law.weight(sum, full_sum(flow.setup));
   const double interior = flow.here.interior[i];
   if (interior == 0.0) return air;
-  const Vec<Dim> open = open_faces<Dim>(flow.pairs(), i, flow.state.particles.volume, flow.here.pair_vectors);
   const double spacing = flow.setup.spacing;
-  const double inside = 4.0 * open.squaredNorm() + softness / (spacing * spacing);
+  const double inside = 4.0 * flow.here.open_faces[i].squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
 }
 

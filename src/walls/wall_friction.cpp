@@ -23,7 +23,8 @@ void add_wall_friction(const WallScene<Dim>& scene, const ViscosityLaw& law, dou
       const double lambda = scene.walls.friction[row];
       if (lambda == 0.0) continue;
       const Vec<Dim> difference = no_slip[j] - velocity[i];
-      const double weight = lambda * morris_laplacian_weight(particles.volume[j], pairs.r[k], pairs.dW[k], spacing);
+      const double weight =
+          lambda * morris_laplacian_weight(particles.volume[j], pairs.F[k], pairs.d[k].squaredNorm(), spacing);
       sum += weight * (difference - scene.walls.particles.blocked[row] * difference);
       wall_velocity += weight * V[row];
       weights += weight;

@@ -43,7 +43,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   effective_viscosity<Dim>({.molecular = 1e-6, .artificial = 0.02, .floor = 0.001}, velocity, viscosity);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   const std::vector<Mat<Dim>> no_gradient(set.size(), Mat<Dim>::Zero());
-  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, velocity,
+  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                no_gradient, acceleration);
 
   // Without gradients, pair by pair: force on i = - force on j, power = - w_i c_ij nu_ij |u_i - u_j|^2.
@@ -58,8 +58,9 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
     power += w_i * acceleration[i].dot(velocity[i]);
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      const double weight = w_i * morris_laplacian_weight(set.particles.volume[j], pairs.r[k], pairs.dW[k], dx) * 0.5 *
-                            (viscosity[i] + viscosity[j]);
+      const double weight = w_i *
+                            morris_laplacian_weight(set.particles.volume[j], pairs.F[k], pairs.d[k].squaredNorm(), dx) *
+                            0.5 * (viscosity[i] + viscosity[j]);
       pair_power -= 0.5 * weight * (velocity[i] - velocity[j]).squaredNorm();
       forces += weight * (velocity[i] - velocity[j]).norm();
     }
@@ -79,7 +80,7 @@ TYPED_TEST(ViscosityTest, ARigidRotationIsFreeOfStressUpToTheSurface) {
   const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(spin * x); });
   const std::vector<double> viscosity(set.size(), 0.1);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
-  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, velocity,
+  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                std::vector<Mat<Dim>>(set.size(), spin), acceleration);
   // Pair by pair 2 w dW (G + G^T) e, which is 0; its two parts are of the size nu spin/dx.
   for (const Vec<Dim>& a : acceleration) EXPECT_LT(a.norm(), 1e4 * eps * 0.1 * 2.0 / dx);
@@ -107,6 +108,29 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   }
   EXPECT_LT(force.norm(), 300.0 * eps * forces);  // some 100 terms per particle, each rounded a few times
   EXPECT_LT(power, 0.0);
+}
+
+TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = block<Dim>();
+  Noise noise(44);
+  const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
+  const std::vector<double> viscosity(set.size(), 0.03);
+  const std::vector<Mat<Dim>> gradient(set.size(), Mat<Dim>::Constant(2.0));
+  const std::vector<Vec<Dim>> vectors = kernel_gradients<Dim>(set);
+  const std::vector<Vec<Dim>> zero(set.size(), Vec<Dim>::Zero());
+  std::vector<Vec<Dim>> together = zero;
+  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, vectors, viscosity, 0.1, velocity, gradient, together);
+  std::vector<Vec<Dim>> newtonian = zero;
+  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, vectors, viscosity, 0.0, velocity, gradient, newtonian);
+  std::vector<Vec<Dim>> of_noise = zero;
+  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, of_noise);
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+    ASSERT_GT(of_noise[i].norm(), 0.0);
+    // Some 100 terms, each up to a hundred times the sum.
+    ASSERT_LT((together[i] - newtonian[i] - of_noise[i]).norm(),
+              1e4 * eps * (newtonian[i].norm() + of_noise[i].norm()));
+  }
 }
 
 TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
@@ -144,7 +168,7 @@ TYPED_TEST(ViscosityTest, LeavesAUniformVelocityAlone) {
   const std::vector<double> viscosity(set.size(), 0.1);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   const std::vector<Mat<Dim>> no_gradient(set.size(), Mat<Dim>::Zero());
-  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, velocity,
+  add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                no_gradient, acceleration);
   add_consistent_viscosity<Dim>(set.pairs(), set.particles, operators.tensors, operators.takes_part, dx, viscosity,
                                 velocity, acceleration);
