@@ -359,7 +359,8 @@ void CellMultigrid::gather(Level& level) const {
   gathering.first_own = static_cast<std::size_t>(first);
   const std::vector<std::uint64_t> cell = gathered(gathering.plan, level.cell);
   const std::vector<float> diagonal = gathered(gathering.plan, part.diagonal);
-  const std::vector<NumberedEntry> entries = gathered(gather_on_all(ranks_, numbered.size()), std::move(numbered));
+  const ExchangePlan plan_of_entries = gather_on_all(ranks_, numbered.size());
+  const std::vector<NumberedEntry> entries = gathered(plan_of_entries, std::move(numbered));
 
   std::vector<int> order(cell.size());
   std::iota(order.begin(), order.end(), 0);

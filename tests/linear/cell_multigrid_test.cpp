@@ -27,7 +27,8 @@ PressureSolverTable multigrid_settings() {
 
 enum class Top { surface, lid };
 
-/// Water in a tank `edge` particles wide and deep, with the rows of a pressure equation and a rough source.
+/// Water in a tank `edge` particles wide and deep, with the rows of a pressure equation and the source whose answer has
+/// the longest waves.
 template <int Dim>
 struct Tank {
   Tank(int edge, Top top) : set(points(edge, top), make_kernel<Dim>(KernelName::wendland_c2, 2.6), 1.0) {
@@ -42,12 +43,11 @@ struct Tank {
       }
     }
     const double full = *std::max_element(sum.begin(), sum.end());
-    Noise noise(3);
     for (std::size_t i = 0; i < set.size(); ++i) {
       // What is missing near a surface is air, p = 0. Under a lid only a little softness fixes the pressure.
-      const double own = top == Top::surface ? std::max(0.0, 0.8 * full - sum[i]) : 1e-4 * full;
+      const double own = top == Top::surface ? std::max(0.0, 0.7 * full - sum[i]) : 1e-4 * full;
       diagonal.push_back(is_water[i] ? sum[i] + own : sum[i]);
-      rhs.push_back(noise());
+      rhs.push_back(is_water[i] ? 1.0 : 0.0);
     }
   }
 
@@ -81,7 +81,7 @@ struct Tank {
       const bool is_above = x[Dim - 1] > edge;
       if (top == Top::surface && is_above && !is_beside) continue;
       is_water.push_back(!is_beside && !is_above);
-      all.push_back(is_water.back() ? Vec<Dim>(x + 0.2 * noise.vector<Dim>()) : x);
+      all.push_back(is_water.back() ? Vec<Dim>(x + 0.1 * noise.vector<Dim>()) : x);
     }
     return all;
   }
@@ -114,8 +114,8 @@ TEST(CellMultigrid, IterationsDoNotGrowWithDepth) {
   for (const int edge : {8, 12, 20}) {
     EXPECT_LE(iterations_in(Tank<3>(edge, Top::surface)), most_iterations) << edge << " rows deep";
   }
-  // What the test would show of a preconditioner whose iterations do grow:
-  EXPECT_GT(iterations_in(Tank<2>(50, Top::surface), PreconditionerName::ssor), 2 * most_iterations);
+  // SSOR's iterations do grow, so the systems can tell:
+  EXPECT_GT(iterations_in(Tank<2>(100, Top::surface), PreconditionerName::ssor), 2 * most_iterations);
 }
 
 TEST(CellMultigrid, AClosedTankIsNoHarder) {
