@@ -31,7 +31,7 @@ enum class ImplicitForm { residual, repeated };
 enum class Displacement { new_velocity, mean_velocity };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
-enum class PreconditionerName { automatic, ssor, ilu, boomeramg, gamg, jacobi };
+enum class PreconditionerName { automatic, ssor, cell_multigrid, ilu, boomeramg, gamg, jacobi };
 
 enum class DecompositionMethod { rcb, hsfc };
 
@@ -132,7 +132,8 @@ struct Choices<KrylovMethod> {
 };
 template <>
 struct Choices<PreconditionerName> {
-  static constexpr std::array<std::string_view, 6> names{"auto", "ssor", "ilu", "boomeramg", "gamg", "jacobi"};
+  static constexpr std::array<std::string_view, 7> names{"auto",      "ssor", "cell-multigrid", "ilu",
+                                                         "boomeramg", "gamg", "jacobi"};
 };
 template <>
 struct Choices<DecompositionMethod> {

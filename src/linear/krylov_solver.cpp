@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 #include "base/fp_traps.h"
+#include "linear/cell_multigrid.h"
 #include "linear/petsc_solver.h"
 
 namespace tailwater {
@@ -33,6 +34,23 @@ bool is_breakdown(KSPConvergedReason reason) {
 
 /// y = D x, where the diagonal D is 1.
 PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
+
+/// correction = multigrid(residual), for PETSc. An exception here has no way out through PETSc and ends the program.
+PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
+  CellMultigrid* multigrid = nullptr;
+  check_petsc(PCShellGetContext(preconditioner, &multigrid));
+  PetscInt size = 0;
+  const PetscScalar* from = nullptr;
+  PetscScalar* to = nullptr;
+  check_petsc(VecGetLocalSize(residual, &size));
+  check_petsc(VecGetArrayRead(residual, &from));
+  check_petsc(VecGetArrayWrite(correction, &to));
+  const auto count = static_cast<std::size_t>(size);
+  multigrid->apply({from, count}, {to, count});
+  check_petsc(VecRestoreArrayWrite(correction, &to));
+  check_petsc(VecRestoreArrayRead(residual, &from));
+  return 0;
+}
 
 /// Makes a PETSc vector that shares `values`.
 void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vector) {
@@ -64,6 +82,7 @@ struct KrylovSolver::Petsc {
   PetscVector residual;
   PetscKrylovSolver solver;
   PetscNullSpace constants;
+  std::optional<CellMultigrid> multigrid;
   std::uint64_t pattern_number = 0;        ///< of the matrix
   std::optional<std::size_t> solver_size;  ///< rows of this rank; none after a restart with another method
 
@@ -117,16 +136,29 @@ struct KrylovSolver::Petsc {
 
   /// A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over from the old one, and a
   /// run that goes on from a checkpoint has no old one.
-  void take_solver(const LinearSystem& system, const PressureSolverTable& settings, double rows_deep,
-                   bool pattern_is_new) {
+  void take_solver(LinearSystem& system, const PressureSolverTable& settings, double rows_deep, bool pattern_is_new) {
     const Communicator& ranks = system.ranks();
     if (ranks.any(pattern_is_new || solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
-      configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free()},
-                ranks.is_alone());
+      const SystemTraits traits{
+          .rows_deep = rows_deep, .constant_is_free = system.constant_is_free(), .has_cells = system.has_cells()};
+      configure(solver.get(), settings, traits, ranks.is_alone());
+      take_multigrid(system);
     }
     check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
+  }
+
+  /// Sets up our own multigrid if the solver has it.
+  void take_multigrid(LinearSystem& system) {
+    PC preconditioner = nullptr;
+    PetscBool is_ours = PETSC_FALSE;
+    check_petsc(KSPGetPC(solver.get(), &preconditioner));
+    check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
+    if (!is_ours) return;
+    multigrid.emplace(system);
+    check_petsc(PCShellSetContext(preconditioner, &*multigrid));
+    check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
   }
 
   /// Restarts from 0 with GMRES. The next solve uses the method of the settings again.

@@ -22,6 +22,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   halo.exchange(number);
 
   ++pattern_number_;
+  cells_ = {};
   pattern_begin_.assign(row_begin.begin(), row_begin.end());
   slot_.resize(columns.size());
   diagonal_slot_.resize(rows);

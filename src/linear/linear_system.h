@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "linear/cells.h"
 #include "parallel/exchange_plan.h"
 
 namespace tailwater {
@@ -29,6 +30,11 @@ class LinearSystem {
                    const ExchangePlan& halo);
   /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
+
+  /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
+  void set_cells(Cells cells) { cells_ = std::move(cells); }
+  const Cells& cells() const { return cells_; }
+  bool has_cells() const { return cells_.dimension > 0; }
 
   /// Writes one row in place. Touches nothing but that row.
   class Row {
@@ -100,6 +106,7 @@ class LinearSystem {
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;
   std::int64_t size_of_all_ = 0;
+  Cells cells_;
   Block own_;
   Block others_;
   std::vector<double> value_;  ///< of own_, then of others_

@@ -40,6 +40,8 @@ KSPType krylov_type(KrylovMethod method) {
 
 PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant_is_free) {
   switch (name) {
+    case PreconditionerName::cell_multigrid:
+      return PCSHELL;
     case PreconditionerName::ilu:
       return is_alone ? PCILU : PCBJACOBI;  // one block per rank, each with ILU
     case PreconditionerName::boomeramg:

@@ -3,22 +3,36 @@
 namespace tailwater {
 namespace {
 
-/// Rows of particles. In water less deep SSOR with BiCGStab costs less than algebraic multigrid with its set-up
-/// (docs/theory/linear.md gives the measurement): its iterations grow with the way to the surface, where p = 0, and the
-/// cost of both per unknown does not depend on their number.
-constexpr double multigrid_pays_from = 150.0;
+/// Rows of particles. In water less deep SSOR costs less than the multigrid with its set-up (docs/theory/linear.md
+/// gives the measurement): its iterations grow with the way to the surface, where p = 0, and the cost of both per
+/// unknown does not depend on their number.
+constexpr double multigrid_pays_from = 30.0;
+
+PreconditionerName fastest_preconditioner(const SystemTraits& system) {
+  if (system.rows_deep < multigrid_pays_from) return PreconditionerName::ssor;
+  return system.has_cells ? PreconditionerName::cell_multigrid : PreconditionerName::boomeramg;
+}
+
+/// A good preconditioner needs few iterations, and GMRES the fewest; many are cheaper with BiCGStab, which does not
+/// orthogonalise. FGMRES allows for the single precision of the multigrid on cells.
+KrylovMethod fastest_method(PreconditionerName preconditioner) {
+  switch (preconditioner) {
+    case PreconditionerName::cell_multigrid:
+      return KrylovMethod::fgmres;
+    case PreconditionerName::boomeramg:
+    case PreconditionerName::gamg:
+      return KrylovMethod::gmres;
+    default:
+      return KrylovMethod::bicgstab;
+  }
+}
 
 }  // namespace
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system) {
-  const bool is_shallow = system.rows_deep < multigrid_pays_from;
   SolverChoice choice{settings.method, settings.preconditioner};
-  if (choice.method == KrylovMethod::automatic) {
-    choice.method = is_shallow ? KrylovMethod::bicgstab : KrylovMethod::gmres;
-  }
-  if (choice.preconditioner == PreconditionerName::automatic) {
-    choice.preconditioner = is_shallow ? PreconditionerName::ssor : PreconditionerName::boomeramg;
-  }
+  if (choice.preconditioner == PreconditionerName::automatic) choice.preconditioner = fastest_preconditioner(system);
+  if (choice.method == KrylovMethod::automatic) choice.method = fastest_method(choice.preconditioner);
   return choice;
 }
 

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "linear/find_cells.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
@@ -28,6 +29,9 @@ namespace {
 /// [1/dx^2]; weight in every row inside, as if sound travelled 100 dx per step. Nothing else fixes the mean pressure of
 /// ordered water that fills its box. Under a surface it compresses the bottom by 0.03 % (0.1 % at the implicit step).
 constexpr double softness = 1e-4;
+
+/// [dx] of the cells of a multigrid (linear/cell_multigrid.h).
+constexpr double cell_edge = 2.0;
 
 /// Sets the weights of row i and returns their sum.
 template <int Dim>
@@ -127,6 +131,10 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
+  const std::span positions(flow.state.particles.position);
+  flow.pressure_rows.set_cells(find_cells<Dim>(positions.first(flow.state.particles.owned),
+                                               cell_edge * flow.setup.spacing,
+                                               [&](std::size_t i) { return flow.has_equation(i); }));
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   return count_each(flow.state.particles.owned,
                     [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, i); });

@@ -85,8 +85,9 @@ TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
   const double tolerance = 1e-10;
   for (const KrylovMethod method :
        {KrylovMethod::automatic, KrylovMethod::bicgstab, KrylovMethod::gmres, KrylovMethod::fgmres}) {
-    for (const PreconditionerName preconditioner : {PreconditionerName::automatic, PreconditionerName::ssor,
-                                                    PreconditionerName::ilu, PreconditionerName::jacobi}) {
+    for (const PreconditionerName preconditioner :
+         {PreconditionerName::automatic, PreconditionerName::ssor, PreconditionerName::cell_multigrid,
+          PreconditionerName::ilu, PreconditionerName::jacobi}) {
       PressureSolverTable settings = solver_settings(tolerance);
       settings.method = method;
       settings.preconditioner = preconditioner;
@@ -94,6 +95,9 @@ TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
       const SmallSystem small = random_system(60, 1);
       system.set_pattern(small.row_begin, small.columns);
       EXPECT_EQ(system.size(), small.size());
+      Cells cells{.dimension = 2, .number = {}};
+      for (std::size_t i = 0; i < small.size(); ++i) cells.number.push_back(i % 7 == 0 ? Cells::none : i * i % 40);
+      system.set_cells(cells);
       small.pass_values_to(system);
       std::vector<double> solution(small.size(), 0.0);
       const SolveReport report = system.solve(solution);
@@ -186,6 +190,9 @@ TEST(SolverChoice, TheRuleFillsInWhatTheCaseLeavesOpen) {
   }
   EXPECT_EQ(choose_solver(open, {.rows_deep = shallow}).preconditioner, PreconditionerName::ssor);
   EXPECT_EQ(choose_solver(open, {.rows_deep = deep}).preconditioner, PreconditionerName::boomeramg);
+  const SolverChoice on_cells = choose_solver(open, {.rows_deep = deep, .has_cells = true});
+  EXPECT_EQ(on_cells.preconditioner, PreconditionerName::cell_multigrid);
+  EXPECT_EQ(on_cells.method, KrylovMethod::fgmres);
   PressureSolverTable chosen;
   chosen.method = KrylovMethod::fgmres;
   chosen.preconditioner = PreconditionerName::jacobi;

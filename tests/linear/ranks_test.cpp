@@ -2,21 +2,28 @@
 // that the right-hand side was made from.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/error.h"
 #include "case/choices.h"
+#include "linear/find_cells.h"
 #include "support/pressure_system.h"
 
 namespace tailwater {
 namespace {
 
-constexpr int edge = 24;  // unknowns of a square grid with zeros around it
+constexpr int small_edge = 24;  // unknowns of a square grid with zeros around it
+
+/// The cell of an unknown, two of them wide.
+std::uint64_t cell_of(int number, int edge) {
+  return spread_bits<2>(number % edge / 2) | spread_bits<2>(number / edge / 2) << 1;
+}
 
 double exact(int number) { return std::sin(0.3 * number) + 0.01 * number; }
 
-std::vector<int> neighbours_of(int number) {
+std::vector<int> neighbours_of(int number, int edge) {
   std::vector<int> neighbours;
   const int x = number % edge;
   const int y = number / edge;
@@ -29,6 +36,7 @@ std::vector<int> neighbours_of(int number) {
 
 /// The rows of this rank, and the plan that brings what they couple to.
 struct Share {
+  int edge = small_edge;
   std::vector<int> own;     ///< numbers of its unknowns
   std::vector<int> ghosts;  ///< numbers of those of others, in the order in which they come
   ExchangePlan halo;
@@ -38,8 +46,9 @@ struct Share {
 
 /// `owner(number)` says who has an unknown.
 template <class Owner>
-Share make_share(const Communicator& ranks, Owner&& owner) {
+Share make_share(const Communicator& ranks, Owner&& owner, int edge = small_edge) {
   Share share;
+  share.edge = edge;
   std::vector<int> place(edge * edge, -1);
   std::vector<std::vector<std::int32_t>> sent(ranks.size());
   for (int number = 0; number < edge * edge; ++number) {
@@ -51,7 +60,7 @@ Share make_share(const Communicator& ranks, Owner&& owner) {
     for (int number = 0; rank != ranks.rank() && number < edge * edge; ++number) {
       bool is_wanted = false;  // by a row of the rank
       bool is_needed = false;  // by a row of mine
-      for (const int other : neighbours_of(number)) {
+      for (const int other : neighbours_of(number, share.edge)) {
         is_wanted = is_wanted || owner(other) == rank;
         is_needed = is_needed || owner(other) == ranks.rank();
       }
@@ -64,20 +73,23 @@ Share make_share(const Communicator& ranks, Owner&& owner) {
   }
   share.halo = ExchangePlan(ranks, share.own.size(), sent);
   for (const int number : share.own) {
-    for (const int other : neighbours_of(number)) share.columns.push_back(place[other]);
+    for (const int other : neighbours_of(number, share.edge)) share.columns.push_back(place[other]);
     share.row_begin.push_back(share.columns.size());
   }
   return share;
 }
 
 void pass_values(const Share& share, PressureSystem& system) {
+  Cells cells{.dimension = 2, .number = {}};
+  for (const int number : share.own) cells.number.push_back(cell_of(number, share.edge));
+  system.set_cells(std::move(cells));
   for (std::size_t i = 0; i < share.own.size(); ++i) {
     const int number = share.own[i];
     const double scale = 1.0 + number % 5;
     PressureSystem::Row row = system.row(i);
     double rhs = 4.0 * scale * exact(number);
     std::size_t k = 0;
-    for (const int other : neighbours_of(number)) {
+    for (const int other : neighbours_of(number, share.edge)) {
       row.set_weight(k++, scale);
       rhs -= scale * exact(other);
     }
@@ -94,7 +106,7 @@ TEST_P(SystemOfRanks, IsSolvedWhoeverHasTheRows) {
   settings.tolerance = 1e-9;
   settings.max_iterations = 2000;
   PressureSystem system(settings, ranks);
-  const auto in_slabs = [&](int number) { return number * ranks.size() / (edge * edge); };
+  const auto in_slabs = [&](int number) { return number * ranks.size() / (small_edge * small_edge); };
   const auto scattered = [&](int number) { return number % 7 % ranks.size(); };
   const auto all_at_the_last = [&](int) { return ranks.size() - 1; };
   const auto expect_solved = [&](auto&& owner) {
@@ -104,7 +116,8 @@ TEST_P(SystemOfRanks, IsSolvedWhoeverHasTheRows) {
     std::vector<double> solution(share.own.size(), 0.0);
     EXPECT_LE(system.solve(solution).residual, settings.tolerance);
     // Rows scaled to unit diagonal: |A^-1|_inf <= edge^2/2 for this grid (the parabola's height), |b|_2 <= 2 |x| n.
-    const double bound = 0.5 * edge * edge * settings.tolerance * 2.0 * exact(edge * edge) * edge;
+    const double bound =
+        0.5 * small_edge * small_edge * settings.tolerance * 2.0 * exact(small_edge * small_edge) * small_edge;
     for (std::size_t i = 0; i < share.own.size(); ++i) EXPECT_NEAR(solution[i], exact(share.own[i]), bound);
   };
   expect_solved(in_slabs);
@@ -118,7 +131,7 @@ TEST_P(SystemOfRanks, RowsChangedInPlaceReachTheSolver) {
   settings.preconditioner = GetParam();
   settings.tolerance = 1e-9;
   PressureSystem system(settings, ranks);
-  const Share share = make_share(ranks, [&](int number) { return number * ranks.size() / (edge * edge); });
+  const Share share = make_share(ranks, [&](int number) { return number * ranks.size() / (small_edge * small_edge); });
   system.set_pattern(share.row_begin, share.columns, share.halo);
   pass_values(share, system);
   std::vector<double> solution(share.own.size(), 0.0);
@@ -135,18 +148,45 @@ TEST(SystemOfRanksThatFails, AllFailTogether) {
   settings.tolerance = 1e-12;
   settings.max_iterations = 2;
   PressureSystem system(settings, ranks);
-  const Share share = make_share(ranks, [&](int number) { return number * ranks.size() / (edge * edge); });
+  const Share share = make_share(ranks, [&](int number) { return number * ranks.size() / (small_edge * small_edge); });
   system.set_pattern(share.row_begin, share.columns, share.halo);
   pass_values(share, system);
   std::vector<double> solution(share.own.size(), 0.0);
   EXPECT_THROW(system.solve(solution), SolverError);
 }
 
+TEST(CellMultigridOfRanks, IterationsDoNotGrowWithRanksAndResultsAreRepeatable) {
+  // Large enough that ranks share more than one level before they gather one.
+  constexpr int edge = 160;
+  const Communicator ranks = Communicator::world();
+  PressureSolverTable settings;
+  settings.method = KrylovMethod::fgmres;
+  settings.preconditioner = PreconditionerName::cell_multigrid;
+  settings.tolerance = 1e-6;
+  const Share share = make_share(
+      ranks, [&](int number) { return number * ranks.size() / (edge * edge); }, edge);
+  const auto solve = [&] {
+    PressureSystem system(settings, ranks);
+    system.set_pattern(share.row_begin, share.columns, share.halo);
+    pass_values(share, system);
+    std::vector<double> solution(share.own.size(), 0.0);
+    const SolveReport report = system.solve(solution);
+    EXPECT_LE(report.residual, settings.tolerance);
+    EXPECT_LE(report.iterations, 15);
+    return solution;
+  };
+  EXPECT_EQ(solve(), solve());
+}
+
 INSTANTIATE_TEST_SUITE_P(Ranks, SystemOfRanks,
-                         testing::Values(PreconditionerName::ssor, PreconditionerName::ilu,
-                                         PreconditionerName::boomeramg, PreconditionerName::gamg,
-                                         PreconditionerName::jacobi),
-                         [](const auto& test) { return std::string(name_of(test.param)); });
+                         testing::Values(PreconditionerName::ssor, PreconditionerName::cell_multigrid,
+                                         PreconditionerName::ilu, PreconditionerName::boomeramg,
+                                         PreconditionerName::gamg, PreconditionerName::jacobi),
+                         [](const auto& test) {
+                           std::string name(name_of(test.param));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace tailwater

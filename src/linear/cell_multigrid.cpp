@@ -1,0 +1,482 @@
+#include "linear/cell_multigrid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "base/assert.h"
+
+namespace tailwater {
+namespace {
+
+/// Weights below this share of their row's sum are left out of the first level.
+constexpr double least_share = 0.02;
+
+/// How much too small corrections are that are constant in a cell.
+constexpr double over_correction = 1.8;
+
+/// Rows of the level that is solved directly.
+constexpr std::size_t coarsest_rows = 64;
+
+/// Levels with fewer rows than this are gathered on all ranks, which costs less than the messages of all coarser ones.
+constexpr std::int64_t gathered_rows = 4096;
+
+/// Pivots of the coarsest level below this share of the largest are rounding: a constant is free.
+constexpr double vanishing_pivot = 1e-6;
+
+/// Values of the solution below this, where the right-hand side's largest is 1, become 0. They arise far from any
+/// source and would soon leave the range of normal numbers, which slows processors down.
+constexpr float vanishing_value = 1e-20F;
+
+/// Parents of rows without a cell.
+constexpr int stands_for_itself = -1;
+constexpr int follows = -2;
+
+/// Sums values by column, one row after another.
+class RowSum {
+ public:
+  explicit RowSum(std::size_t columns) : slot_(columns, -1) {}
+
+  void add(int column, double value) {
+    int& slot = slot_[column];
+    if (slot < 0) {
+      slot = static_cast<int>(columns_.size());
+      columns_.push_back(column);
+      values_.push_back(0.0);
+    }
+    values_[slot] += value;
+  }
+
+  /// Calls body(column, sum) for each column, in the order in which they came, and begins a new row.
+  template <class Body>
+  void finish(Body&& body) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      body(columns_[k], values_[k]);
+      slot_[columns_[k]] = -1;
+    }
+    columns_.clear();
+    values_.clear();
+  }
+
+ private:
+  std::vector<int> slot_;
+  std::vector<int> columns_;
+  std::vector<double> values_;
+};
+
+/// Plan by which each rank gets the entries of all, by rank.
+ExchangePlan gather_on_all(const Communicator& ranks, std::size_t count) {
+  std::vector<std::int32_t> entries(count);
+  std::iota(entries.begin(), entries.end(), 0);
+  return {ranks, count, std::vector(static_cast<std::size_t>(ranks.size()), entries)};
+}
+
+/// The entries of all ranks.
+template <class Value>
+std::vector<Value> gathered(const ExchangePlan& plan, std::vector<Value> own) {
+  plan.exchange(own);
+  own.erase(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(plan.owned()));
+  return own;
+}
+
+float settled(float value) { return std::abs(value) < vanishing_value ? 0.0F : value; }
+
+}  // namespace
+
+void CellMultigrid::Matrix::reserve(std::size_t rows, std::size_t entries_of_all) {
+  begin.reserve(rows + 1);
+  middle.reserve(rows);
+  diagonal.reserve(rows);
+  inverse.reserve(rows);
+  entries.reserve(entries_of_all);
+}
+
+void CellMultigrid::Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
+  const auto i = static_cast<int>(size());
+  for (const Entry& entry : row) {
+    if (entry.column < i) entries.push_back(entry);
+  }
+  middle.push_back(static_cast<int>(entries.size()));
+  for (const Entry& entry : row) {
+    if (entry.column > i) entries.push_back(entry);
+  }
+  begin.push_back(static_cast<int>(entries.size()));
+  diagonal.push_back(static_cast<float>(diagonal_of_row));
+  inverse.push_back(diagonal_of_row > 0.0 ? static_cast<float>(1.0 / diagonal_of_row) : 0.0F);
+}
+
+CellMultigrid::CellMultigrid(LinearSystem& system)
+    : ranks_(system.ranks()), dimension_(system.cells().dimension), constant_is_free_(system.constant_is_free()) {
+  TAILWATER_ASSERT(system.cells().number.size() == system.size(), "a multigrid on cells needs the cell of each row");
+  take_rows(system);
+  do {
+    add_next_level();
+  } while (!levels_.back().is_whole || levels_.back().matrix.size() > coarsest_rows);
+  invert_coarsest();
+}
+
+/// Puts the system's rows in order: cell by cell, then those without a cell or without weights, whose sums are `total`.
+/// Returns the place of each row.
+std::vector<int> CellMultigrid::order_rows(std::span<const std::uint64_t> cell, std::span<const double> total,
+                                           Level& level) {
+  struct Row {
+    std::uint64_t cell;
+    int number;
+    auto operator<=>(const Row&) const = default;
+  };
+  std::vector<Row> order;
+  order.reserve(total.size());
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    order.push_back({total[i] > 0.0 ? cell[i] : Cells::none, static_cast<int>(i)});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<int> place(order.size());
+  for (const Row& row : order) {
+    place[row.number] = static_cast<int>(row_.size());
+    row_.push_back(row.number);
+    if (row.cell != Cells::none) level.cell.push_back(row.cell);
+  }
+  return place;
+}
+
+/// Makes the first level.
+void CellMultigrid::take_rows(LinearSystem& system) {
+  const LinearSystem::Block& own = system.own();
+  const LinearSystem::Block& others = system.others();
+  const std::span<const double> value = system.values_of_own();
+  const std::span<const double> value_of_others = system.values_of_others();
+  const auto rows = static_cast<int>(system.size());
+  // Calls body(column, weight). Columns of other ranks are numbered behind the rows until all that are needed are
+  // known.
+  const auto for_each_weight = [&](int i, auto&& body) {
+    for (int slot = own.begin[i]; slot < own.begin[i + 1]; ++slot) body(own.column[slot], -value[slot]);
+    for (int slot = others.begin[i]; slot < others.begin[i + 1]; ++slot) {
+      body(rows + others.column[slot], -value_of_others[slot]);
+    }
+  };
+  std::vector<double> total(rows);  // of the weights
+  for (int i = 0; i < rows; ++i) {
+    double sum = 1.0;  // the diagonal, with weight -1, is among them
+    for_each_weight(i, [&](int, double weight) { sum += weight; });
+    total[i] = sum;
+  }
+
+  Level level;
+  level.is_whole = ranks_.is_alone();
+  const std::vector<int> place = order_rows(system.cells().number, total, level);
+  level.matrix.reserve(rows, own.column.size() + others.column.size());
+  std::vector<int> needed;  // of other ranks
+  std::vector<Entry> kept;
+  for (const int i : row_) {
+    kept.clear();
+    double sum = 0.0;
+    const auto keep_from = [&](double least) {
+      for_each_weight(i, [&](int column, double weight) {
+        if (weight < least) return;
+        sum += weight;
+        if (column >= rows) needed.push_back(column - rows);
+        kept.push_back({column < rows ? place[column] : column, static_cast<float>(weight)});
+      });
+    };
+    if (total[i] > 0.0) {
+      keep_from(least_share * total[i]);
+      if (kept.empty()) keep_from(std::numeric_limits<double>::min());  // many weights, all of them small
+      const auto raise = static_cast<float>(total[i] / sum);
+      for (Entry& entry : kept) entry.weight *= raise;
+    }
+    level.matrix.add_row(kept, 1.0);
+  }
+  if (!ranks_.is_alone()) {
+    level.couplings = couple(system, needed, place);
+    for (Entry& entry : level.matrix.entries) {
+      if (entry.column < rows) continue;
+      const auto number = std::lower_bound(needed.begin(), needed.end(), entry.column - rows);
+      entry.column = rows + static_cast<int>(number - needed.begin());
+    }
+  }
+  level.rhs.resize(rows);
+  level.solution.resize(rows);
+  levels_.push_back(std::move(level));
+}
+
+/// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, which it sorts. These are
+/// the ghosts.
+CellMultigrid::Couplings CellMultigrid::couple(const LinearSystem& system, std::vector<int>& needed,
+                                               std::span<const int> place) const {
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  const std::int64_t first = ranks_.sum_before(static_cast<std::int64_t>(system.size()));
+  const std::vector<std::int64_t> firsts = ranks_.all_gather(first);
+  std::vector<std::vector<std::int32_t>> questions(firsts.size());
+  Couplings couplings;
+  couplings.received.assign(firsts.size(), 0);
+  for (std::size_t k = 0; k < needed.size(); ++k) {
+    const auto owner = std::upper_bound(firsts.begin(), firsts.end(), needed[k]) - firsts.begin() - 1;
+    questions[owner].push_back(static_cast<std::int32_t>(k));
+    ++couplings.received[owner];
+  }
+  const std::vector<int> asked = [&] {
+    std::vector<int> numbers = needed;
+    const ExchangePlan plan(ranks_, needed.size(), questions);
+    plan.exchange(numbers);
+    numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(needed.size()));
+    return numbers;
+  }();
+  auto next = asked.begin();
+  for (const std::int64_t count : ranks_.transpose(couplings.received)) {
+    std::vector<std::int32_t>& sent = couplings.sent.emplace_back();
+    for (std::int64_t k = 0; k < count; ++k) sent.push_back(place[*next++ - first]);
+  }
+  couplings.plan = ExchangePlan(ranks_, system.size(), couplings.sent);
+  return couplings;
+}
+
+/// Divides the rows of `fine` among cells, the rows of `next`. Returns the cell of each row and ghost: a column of the
+/// next level, or that it has none. Ranks agree on the next level's ghosts without asking: they are the cells of this
+/// level's, each when it comes up first.
+std::vector<int> CellMultigrid::find_parents(Level& fine, Level& next) const {
+  std::vector<int> parent(fine.matrix.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    if (i >= fine.cell.size()) {
+      parent[i] = fine.matrix.row(i).empty() ? stands_for_itself : follows;
+      continue;
+    }
+    if (i == 0 || fine.cell[i] != fine.cell[i - 1]) {
+      fine.member_begin.push_back(static_cast<int>(i));
+      next.cell.push_back(fine.cell[i] >> dimension_);
+    }
+    parent[i] = static_cast<int>(fine.member_begin.size()) - 1;
+  }
+  fine.member_begin.push_back(static_cast<int>(fine.cell.size()));
+  if (fine.is_whole) return parent;
+
+  fine.couplings.plan.exchange(parent);
+  for (const std::vector<std::int32_t>& sent : fine.couplings.sent) {
+    std::vector<std::int32_t>& cells = next.couplings.sent.emplace_back();
+    std::vector<bool> is_sent(next.cell.size());
+    for (const std::int32_t row : sent) {
+      if (parent[row] < 0 || is_sent[parent[row]]) continue;
+      is_sent[parent[row]] = true;
+      cells.push_back(parent[row]);
+    }
+  }
+  auto ghost = parent.begin() + static_cast<std::ptrdiff_t>(fine.matrix.size());
+  auto column = static_cast<int>(next.cell.size());
+  for (const std::int64_t count : fine.couplings.received) {
+    const int first = column;
+    std::unordered_map<int, int> column_of;
+    for (const auto end = ghost + count; ghost != end; ++ghost) {
+      if (*ghost < 0) continue;
+      const auto [found, is_new] = column_of.try_emplace(*ghost, column);
+      if (is_new) ++column;
+      *ghost = found->second;
+    }
+    next.couplings.received.push_back(column - first);
+  }
+  next.couplings.plan = ExchangePlan(ranks_, next.cell.size(), next.couplings.sent);
+  return parent;
+}
+
+/// Makes the level behind the last.
+void CellMultigrid::add_next_level() {
+  Level& fine = levels_.back();
+  Level next;
+  next.is_whole = fine.is_whole;
+  const std::vector<int> parent = find_parents(fine, next);
+  const Matrix& matrix = fine.matrix;
+  const std::size_t columns = next.cell.size() + next.couplings.plan.ghosts();
+
+  // Rows that follow from others: the cells whose corrections reach them, and with which shares.
+  const std::size_t first_without = fine.cell.size();
+  std::vector<std::size_t> shares_begin{0};
+  std::vector<Entry> shares;
+  RowSum sum(columns);
+  for (std::size_t i = first_without; i < matrix.size(); ++i) {
+    for (const Entry& entry : matrix.row(i)) {
+      if (parent[entry.column] >= 0) sum.add(parent[entry.column], entry.weight);
+    }
+    sum.finish([&](int column, double share) { shares.push_back({column, static_cast<float>(share)}); });
+    shares_begin.push_back(shares.size());
+  }
+
+  const auto add = [&](int cell, const Entry& entry) {
+    const int column = parent[entry.column];
+    if (column >= 0) sum.add(column, -entry.weight);
+    if (column != follows) return;
+    const auto i = static_cast<std::size_t>(entry.column);
+    if (i >= matrix.size()) {
+      sum.add(cell, -entry.weight);  // another rank's: as if it followed this cell alone
+      return;
+    }
+    for (std::size_t k = shares_begin[i - first_without]; k < shares_begin[i - first_without + 1]; ++k) {
+      sum.add(shares[k].column, -entry.weight * shares[k].weight);
+    }
+  };
+  std::vector<Entry> row;
+  for (int cell = 0; cell < static_cast<int>(next.cell.size()); ++cell) {
+    for (int i = fine.member_begin[cell]; i < fine.member_begin[cell + 1]; ++i) {
+      sum.add(cell, matrix.diagonal[i]);
+      for (const Entry& entry : matrix.row(i)) add(cell, entry);
+    }
+    double diagonal = 0.0;
+    row.clear();
+    sum.finish([&](int column, double value) {
+      if (column == cell) {
+        diagonal = value / over_correction;
+      } else {
+        row.push_back({column, static_cast<float>(-value / over_correction)});
+      }
+    });
+    next.matrix.add_row(row, diagonal);
+  }
+  if (!next.is_whole && ranks_.sum(static_cast<std::int64_t>(next.cell.size())) <= gathered_rows) gather(next);
+  next.rhs.resize(next.matrix.size());
+  next.solution.resize(next.matrix.size());
+  levels_.push_back(std::move(next));
+}
+
+/// Turns the part of a level that a rank has into the whole.
+void CellMultigrid::gather(Level& level) const {
+  struct NumberedEntry {
+    int row;
+    int column;
+    float weight;
+  };
+  const Matrix& part = level.matrix;
+  const auto first = static_cast<int>(ranks_.sum_before(static_cast<std::int64_t>(part.size())));
+  std::vector<int> number(part.size());
+  std::iota(number.begin(), number.end(), first);
+  level.couplings.plan.exchange(number);
+  std::vector<NumberedEntry> numbered;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    for (const Entry& entry : part.row(i)) numbered.push_back({number[i], number[entry.column], entry.weight});
+  }
+  Gathering gathering;
+  gathering.plan = gather_on_all(ranks_, part.size());
+  gathering.first_own = static_cast<std::size_t>(first);
+  const std::vector<std::uint64_t> cell = gathered(gathering.plan, level.cell);
+  const std::vector<float> diagonal = gathered(gathering.plan, part.diagonal);
+  const ExchangePlan plan_of_entries = gather_on_all(ranks_, numbered.size());
+  const std::vector<NumberedEntry> entries = gathered(plan_of_entries, std::move(numbered));
+
+  std::vector<int> order(cell.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
+  gathering.row.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) gathering.row[order[i]] = static_cast<int>(i);
+  std::vector<std::size_t> begin(order.size() + 1, 0);
+  for (const NumberedEntry& entry : entries) ++begin[entry.row + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  Level whole;
+  std::vector<Entry> row;
+  for (const int i : order) {
+    row.clear();
+    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
+      row.push_back({gathering.row[entries[k].column], entries[k].weight});
+    }
+    whole.matrix.add_row(row, diagonal[i]);
+    whole.cell.push_back(cell[i]);
+  }
+  whole.is_whole = true;
+  whole.gathering = std::move(gathering);
+  level = std::move(whole);
+}
+
+void CellMultigrid::invert_coarsest() {
+  const Matrix& matrix = levels_.back().matrix;
+  const auto size = static_cast<Eigen::Index>(matrix.size());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    dense(i, i) = matrix.diagonal[i];
+    for (const Entry& entry : matrix.row(i)) dense(i, entry.column) -= entry.weight;
+  }
+  if (size == 0) return;
+  Eigen::FullPivLU<Eigen::MatrixXd> factors(dense);
+  factors.setThreshold(vanishing_pivot);
+  coarsest_inverse_ = factors.solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
+}
+
+void CellMultigrid::apply(std::span<const double> residual, std::span<double> correction) {
+  double scale = 0.0;
+  for (const double value : residual) scale = std::max(scale, std::abs(value));
+  scale = ranks_.largest(scale);
+  std::fill(correction.begin(), correction.end(), 0.0);
+  if (scale == 0.0) return;
+  Level& level = levels_.front();
+  for (std::size_t i = 0; i < row_.size(); ++i) level.rhs[i] = static_cast<float>(residual[row_[i]] / scale);
+  cycle(0);
+  for (std::size_t i = 0; i < row_.size(); ++i) correction[row_[i]] = scale * level.solution[i];
+  if (!constant_is_free_) return;
+  double sum = std::accumulate(correction.begin(), correction.end(), 0.0);
+  auto count = static_cast<double>(correction.size());
+  ranks_.sum_each(sum, count);
+  for (double& value : correction) value -= sum / count;
+}
+
+/// Solves level k roughly, from 0.
+void CellMultigrid::cycle(std::size_t k) {
+  Level& level = levels_[k];
+  std::vector<float>& x = level.solution;
+  if (k + 1 == levels_.size()) {
+    using Vector = Eigen::Map<Eigen::VectorXf>;
+    const auto size = static_cast<Eigen::Index>(x.size());
+    Vector(x.data(), size).noalias() = coarsest_inverse_ * Vector(level.rhs.data(), size);
+    return;
+  }
+  const Matrix& matrix = level.matrix;
+  const auto relax = [&](std::size_t i) { x[i] = settled(matrix.inverse[i] * (level.rhs[i] + matrix.sum_all(i, x))); };
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    x[i] = settled(matrix.inverse[i] * (level.rhs[i] + matrix.sum_left(i, x)));
+  }
+  correct_by_next(k);
+  if (!level.is_whole) level.couplings.plan.exchange(x);
+  for (std::size_t i = matrix.size(); i-- > 0;) relax(i);
+  for (std::size_t i = level.cell.size(); i < matrix.size(); ++i) relax(i);
+}
+
+/// Adds to the solution of level k, after its first sweep, a correction from the next level.
+void CellMultigrid::correct_by_next(std::size_t k) {
+  Level& level = levels_[k];
+  Level& next = levels_[k + 1];
+  std::vector<float>& x = level.solution;
+  if (!level.is_whole) level.couplings.plan.exchange(x);
+  std::vector<float> part(level.cells());
+  for (std::size_t cell = 0; cell < part.size(); ++cell) {
+    float residual = 0.0F;  // the sweep has left over what is right of the diagonal
+    for (int i = level.member_begin[cell]; i < level.member_begin[cell + 1]; ++i) {
+      residual += level.matrix.sum_right(i, x);
+    }
+    part[cell] = residual;
+  }
+  if (next.gathering) {
+    const std::vector<float> all = gathered(next.gathering->plan, std::move(part));
+    for (std::size_t i = 0; i < all.size(); ++i) next.rhs[next.gathering->row[i]] = all[i];
+  } else {
+    next.rhs = std::move(part);
+  }
+
+  cycle(k + 1);
+  if (k + 2 < levels_.size()) {  // once more, for a W
+    const std::vector<float> first = next.solution;
+    if (!next.is_whole) next.couplings.plan.exchange(next.solution);
+    std::vector<float> left(next.matrix.size());
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      left[i] = next.rhs[i] - next.matrix.diagonal[i] * next.solution[i] + next.matrix.sum_all(i, next.solution);
+    }
+    next.rhs = std::move(left);
+    cycle(k + 1);
+    for (std::size_t i = 0; i < next.matrix.size(); ++i) next.solution[i] += first[i];
+  }
+
+  const int* row = next.gathering ? next.gathering->row.data() + next.gathering->first_own : nullptr;
+  for (std::size_t cell = 0; cell < level.cells(); ++cell) {
+    const float correction = next.solution[row == nullptr ? cell : row[cell]];
+    for (int i = level.member_begin[cell]; i < level.member_begin[cell + 1]; ++i) x[i] += correction;
+  }
+}
+
+}  // namespace tailwater

@@ -1,0 +1,228 @@
+// The multigrid on cells: its iterations do not grow with the number of unknowns, and no row stops it. The systems are
+// those of tanks, with spacing 1: jittered water in layers of wall that follow it, and dry walls above it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "linear/find_cells.h"
+#include "support/dimensions.h"
+#include "support/particle_set.h"
+#include "support/pressure_system.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double tolerance = 1e-6;
+constexpr double cell_edge = 2.0;
+constexpr double layers = 2.0;
+
+PressureSolverTable multigrid_settings() {
+  PressureSolverTable settings;
+  settings.method = KrylovMethod::fgmres;
+  settings.preconditioner = PreconditionerName::cell_multigrid;
+  settings.tolerance = tolerance;
+  return settings;
+}
+
+enum class Top { surface, lid };
+
+/// Water in a tank `edge` particles wide and deep, with the rows of a pressure equation and the source whose answer has
+/// the longest waves.
+template <int Dim>
+struct Tank {
+  Tank(int edge, Top top) : set(points(edge, top), make_kernel<Dim>(KernelName::wendland_c2, 2.6), 1.0) {
+    const Pairs<Dim>& pairs = set.pairs();
+    std::vector<double> sum(set.size(), 0.0);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      weights.emplace_back(pairs.end(i) - pairs.begin(i), 0.0);
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        if (!is_water[i] && !is_water[pairs.j[k]]) continue;  // walls look at water only
+        weights[i][k - pairs.begin(i)] = is_water[i] ? -pairs.dW[k] / pairs.r[k] : pairs.W[k];
+        sum[i] += weights[i][k - pairs.begin(i)];
+      }
+    }
+    const double full = *std::max_element(sum.begin(), sum.end());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      // What is missing near a surface is air, p = 0. Under a lid only a little softness fixes the pressure.
+      const double own = top == Top::surface ? std::max(0.0, 0.7 * full - sum[i]) : 1e-4 * full;
+      diagonal.push_back(is_water[i] ? sum[i] + own : sum[i]);
+      rhs.push_back(is_water[i] ? 1.0 : 0.0);
+    }
+  }
+
+  SolveReport solve(std::vector<double>& solution, const PressureSolverTable& settings) const {
+    PressureSystem system(settings);
+    system.set_pattern(set.pairs().row_begin, set.pairs().j);
+    system.set_cells(find_cells<Dim>(std::span(set.particles.position), cell_edge,
+                                     [&](std::size_t i) { return static_cast<bool>(is_water[i]); }));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      PressureSystem::Row row = system.row(i);
+      if (diagonal[i] == 0.0) {
+        row.finish_as_zero();
+        continue;
+      }
+      row.set_weights([&, first = set.pairs().begin(i)](std::size_t k) { return weights[i][k - first]; });
+      row.finish(diagonal[i], diagonal[i] * rhs[i]);
+    }
+    solution.assign(set.size(), 0.0);
+    return system.solve(solution);
+  }
+
+  std::vector<Vec<Dim>> points(int edge, Top top) {
+    std::array<int, Dim> count;
+    count.fill(edge + 2 * static_cast<int>(layers));
+    if (top == Top::surface) count[Dim - 1] = 2 * edge;
+    std::vector<Vec<Dim>> all;
+    Noise noise(7);
+    for (const Vec<Dim>& x : lattice_points<Dim>(Vec<Dim>::Constant(0.5 - layers), count, 1.0)) {
+      const auto across = x.template head<Dim - 1>().array();
+      const bool is_beside = x[Dim - 1] < 0.0 || (across < 0.0).any() || (across > edge).any();
+      const bool is_above = x[Dim - 1] > edge;
+      if (top == Top::surface && is_above && !is_beside) continue;
+      is_water.push_back(!is_beside && !is_above);
+      all.push_back(is_water.back() ? Vec<Dim>(x + 0.1 * noise.vector<Dim>()) : x);
+    }
+    return all;
+  }
+
+  std::vector<char> is_water;
+  ParticleSet<Dim> set;
+  std::vector<std::vector<double>> weights;
+  std::vector<double> diagonal;
+  std::vector<double> rhs;
+};
+
+template <int Dim>
+int iterations_in(const Tank<Dim>& tank, PreconditionerName preconditioner = PreconditionerName::cell_multigrid) {
+  PressureSolverTable settings = multigrid_settings();
+  settings.preconditioner = preconditioner;
+  std::vector<double> solution;
+  const SolveReport report = tank.solve(solution, settings);
+  EXPECT_LE(report.residual, tolerance);
+  EXPECT_EQ(report.restarts, 0U);
+  return report.iterations;
+}
+
+/// For systems up to 15 times as large as the first of these.
+constexpr int most_iterations = 12;
+
+TEST(CellMultigrid, IterationsDoNotGrowWithDepth) {
+  for (const int edge : {25, 50, 100}) {
+    EXPECT_LE(iterations_in(Tank<2>(edge, Top::surface)), most_iterations) << edge << " rows deep";
+  }
+  for (const int edge : {8, 12, 20}) {
+    EXPECT_LE(iterations_in(Tank<3>(edge, Top::surface)), most_iterations) << edge << " rows deep";
+  }
+  // SSOR's iterations do grow, so the systems can tell:
+  EXPECT_GT(iterations_in(Tank<2>(100, Top::surface), PreconditionerName::ssor), 2 * most_iterations);
+}
+
+TEST(CellMultigrid, AClosedTankIsNoHarder) {
+  EXPECT_LE(iterations_in(Tank<2>(50, Top::lid)), most_iterations);
+  EXPECT_LE(iterations_in(Tank<3>(12, Top::lid)), most_iterations);
+}
+
+TEST(CellMultigrid, TheSameSystemHasTheSameSolutionBitForBit) {
+  const Tank<2> tank(30, Top::surface);
+  std::vector<double> first;
+  std::vector<double> second;
+  tank.solve(first, multigrid_settings());
+  tank.solve(second, multigrid_settings());
+  EXPECT_EQ(first, second);
+}
+
+/// Rows on a ring of n unknowns spaced by 1, each coupled with its neighbours by 1, and the cells of their places.
+void pose_ring(PressureSystem& system, int n, double own) {
+  std::vector<std::size_t> row_begin{0};
+  std::vector<std::int32_t> columns;
+  std::vector<Vec<2>> position;
+  for (int i = 0; i < n; ++i) {
+    columns.push_back((i + 1) % n);
+    columns.push_back((i + n - 1) % n);
+    row_begin.push_back(columns.size());
+    position.emplace_back(i, 0.0);
+  }
+  system.set_pattern(row_begin, columns);
+  system.set_cells(find_cells<2>(std::span<const Vec<2>>(position), cell_edge, [](std::size_t) { return true; }));
+  Noise noise(5);
+  for (int i = 0; i < n; ++i) {
+    PressureSystem::Row row = system.row(i);
+    row.set_weights([](std::size_t) { return 1.0; });
+    row.finish(2.0 + own, noise());
+  }
+}
+
+TEST(CellMultigrid, AFreeConstantStaysOut) {
+  PressureSystem system(multigrid_settings());
+  system.set_constant_is_free(true);
+  pose_ring(system, 1000, 0.0);
+  std::vector<double> solution(1000, 0.0);
+  const SolveReport report = system.solve(solution);
+  EXPECT_LE(report.residual, tolerance);
+  double sum = 0.0;
+  double largest = 0.0;
+  for (const double value : solution) {
+    sum += value;
+    largest = std::max(largest, std::abs(value));
+  }
+  EXPECT_NEAR(sum, 0.0, 1e-10 * largest * 1000);
+}
+
+TEST(CellMultigrid, RowsWithoutNeighboursAndFewRowsAreSolved) {
+  for (const std::size_t count : {1, 2, 3}) {  // lone particles, far apart
+    PressureSystem system(multigrid_settings());
+    system.set_pattern(std::vector<std::size_t>(count + 1, 0), {});
+    std::vector<Vec<2>> position;
+    for (std::size_t i = 0; i < count; ++i) position.emplace_back(1e9 * static_cast<double>(i), -1e9);
+    system.set_cells(find_cells<2>(std::span<const Vec<2>>(position), cell_edge, [](std::size_t) { return true; }));
+    for (std::size_t i = 0; i < count; ++i) system.row(i).finish(2.0, 6.0);
+    std::vector<double> solution(count, 0.0);
+    EXPECT_LE(system.solve(solution).residual, tolerance);
+    for (const double value : solution) EXPECT_NEAR(value, 3.0, 3.0 * tolerance);
+  }
+  PressureSystem system(multigrid_settings());
+  pose_ring(system, 3, 1.0);
+  std::vector<double> solution(3, 0.0);
+  EXPECT_LE(system.solve(solution).residual, tolerance);
+}
+
+TEST(CellMultigrid, ManyDropsAreSolvedLikeOneBody) {
+  // Pieces of the ring, cut off from one another: every fifth particle is p = 0, as if it were air.
+  PressureSystem system(multigrid_settings());
+  pose_ring(system, 1000, 0.0);
+  for (std::size_t i = 0; i < 1000; i += 5) system.row(i).finish_as_zero();
+  std::vector<double> solution(1000, 0.0);
+  const SolveReport report = system.solve(solution);
+  EXPECT_LE(report.residual, tolerance);
+  EXPECT_LE(report.iterations, most_iterations);
+}
+
+template <class Dimension>
+class FindCells : public testing::Test {};
+TYPED_TEST_SUITE(FindCells, Dimensions);
+
+TYPED_TEST(FindCells, CellsMakeUpLargerOnes) {
+  constexpr int Dim = TypeParam::value;
+  const std::vector<Vec<Dim>> positions = jittered_cube<Dim>(8, 1.0, 0.4);
+  const auto everywhere = [](std::size_t) { return true; };
+  double edge = 1.0;
+  const Cells small = find_cells<Dim>(std::span<const Vec<Dim>>(positions), edge, everywhere);
+  EXPECT_EQ(small.dimension, Dim);
+  for (int level = 0; level < 4; ++level, edge *= 2.0) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        bool is_same = true;
+        for (int d = 0; d < Dim; ++d) {
+          is_same = is_same && std::floor(positions[i][d] / edge) == std::floor(positions[j][d] / edge);
+        }
+        EXPECT_EQ(small.number[i] >> (level * Dim) == small.number[j] >> (level * Dim), is_same);
+      }
+    }
+  }
+  const Cells none = find_cells<Dim>(std::span<const Vec<Dim>>(positions), 1.0, [](std::size_t) { return false; });
+  for (const std::uint64_t number : none.number) EXPECT_EQ(number, Cells::none);
+}
+
+}  // namespace
+}  // namespace tailwater
