@@ -24,33 +24,18 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests/app"))
 
+PROGRAM = ROOT / "build/release/bin/tailwater"
+os.environ.setdefault("TAILWATER", str(PROGRAM))  # asked for by `program`
+
 import fields  # noqa: E402
 from processes import command_line, processes_of  # noqa: E402
+from program import SMALL_CASE  # noqa: E402
 from resumed import results  # noqa: E402
 
-CASE = """\
-[case]
-title = "Dam break that is killed"
-[particles]
-spacing = 0.04
-jitter = 0.1
-[[fluid]]
-min = [0, 0]
-max = [1, 0.5]
-[[wall]]
-points = [[0, 2], [0, 0], [3, 0], [3, 2]]
-[output]
-fields_interval = 0.02
-checkpoint_interval = 0.2
-[[probe]]
-name = "depth"
-type = "depth"
-at = [0.5, 0]
-[[probe]]
-name = "energy"
-type = "energy"
-interval = 0.01
-"""
+# Finer than the tests have it, and with checkpoints all the time.
+SETTINGS = ("particles.spacing=0.04", "particles.jitter=0.1", "output.checkpoint_interval=0.2",
+            "probe.energy.interval=0.01")
+ENDLESS = 1e4  # s
 
 
 def check_readable(out):
@@ -94,7 +79,7 @@ def kill(program, out, role):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=ROOT / "build/release/bin/tailwater", type=pathlib.Path)
+    parser.add_argument("--program", default=PROGRAM, type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--apart", type=float, default=1.5, help="s; longest time between a start and its kill")
     parser.add_argument("--patience", type=float, default=30.0, help="s; in which all processes must be gone")
@@ -107,15 +92,18 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         case, out = folder / "case.toml", folder / "run"
-        case.write_text(CASE)
+        case.write_text(SMALL_CASE)
         common = ["--quiet", "-n", str(options.ranks)]
-        start = [program, "run", case, "--out", out, "--set", "time.end=1e6", *common]
+        settings = [word for setting in SETTINGS for word in ("--set", setting)]
+        start = [program, "run", case, "--out", out, *settings, "--set", f"time.end={ENDLESS}", *common]
         killed = {}
         started_again = 0
         for _ in range(options.kills):
             running = subprocess.Popen(start)
             time.sleep(options.apart * random.random())
             before = newest_step(out)
+            if running.poll() is not None:
+                sys.exit(f"kill_study: {start} has ended by itself, with exit code {running.returncode}")
             role = kill(running, out, random.choice(("program", "mpirun", "rank")) if options.ranks > 1 else "program")
             killed[role] = killed.get(role, 0) + 1
             deadline = time.monotonic() + options.patience
@@ -134,7 +122,8 @@ def main():
             started_again += newest_step(out) == 0
         end = 0.01 + max(float(line.split(",")[0]) for line in (out / "steps.csv").read_text().splitlines()[1:])
         subprocess.run([*start, *(["--set", f"time.end={end}"])], check=True)
-        subprocess.run([program, "run", case, "--out", folder / "twin", "--set", f"time.end={end}", *common], check=True)
+        subprocess.run([program, "run", case, "--out", folder / "twin", *settings, "--set", f"time.end={end}", *common],
+                       check=True)
         disturbed, twin = results(out), results(folder / "twin")
         for resumed in (disturbed, twin):
             resumed["summary.json"].pop("case")  # of a run that started again
