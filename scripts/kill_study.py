@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Kills runs at random moments, resumes them, and compares what they leave with a run that nobody disturbed.
 
-A dam break is run on -n ranks with frequent checkpoints. Every --apart seconds at most, at a moment drawn at random, it
-is killed by SIGKILL: alone the process, of several ranks in turn the launcher alone, mpirun alone and one rank alone.
+A dam break is run on -n ranks with frequent checkpoints. At a moment drawn at random, when its processes have worked for
+--apart CPU seconds at most, it is killed by SIGKILL: alone the process, of several ranks in turn the launcher alone, mpirun alone and one rank alone.
 Nothing may be left of it within --patience seconds. Every file that a reader could have opened is read: tables have
 whole lines, field files and lists open, checkpoints are whole. Then `tailwater resume` goes on. At the end tables,
 fields and the summary must be those of an undisturbed run, bit for bit.
@@ -59,6 +59,18 @@ def newest_step(out):
     return max((int(path.stem.split("_")[1]) for path in (out / "checkpoints").glob("*.h5")), default=0)
 
 
+def cpu_seconds(out):
+    """What the processes of a run have worked so far."""
+    ticks = 0
+    for process in processes_of(out):
+        try:
+            stat = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
+        except OSError:  # it is gone
+            continue
+        ticks += int(stat[11]) + int(stat[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
 def kill(program, out, role):
     """Kills one of the processes of a run; says what was killed."""
     mine = processes_of(out)
@@ -81,7 +93,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=PROGRAM, type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=100)
-    parser.add_argument("--apart", type=float, default=1.5, help="s; longest time between a start and its kill")
+    parser.add_argument("--apart", type=float, default=1.5, help="CPU s; longest work between a start and its kill")
     parser.add_argument("--patience", type=float, default=30.0, help="s; in which all processes must be gone")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-n", dest="ranks", type=int, default=1)
@@ -100,7 +112,9 @@ def main():
         started_again = 0
         for _ in range(options.kills):
             running = subprocess.Popen(start)
-            time.sleep(options.apart * random.random())
+            moment = options.apart * random.random()
+            while cpu_seconds(out) < moment and running.poll() is None:
+                time.sleep(0.01)
             before = newest_step(out)
             if running.poll() is not None:
                 sys.exit(f"kill_study: {start} has ended by itself, with exit code {running.returncode}")
