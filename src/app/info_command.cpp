@@ -83,7 +83,11 @@ void show_digest(const Json& summary) {
 }
 
 void show_run(const std::filesystem::path& run, bool as_json) {
-  if (is_sweep(run) && !as_json) {
+  if (is_sweep(run)) {
+    if (as_json) {
+      throw InputError(fmt::format("--json: '{}' is a sweep; remedy: read {}, or name the folder of one member",
+                                   run.string(), (run / sweep_table_name).string()));
+    }
     fmt::print("{}", sweep_digest(run, read_sweep_record(run)));
     return;
   }

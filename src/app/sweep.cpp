@@ -315,6 +315,11 @@ ExitCode run_sweep(const fs::path& case_file, const std::vector<std::string>& ov
                    const std::vector<std::string>& keys, const SweepOptions& options) {
   require_possible_jobs(options);
   const SweepPlan plan = sweep_plan(keys);
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    if (std::find(plan.keys.begin(), plan.keys.end(), key) == plan.keys.end()) continue;
+    throw InputError(fmt::format("--set {}: the key is swept; remedy: leave --set {} out", text, key));
+  }
   const std::vector<CaseSpec> cases = cases_of_sweep(case_file, overrides, plan);
   require_same_sweep(options.out, plan, cases);
   make_sweep_folder(options.out);

@@ -79,7 +79,9 @@ class Sweep(ProgramTest):
                      lambda _: (self.folder / "sweep/STOP").touch()):
             sweep = self.start(*SWEEP, "--set", "time.end=1000", "--set", "output.fields_interval=1")
             steps = self.folder / "sweep" / MEMBERS[0] / "steps.csv"
-            self.wait_for(lambda: steps.exists() and len(steps.read_text().splitlines()) > 20, sweep)
+            self.wait_for(lambda: (self.folder / "sweep/sweep.csv").exists() and
+                          self.rows()[0]["status"] == "running" and steps.exists() and
+                          len(steps.read_text().splitlines()) > 20, sweep)
             self.call("resume", "sweep", expect=2)  # which is going on
             stop(sweep)
             _, told = sweep.communicate()
@@ -106,7 +108,7 @@ class Sweep(ProgramTest):
         before = self.listing()
         for option, said in (
                 ("particles.spacng=1,2", r'--sweep particles.spacng=1: .*did you mean "spacing"'),
-                ("particles.spacing=0.1,-1", r"--sweep particles.spacing=-1: .*must be|--sweep particles.spacing=-1: "),
+                ("particles.spacing=0.1,-1", r"--sweep particles.spacing=-1: .*give a number above 0"),
                 ("particles.spacing=0.1,0.7", r"holds no particle of spacing 0.7 m.*particles.spacing=0.7"),
                 ("particles.spacing=0.1,,0.2", "a value is missing"),
                 ("particles.spacing=0.1,0.1", "twice"),
@@ -115,6 +117,7 @@ class Sweep(ProgramTest):
             result = self.call("run", "small.toml", "--out", "sweep", "--sweep", option, expect=2)
             self.assertRegex(result.stderr, said)
         self.call(*SWEEP, "--sweep", "particles.spacing=0.2", expect=2)
+        self.call(*SWEEP, "--set", "particles.spacing=0.2", expect=2)
         self.call(*SWEEP, "--jobs", "0", expect=2)
         self.call(*SWEEP, "--jobs", "100000", expect=2)
         self.call(*SWEEP, "--force", expect=2)
