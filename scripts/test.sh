@@ -5,6 +5,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 shift || true
 
+if [[ $preset == asan ]]; then
+  export LSAN_OPTIONS="suppressions=$PWD/tests/support/leaks.supp:print_suppressions=0"
+  export UBSAN_OPTIONS="print_stacktrace=1"
+  export TAILWATER_SLOWDOWN=10  # of a program with sanitizers, for tests that limit its CPU time
+fi
+
 scripts/install.sh build tests
 scripts/build.sh "$preset" --tests
 ctest --test-dir "build/$preset" --output-on-failure --parallel 2 "$@"

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/sweep_plan.h"
+#include "app/sweep_table.h"
 #include "io/run_folder.h"
 #include "run/progress.h"
 #include "run/provenance.h"
@@ -81,6 +83,14 @@ void show_digest(const Json& summary) {
 }
 
 void show_run(const std::filesystem::path& run, bool as_json) {
+  if (is_sweep(run)) {
+    if (as_json) {
+      throw InputError(fmt::format("--json: '{}' is a sweep; remedy: read {}, or name the folder of one member",
+                                   run.string(), (run / sweep_table_name).string()));
+    }
+    fmt::print("{}", sweep_digest(run, read_sweep_record(run)));
+    return;
+  }
   const Json summary = read_summary(run);
   if (as_json) {
     fmt::print("{}\n", summary.dump(2));
@@ -100,7 +110,8 @@ void add_info_command(CLI::App& app, ExitCode&) {
   auto run = std::make_shared<std::filesystem::path>();
   auto as_json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("info", "Tell about this program, or about a finished run");
-  command->add_option("run", *run, "Folder of a run; without it: version, libraries, machine")->type_name("");
+  command->add_option("run", *run, "Folder of a run or of a sweep; without it: version, libraries, machine")
+      ->type_name("");
   command->add_flag("--json", *as_json, "The whole summary, for programs");
   command->footer("Examples: tailwater info\n          tailwater info my_run\n          tailwater info my_run --json");
   command->callback([run, as_json] {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/processes.h"
 #include "base/error.h"
 
 namespace tailwater {
@@ -32,8 +33,7 @@ void become_python(const std::string& module, const std::vector<std::string>& op
   const std::string folder = validation_folder(module).string();
   const char* path = std::getenv("PYTHONPATH");
   setenv("PYTHONPATH", path == nullptr ? folder.c_str() : fmt::format("{}:{}", folder, path).c_str(), 1);
-  std::vector<std::string> words{python, "-m", "tailwater_validation." + module, "--program",
-                                 std::filesystem::read_symlink("/proc/self/exe").string()};
+  std::vector<std::string> words{python, "-m", "tailwater_validation." + module, "--program", this_program()};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -1,14 +1,10 @@
 #include "app/ranks.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -19,6 +15,7 @@
 #include <system_error>
 #include <thread>
 
+#include "app/processes.h"
 #include "io/messages.h"
 #include "run/requests.h"
 
@@ -55,34 +52,9 @@ std::vector<std::string> mpirun_command(int count, const std::vector<std::string
   // Ranks of two runs at once would be bound to the same cores.
   if (!is_in_batch_job())
     command.insert(command.end(), {"--oversubscribe", "--use-hwthread-cpus", "--bind-to", "none"});
-  command.push_back(std::filesystem::read_symlink("/proc/self/exe").string());
+  command.push_back(this_program());
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;
-}
-
-/// In the new process: becomes mpirun, or says through `failure` why not.
-[[noreturn]] void become_mpirun(std::vector<std::string> command, const sigset_t& signals_before, int failure) {
-  setpgid(0, 0);  // Ctrl-C goes to the launching process alone
-  sigprocmask(SIG_SETMASK, &signals_before, nullptr);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int nothing = open("/dev/null", O_RDONLY);
-  dup2(nothing, STDIN_FILENO);
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
-  execvp(words[0], words.data());
-  const int error_number = errno;
-  [[maybe_unused]] const ssize_t written = write(failure, &error_number, sizeof(error_number));
-  _exit(127);
-}
-
-/// What the launching process waits for. They are taken one by one where it waits, so that it need not do its work in a
-/// signal handler.
-sigset_t awaited_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
-  return signals;
 }
 
 struct Ending {
@@ -92,13 +64,11 @@ struct Ending {
 
 /// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 asks the ranks to end in order. A second one, or the first
 /// when their run has not begun, makes mpirun kill them. SIGHUP asks for a checkpoint.
-Ending wait_for(pid_t mpirun, RequestSender& requests) {
-  const sigset_t signals = awaited_signals();
+Ending wait_for(pid_t mpirun, const AwaitedSignals& signals, RequestSender& requests) {
   bool was_asked = false;
-  int status = 0;
-  while (waitpid(mpirun, &status, WNOHANG) == 0) {
-    int signal = 0;
-    sigwait(&signals, &signal);
+  while (true) {
+    if (const std::optional<int> code = ending_of(mpirun)) return {*code, was_asked};
+    const int signal = signals.next();
     if (signal == SIGCHLD) continue;
     if (signal == SIGHUP) {
       requests.ask_for_checkpoint();
@@ -107,7 +77,6 @@ Ending wait_for(pid_t mpirun, RequestSender& requests) {
     if (was_asked || !requests.ask_for_stop()) kill(mpirun, SIGTERM);
     was_asked = true;
   }
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), was_asked};
 }
 
 }  // namespace
@@ -135,28 +104,19 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
     warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   const std::vector<std::string> command = mpirun_command(count, arguments);
-  int failure[2];
-  if (pipe2(failure, O_CLOEXEC) != 0) throw IoError("cannot make a pipe: " + std::generic_category().message(errno));
   RequestSender requests(out);
-  const sigset_t signals = awaited_signals();
-  sigset_t signals_before;
-  sigprocmask(SIG_BLOCK, &signals, &signals_before);
-  std::signal(SIGCHLD, SIG_DFL);  // whoever ignores it hands that on, and would get no word of mpirun's end
-  const pid_t process = fork();
-  if (process < 0) throw IoError("cannot start a process: " + std::generic_category().message(errno));
-  if (process == 0) become_mpirun(command, signals_before, failure[1]);
-  close(failure[1]);
-  int error_number = 0;
-  const bool has_failed = read(failure[0], &error_number, sizeof(error_number)) == sizeof(error_number);
-  close(failure[0]);
-  const auto [code, was_asked] = wait_for(process, requests);
-  if (has_failed) {
-    throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
-                                 std::generic_category().message(error_number)));
-  }
+  const AwaitedSignals signals;
+  const auto start = [&] {
+    try {
+      return signals.start(command, STDERR_FILENO);
+    } catch (const std::system_error& error) {
+      throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
+                                   error.code().message()));
+    }
+  };
+  const auto [code, was_asked] = wait_for(start(), signals, requests);
   // Ranks that did not end in order were killed.
-  const bool is_ours = code == 0 || code == 2 || code == 3 || code == 4;
-  return was_asked && !is_ours ? ExitCode::interrupted : static_cast<ExitCode>(code);
+  return was_asked && !is_own_exit_code(code) ? ExitCode::interrupted : static_cast<ExitCode>(code);
 }
 
 ExitCode end_together(const Communicator& ranks, MPI_Comm meeting, const Outcome& outcome) {

@@ -8,6 +8,8 @@
 #include "app/commands.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
+#include "app/sweep.h"
+#include "app/sweep_plan.h"
 #include "linear/session.h"
 #include "run/resume.h"
 
@@ -19,12 +21,27 @@ struct ResumeArguments {
   RankArguments ranks;
   std::string wall_time;
   std::vector<std::string> overrides;
+  std::optional<int> jobs;
   bool quiet = false;
 };
 
 ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
+  if (is_sweep(arguments.run.out)) {
+    if (arguments.ranks.count) require_possible(*arguments.ranks.count);
+    if (!arguments.overrides.empty()) {
+      throw InputError(
+          fmt::format("--set {}: '{}' is a sweep, whose members have cases of their own; remedy: resume one "
+                      "member, {}/MEMBER, or start another sweep",
+                      arguments.overrides.front(), arguments.run.out.string(), arguments.run.out.string()));
+    }
+    return resume_sweep({.out = arguments.run.out,
+                         .jobs = arguments.jobs.value_or(1),
+                         .ranks = arguments.ranks.count,
+                         .wall_time = arguments.run.wall_time});
+  }
+  if (arguments.jobs) throw InputError("--jobs is for sweeps; remedy: leave it out");
   const int wanted = arguments.ranks.count.value_or(ranks.is_alone() ? ranks_of_run(arguments.run.out) : ranks.size());
   if (arguments.ranks.count) require_possible(wanted);
   if (wanted > 1 && ranks_in_environment() == 0) return launch_ranks(wanted, words, arguments.run.out);
@@ -40,16 +57,19 @@ ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
                         const std::vector<std::string>& words) {
   auto arguments = std::make_shared<ResumeArguments>();
-  CLI::App* command = app.add_subcommand("resume", "Go on with a run that was stopped, was killed or is done");
-  command->add_option("run", arguments->run.out, "Folder of the run")->required()->type_name("");
+  CLI::App* command =
+      app.add_subcommand("resume", "Go on with a run, or a sweep, that was stopped, was killed or is done");
+  command->add_option("run", arguments->run.out, "Folder of the run or of the sweep")->required()->type_name("");
   command->add_option("--set", arguments->overrides, "Override a key that changes no result, as in --set time.end=20")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks; default: as many as wrote the checkpoint");
+  add_jobs_option(*command, arguments->jobs);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->footer(
       "Examples: tailwater resume my_run\n"
+      "          tailwater resume my_sweep --jobs 2\n"
       "          tailwater resume my_run --set time.end=20\n"
       "Goes on from the newest checkpoint in DIR/checkpoints, or from the start if there is none yet. Tables and "
       "field\n"

@@ -66,6 +66,10 @@ void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::str
       ->type_name("TIME");
 }
 
+void add_jobs_option(CLI::App& command, std::optional<int>& jobs) {
+  command.add_option("--jobs", jobs, "Members of a sweep that run at the same time; default 1")->type_name("COUNT");
+}
+
 void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {
   std::signal(SIGHUP, SIG_IGN);
   if (ranks.is_root()) {

@@ -21,6 +21,9 @@ struct RankArguments {
 void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::string& wall_time,
                                const std::string& about_ranks);
 
+/// The option --jobs, of sweeps.
+void add_jobs_option(CLI::App& command, std::optional<int>& jobs);
+
 /// First of all in a command that runs: what is told goes to the user, on the root alone and unless `quiet`, and the
 /// end of the terminal is no reason to die. (Once a run goes, it writes a checkpoint then: run/requests.h.)
 void survive_hang_up_and_speak(const Communicator& ranks, bool quiet);

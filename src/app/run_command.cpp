@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
+#include "app/sweep.h"
 #include "case/help.h"
 #include "case/reader.h"
 #include "linear/session.h"
@@ -20,6 +21,8 @@ namespace {
 struct RunArguments {
   RunOptions run;
   std::vector<std::string> overrides;
+  std::vector<std::string> sweep;
+  std::optional<int> jobs;
   RankArguments ranks;
   std::string wall_time;
   std::string help_case;
@@ -36,8 +39,19 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   }
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
+  if (arguments.ranks.count) require_possible(*arguments.ranks.count);
+  if (!arguments.sweep.empty()) {
+    if (arguments.run.force) {
+      throw InputError("--force and --sweep: a sweep goes on with what is not done; remedy: another --out");
+    }
+    return run_sweep(arguments.run.case_file, arguments.overrides, arguments.sweep,
+                     {.out = arguments.run.out,
+                      .jobs = arguments.jobs.value_or(1),
+                      .ranks = arguments.ranks.count,
+                      .wall_time = arguments.run.wall_time});
+  }
+  if (arguments.jobs) throw InputError("--jobs is for sweeps; remedy: leave it out, or add --sweep KEY=VALUE,VALUE");
   if (const std::optional<int> count = arguments.ranks.count) {
-    require_possible(*count);
     if (*count > 1 && ranks.is_alone()) return launch_ranks(*count, words, arguments.run.out);
   }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
@@ -58,6 +72,13 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   command->add_option("--set", arguments->overrides, "Override a key, as in --set scheme.integrator=implicit")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
+  command
+      ->add_option("--sweep", arguments->sweep,
+                   "Run the case once for each value of a key, as in --sweep particles.spacing=0.02,0.01; several "
+                   "--sweep make the product")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE,...");
+  add_jobs_option(*command, arguments->jobs);
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks, which this program starts by mpirun; default 1");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
@@ -71,11 +92,14 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       "Examples: tailwater run my.toml --out my_run\n"
       "          tailwater run my.toml --out my_run -n 8\n"
       "          tailwater run my.toml --out fine --set particles.spacing=0.01 --set scheme.integrator=implicit\n"
+      "          tailwater run my.toml --out sweep --sweep particles.spacing=0.02,0.015,0.01 --jobs 2\n"
       "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"
       "DIR/fields/fields.pvd (open it in ParaView) and DIR/summary.json; if the run fails, also DIR/failure/.\n"
       "Ctrl-C, or the file DIR/STOP (touch DIR/STOP), ends a run in order after the present step: what it has written\n"
       "can be used, and `tailwater resume DIR` goes on. Checkpoints are also written every output.checkpoint_interval\n"
-      "seconds, at the end, and when there is a file DIR/CHECKPOINT, which is removed when that is done.");
+      "seconds, at the end, and when there is a file DIR/CHECKPOINT, which is removed when that is done.\n"
+      "A sweep has a folder for each member in DIR, and a table of all, DIR/sweep.csv. The same command again, or\n"
+      "`tailwater resume DIR`, goes on with what is not done. A member that fails does not end the others.");
   command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
 }
 

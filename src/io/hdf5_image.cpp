@@ -107,6 +107,7 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   const Handle access = in_memory();
   // HDF5 copies the bytes, and its interface lacks a const.
   require(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
+  size_ = image.size();
   file_ = own(H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, *access), H5Fclose, "read it as one of its files");
 }
 
@@ -118,7 +119,9 @@ std::vector<Value> Hdf5Reader::get(const std::string& name) const {
   const Handle type = own(H5Dget_type(*set), H5Tclose, what);
   const Handle space = own(H5Dget_space(*set), H5Sclose, what);
   const hssize_t count = H5Sget_simple_extent_npoints(*space);
-  if (count < 0 || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  // A file says how many values it has before it has them, and they are not compressed.
+  const bool is_there = count >= 0 && static_cast<std::uint64_t>(count) <= size_ / sizeof(Value);
+  if (!is_there || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError(fmt::format("HDF5 cannot {}", what));
   std::vector<Value> values(static_cast<std::size_t>(count));
   if (count > 0) require(H5Dread(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
   return values;

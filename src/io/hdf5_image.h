@@ -38,6 +38,7 @@ class Hdf5Reader {
   std::string text(const std::string& name) const;
 
  private:
+  std::size_t size_ = 0;  ///< bytes
   std::shared_ptr<const std::int64_t> file_;
 };
 

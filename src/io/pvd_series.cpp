@@ -30,7 +30,7 @@ void PvdSeries::go_on(std::vector<double> times, const Communicator& ranks) {
     }
     // The list first: it must never name a file that is not there.
     if (!times_.empty()) write_list();
-    for (std::size_t i = times_.size(); std::filesystem::remove(file_of(i), error);) ++i;
+    for (std::size_t i = times_.size(); std::filesystem::exists(file_of(i), error); ++i) remove_file(file_of(i));
   });
 }
 

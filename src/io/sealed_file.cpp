@@ -121,6 +121,7 @@ SealedFile read_sealed_file(const std::filesystem::path& path) {
   file.read(head.about.body.data(), static_cast<std::streamsize>(head.bytes));
   if (!file) throw_io_error("read", path, errno);
   if (checksum_of(head, head.about.body) != head.checksum) refuse(path, "its checksum is wrong");
+  head.about.path = path;
   return std::move(head.about);
 }
 

@@ -20,6 +20,7 @@ struct SealedFile {
   std::string writer;  ///< program that wrote it, with its version; one line
   int ranks = 1;       ///< of the run
   std::string body;
+  std::filesystem::path path{};  ///< from which it was read
 };
 
 /// Writes the file, and returns when it is on the disk (write_file.h). Throws IoError.

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -120,18 +123,57 @@ std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t
   return shares;
 }
 
-/// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
 void require_fit(bool condition, const char* part) {
-  if (!condition) throw IoError(fmt::format("the checkpoint is not one of this program: its '{}' does not fit", part));
+  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
 }
 
+/// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
 template <class Work>
-auto expecting_a_checkpoint(Work&& work) {
+auto expecting_a_checkpoint(const std::filesystem::path& path, Work&& work) {
+  const auto refuse = [&](const std::exception& error) {
+    throw IoError(
+        fmt::format("checkpoint '{}' is not one of this program: {}; remedy: remove it, to go on from the "
+                    "one before",
+                    path.string(), error.what()));
+  };
   try {
     return work();
   } catch (const nlohmann::json::exception& error) {
-    throw IoError(fmt::format("the checkpoint is not one of this program: {}", error.what()));
+    refuse(error);
+  } catch (const UserError& error) {
+    refuse(error);
   }
+  throw;
+}
+
+/// What every value of a field of particles is, in a run that was going well.
+template <class Value>
+bool is_sound(std::string_view name, const std::vector<Value>& field) {
+  return std::all_of(field.begin(), field.end(), [&](const Value& value) {
+    if constexpr (std::is_same_v<Value, ParticleKind>) {
+      return value == ParticleKind::fluid || value == ParticleKind::wall;
+    } else if constexpr (std::is_same_v<Value, double>) {
+      return std::isfinite(value) && (name != "volume" || value > 0.0);
+    } else if constexpr (std::is_same_v<Value, std::int32_t>) {
+      return value >= -1;
+    } else if constexpr (std::is_same_v<Value, std::int64_t>) {
+      return value >= 0;
+    } else {
+      return value.allFinite();
+    }
+  });
+}
+
+bool are_unique(std::vector<std::int64_t> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
+}
+
+template <int Dim>
+void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
+  const State<Dim>& state = checkpoint.state;
+  require_fit(state.time >= 0.0 && state.step >= 0, "run");
+  require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
 
 }  // namespace
@@ -177,13 +219,16 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   std::vector<double> rank_logs;
   std::int64_t writers = 0;
   do_on_root(ranks, [&] {
-    expecting_a_checkpoint([&] {
+    expecting_a_checkpoint(file.path, [&] {
       image.emplace(file.body);
       text = image->text("run");
       take_text(text, checkpoint);
+      require_sound_numbers(checkpoint);
       shares = image->get<std::int64_t>("owned");
       writers = static_cast<std::int64_t>(shares.size());
-      require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(), [](auto share) { return share >= 0; }),
+      const auto count = static_cast<std::int64_t>(image->get<std::int64_t>("id").size());
+      require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(),
+                                             [count](auto share) { return share >= 0 && share <= count; }),
                   "owned");
       rank_logs = share_rank_log(image->get<double>("rank_log"), shares.size(), cuts.size());
       if (writers != ranks.size()) {
@@ -209,15 +254,24 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
     std::vector<Value> all;
     do_on_root(ranks, [&] {
-      all = get<Value>(*image, name);
-      const auto count = static_cast<std::int64_t>(all.size());
-      require_fit(count == std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), name);
+      expecting_a_checkpoint(file.path, [&] {
+        all = get<Value>(*image, name);
+        const auto count = static_cast<std::int64_t>(all.size());
+        require_fit(count == std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), name);
+        require_fit(is_sound(name, all), name);
+        if constexpr (std::is_same_v<Value, std::int64_t>) require_fit(are_unique(all), name);
+      });
     });
     field = ranks.scatter(all, shares);
   });
   state.particles.owned = state.particles.size();
   std::vector<Vec<Dim>> wall_velocity;
-  do_on_root(ranks, [&] { wall_velocity = get<Vec<Dim>>(*image, "wall_velocity"); });
+  do_on_root(ranks, [&] {
+    expecting_a_checkpoint(file.path, [&] {
+      wall_velocity = get<Vec<Dim>>(*image, "wall_velocity");
+      require_fit(is_sound("wall_velocity", wall_velocity), "wall_velocity");
+    });
+  });
   const std::string bytes =
       ranks.broadcast({reinterpret_cast<const char*>(wall_velocity.data()), wall_velocity.size() * sizeof(Vec<Dim>)});
   state.wall_velocity.resize(bytes.size() / sizeof(Vec<Dim>));
@@ -228,7 +282,8 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
 }
 
 CaseSpec case_of_checkpoint(const SealedFile& file) {
-  return read_case_text(Hdf5Reader(file.body).text("case"), "the case of the checkpoint");
+  return expecting_a_checkpoint(file.path,
+                                [&] { return read_case_text(Hdf5Reader(file.body).text("case"), "its case"); });
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                              \

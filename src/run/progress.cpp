@@ -38,26 +38,33 @@ Progress::Progress(double end_time, double elapsed)
       start_(Clock::now() - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(elapsed))) {}
 
 void Progress::show(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
+  line_.show(std::min(time / end_time_, 1.0), [&] {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    return progress_line(time, end_time_, elapsed, step, report, measures);
+  });
+}
+
+bool ProgressLine::is_due(double share) {
   const auto now = Clock::now();
-  const double share = std::min(time / end_time_, 1.0);
   const bool is_end = last_plain_share_ < 0.0 || share >= 1.0;  // either end
-  const bool plain_is_due = is_end || now - last_plain_ > plain_interval || share - last_plain_share_ >= plain_share;
-  const bool live_is_due = is_on_terminal_ && (is_end || now - last_live_ > live_interval);
-  if (!plain_is_due && !live_is_due) return;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string line = progress_line(time, end_time_, elapsed, step, report, measures);
-  if (live_is_due) {
+  plain_is_due_ = is_end || now - last_plain_ > plain_interval || share - last_plain_share_ >= plain_share;
+  live_is_due_ = is_on_terminal_ && (is_end || now - last_live_ > live_interval);
+  return plain_is_due_ || live_is_due_;
+}
+
+void ProgressLine::put(double share, const std::string& line) {
+  const auto now = Clock::now();
+  if (live_is_due_) {
     last_live_ = now;
     show_live(line);
   }
-  if (plain_is_due) {
-    last_plain_ = now;
-    last_plain_share_ = share;
-    if (is_on_terminal_) {
-      log_line(line);
-    } else {
-      tell(line);
-    }
+  if (!plain_is_due_) return;
+  last_plain_ = now;
+  last_plain_share_ = share;
+  if (is_on_terminal_) {
+    log_line(line);
+  } else {
+    tell(line);
   }
 }
 

@@ -11,6 +11,29 @@
 
 namespace tailwater {
 
+/// When a line is due, and where it goes.
+class ProgressLine {
+ public:
+  /// Shows `make_line()` if a new line is due, now that `share` of the work is done.
+  template <class MakeLine>
+  void show(double share, const MakeLine& make_line) {
+    if (is_due(share)) put(share, make_line());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_due(double share);
+  void put(double share, const std::string& line);
+
+  bool is_on_terminal_ = is_on_terminal();
+  bool plain_is_due_ = false;
+  bool live_is_due_ = false;
+  Clock::time_point last_live_;
+  Clock::time_point last_plain_;
+  double last_plain_share_ = -1.0;
+};
+
 class Progress {
  public:
   /// `elapsed` [s]: what earlier runs, which this one goes on with, have taken.
@@ -23,11 +46,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   double end_time_;
-  bool is_on_terminal_ = is_on_terminal();
   Clock::time_point start_;
-  Clock::time_point last_live_;
-  Clock::time_point last_plain_;
-  double last_plain_share_ = -1.0;
+  ProgressLine line_;
 };
 
 /// The line after `elapsed` seconds of work. The most important comes first, because a narrow terminal cuts off the

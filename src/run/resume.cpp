@@ -48,16 +48,6 @@ std::vector<std::string> keys_of_case(const CaseSpec& spec) {
   return keys;
 }
 
-/// The first key in which two cases differ.
-std::string first_difference(const CaseSpec& wanted, const CaseSpec& found) {
-  const std::vector<std::string> a = keys_of_case(wanted);
-  const std::vector<std::string> b = keys_of_case(found);
-  std::size_t k = 0;
-  while (k < a.size() && k < b.size() && a[k] == b[k]) ++k;
-  return fmt::format("it has {} instead of {}", k < b.size() ? b[k] : "no more keys",
-                     k < a.size() ? a[k] : "no more keys");
-}
-
 /// The newest checkpoint that is whole; nothing if there is no checkpoint. Warns of damaged ones.
 std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& found) {
   std::string problems;
@@ -109,6 +99,15 @@ void require_allowed(const CaseSpec& before, const CaseSpec& after) {
 }
 
 }  // namespace
+
+std::string first_difference(const CaseSpec& wanted, const CaseSpec& found) {
+  const std::vector<std::string> a = keys_of_case(wanted);
+  const std::vector<std::string> b = keys_of_case(found);
+  std::size_t k = 0;
+  while (k < a.size() && k < b.size() && a[k] == b[k]) ++k;
+  return fmt::format("it has {} instead of {}", k < b.size() ? b[k] : "no more keys",
+                     k < a.size() ? a[k] : "no more keys");
+}
 
 ExitCode resume_run(RunOptions options, const std::vector<std::string>& overrides, const Communicator& ranks) {
   const fs::path case_file = options.out / effective_case_name;

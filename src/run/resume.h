@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "case/spec.h"
 #include "parallel/communicator.h"
 #include "run/run_options.h"
 
@@ -16,6 +17,9 @@ namespace tailwater {
 /// is of another case or of another format, or an override is not allowed; IoError if checkpoints are there and none is
 /// whole; else as run_case. Collective.
 ExitCode resume_run(RunOptions options, const std::vector<std::string>& overrides, const Communicator& ranks = {});
+
+/// The first key in which two cases differ: "it has [time] end = 1 instead of [time] end = 2".
+std::string first_difference(const CaseSpec& wanted, const CaseSpec& found);
 
 /// The number of ranks that wrote the newest checkpoint in the folder of a run; 1 if there is none to tell.
 int ranks_of_run(const std::filesystem::path& run);

@@ -1,10 +1,15 @@
 #include "run/run_case.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "base/for_each.h"
 #include "flow/verbs.h"
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
@@ -53,10 +58,23 @@ class Run {
   }
 
  private:
+  /// Whether walls and open ends of the state are those of the case.
+  bool fits(const State<Dim>& state) const {
+    const std::size_t rows = flow_.walls.particles.size();
+    const std::size_t misplaced = count_each(state.particles.owned, [&](std::size_t i) {
+      const std::int32_t row = state.particles.wall_row[i];
+      return state.particles.is_fluid(i) ? row != -1 : row < 0 || static_cast<std::size_t>(row) >= rows;
+    });
+    return misplaced == 0 && state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
+           state.open_ends.size() == flow_.state.open_ends.size();
+  }
+
   void go_on_from(Checkpoint<Dim>& checkpoint) {
-    if (checkpoint.state.wall_velocity.size() != flow_.state.wall_velocity.size() ||
-        checkpoint.state.open_ends.size() != flow_.state.open_ends.size()) {
-      throw IoError("the checkpoint does not fit the walls and outlets of its case");
+    if (flow_.setup.ranks.any(!fits(checkpoint.state))) {
+      throw IoError(
+          fmt::format("the checkpoint does not fit the walls and outlets of its case; remedy: remove the newest "
+                      "file in '{}', to go on from the one before",
+                      output_.folder().checkpoints().string()));
     }
     keeper_.go_on_from(checkpoint.state.step);
     flow_.restore(std::move(checkpoint.state));
@@ -130,7 +148,15 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
                 const SealedFile* checkpoint) {
   std::optional<Checkpoint<Dim>> read;
   if (checkpoint != nullptr) read = read_checkpoint<Dim>(*checkpoint, ranks);
-  return Run<Dim>(spec, options, ranks, std::move(read)).execute();
+  const auto make_run = [&] {
+    try {
+      return std::make_unique<Run<Dim>>(spec, options, ranks, std::move(read));
+    } catch (const nlohmann::json::exception& error) {
+      throw IoError(fmt::format("the checkpoint in '{}' does not say how far the output had come: {}",
+                                options.out.string(), error.what()));
+    }
+  };
+  return make_run()->execute();
 }
 
 template <int Dim>

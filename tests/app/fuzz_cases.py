@@ -1,4 +1,5 @@
 """Mutated case files: `tailwater check` must answer each with an exit code and, where it refuses one, with the place.
+With --run, `tailwater run` must do that too, or begin to compute.
 
 The mutations know what a case file is made of (tables, keys, values, lists, expressions), because random bytes would
 not get beyond the parser of TOML. They begin with the cases in the tree, made coarse, so that a check takes a fraction
@@ -6,26 +7,23 @@ of a second. By hand:
 
     TAILWATER=build/release/bin/tailwater /usr/bin/python3 -B tests/app/fuzz_cases.py --count 10000 --seed 1
 
-prints how many cases were valid, refused and so on, and keeps each file that provoked a finding in --keep.
+prints how many cases were valid, refused and so on, and keeps each file that provoked a finding in --keep. A
+campaign can be made in pieces, by --first.
 """
 
-import argparse
-import collections
 import contextlib
-import concurrent.futures
-import os
+import functools
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ["TAILWATER"]
+import fuzzing
+
 TREE = pathlib.Path(__file__).resolve().parents[2]
 
-LONGEST = 10  # s; of a check, on a machine that does nothing else
 COUNT_IN_SUITE = 30
 
 # What a case is made coarser by, so that it has some hundred particles.
@@ -142,15 +140,11 @@ def mutated(number, seed, cases):
 
 
 def look_for_findings(code, error):
-    """What is wrong with an answer; nothing, if it is as it should be."""
-    if code not in (0, 2, 3):
-        return f"exit code {code}"
-    lines = error.splitlines()
-    if code == 0 and any(not line.startswith("warning: case.toml") for line in lines):
-        return "a message that is no warning with a place"
-    if code != 0 and not any(line.startswith("error: ") for line in lines):
-        return "refused without a reason"
-    for line in lines:
+    """What is wrong with the answer of `check`; nothing, if it is as it should be."""
+    finding = fuzzing.look_for_findings(code, error, (0, 2, 3))
+    if finding:
+        return finding
+    for line in error.splitlines():
         if not re.match(r"(error|warning): case\.toml", line):
             return "a message without a place"
         if code == 2 and not re.match(r"(error|warning): case\.toml:(\d+(:\d+)?: |.* (is missing|there is no fluid|more problems|has \d+ bytes))",
@@ -162,60 +156,55 @@ def look_for_findings(code, error):
     return None
 
 
-def run_one(number, seed, cases, keep):
+def check_one(folder):
+    """(exit code, standard error, finding) of `check`."""
+    code, error = fuzzing.run_within_limits(["check", "case.toml"], folder)
+    finding = look_for_findings(code, error)
+    files = {path.name for path in folder.iterdir()} - {"case.toml", "case.preview.svg"}
+    if finding is None and files:
+        finding = f"check has written {files}"
+    return code, error, finding
+
+
+def run_for_a_moment(folder):
+    """The same of `run`, which may also be stopped on its way (130) or fail at a step (3)."""
+    code, error = fuzzing.run_within_limits(["run", "case.toml", "--out", "run", "--quiet", "--wall-time", "1s"], folder)
+    finding = fuzzing.look_for_findings(code, error, (0, 2, 3, 130)) if code != 2 else look_for_findings(code, error)
+    if finding is None and code == 2 and (folder / "run").exists():
+        finding = "a case that is refused has written"
+    if finding is None and code == 3 and not (folder / "run/failure/report.txt").exists():
+        finding = "a run that has failed without a report"
+    return code, error, finding
+
+
+def run_one(number, seed, keep, cases, answer):
     """(exit code, finding)."""
     text = mutated(number, seed, cases)
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "case.toml").write_text(text, errors="surrogateescape")
-        try:
-            result = subprocess.run([PROGRAM, "check", "case.toml"], cwd=folder, capture_output=True, timeout=4 * LONGEST,
-                                    env={**os.environ, "TAILWATER_FP_TRAPS": "0"}, check=False)
-            code, error = result.returncode, result.stderr.decode(errors="replace")
-            finding = look_for_findings(code, error)
-            files = {path.name for path in folder.iterdir()} - {"case.toml", "case.preview.svg"}
-            if finding is None and files:
-                finding = f"check has written {files}"
-        except subprocess.TimeoutExpired:
-            code, error, finding = None, "", "a hang"
+        code, error, finding = answer(folder)
     if finding and keep:
         (keep / f"{seed}-{number}.toml").write_text(f"{text}\n# {finding}; exit code {code}\n" +
                                                     "".join(f"# {line}\n" for line in error.splitlines()))
     return code, finding
 
 
-def campaign(count, seed, keep=None, workers=1):
-    """({exit code: count}, [(number, finding)])."""
-    cases = seeds()
-    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        results = list(pool.map(lambda number: run_one(number, seed, cases, keep), range(count)))
-    codes = collections.Counter(code for code, _ in results)
-    return codes, [(number, finding) for number, (_, finding) in enumerate(results) if finding]
-
-
 class MutatedCases(unittest.TestCase):
     def test_each_is_answered(self):
-        codes, findings = campaign(COUNT_IN_SUITE, "suite")
+        codes, findings = fuzzing.campaign(functools.partial(run_one, cases=seeds(), answer=check_one),
+                                           range(COUNT_IN_SUITE), "suite")
         self.assertEqual(findings, [])
         self.assertGreater(codes[0], 0, "some mutations are harmless")
         self.assertGreater(codes[2], COUNT_IN_SUITE / 4)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--seed", default="1")
-    parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--keep", type=pathlib.Path)
+    parser = fuzzing.arguments(__doc__)
+    parser.add_argument("--run", action="store_true", help="run each case for a second instead of checking it")
     options = parser.parse_args()
-    if options.keep:
-        options.keep.mkdir(parents=True, exist_ok=True)
-    codes, findings = campaign(options.count, options.seed, options.keep, options.workers)
-    print("exit codes:", dict(sorted(codes.items(), key=str)))
-    for number, finding in findings:
-        print(f"case {number}: {finding}")
-    print(f"{len(findings)} findings in {options.count} cases")
-    return 1 if findings else 0
+    answer = run_for_a_moment if options.run else check_one
+    return fuzzing.main(options, functools.partial(run_one, cases=seeds(), answer=answer))
 
 
 if __name__ == "__main__":

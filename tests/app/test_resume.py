@@ -132,7 +132,8 @@ class Checkpoints(Resumed):
     def test_the_wall_time_ends_a_run_with_one(self):
         self.run_case("run", "--set", "time.end=1000", "--wall-time", "1s", expect=130, errors_only=False)
         self.assertEqual(self.summary("run")["status"], "interrupted")
-        self.assertEqual(len(self.checkpoints()), 1)
+        # On a machine so busy that the second is over before the first step, there is nothing to save.
+        self.assertEqual(len(self.checkpoints()), min(1, self.summary("run")["steps"]["count"]))
         for wrong in ("soon", "3", "-1h", "0s", "1:30", "3h5"):
             with self.subTest(wrong):
                 self.assertIn(f"--wall-time {wrong}", self.run_case("no", f"--wall-time={wrong}", expect=2).stderr)

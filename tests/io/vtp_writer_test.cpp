@@ -104,5 +104,18 @@ TEST(PvdSeries, ListsEveryFileOnceItIsThere) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "fields.pvd.part"));
 }
 
+TEST(PvdSeries, GoesOnWithoutTheLaterFilesOrSaysThatTheyCannotBeRemoved) {
+  const TemporaryFolder folder;
+  const std::vector<Vec<2>> position{{0.0, 0.0}};
+  PvdSeries series(folder.path(), "fields", 1);
+  for (const double time : {0.0, 0.1, 0.25}) series.write<2>(time, {position, {}});
+  series.go_on({0.0, 0.1});
+  const std::filesystem::path later = folder.path() / "fields_00002.vtp";
+  EXPECT_FALSE(std::filesystem::exists(later));
+  std::filesystem::create_directories(later / "foreign");  // no file, and no empty folder either
+  const std::string message = message_of<IoError>([&] { series.go_on({0.0, 0.1}); });
+  EXPECT_NE(message.find(later.string()), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace tailwater

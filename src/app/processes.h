@@ -1,0 +1,47 @@
+// Other processes that this program starts and waits for: mpirun with its ranks, members of a sweep.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace tailwater {
+
+/// While it lives, SIGINT, SIGTERM, SIGUSR1, SIGHUP and SIGCHLD wait until `next` takes them one by one, so that
+/// nothing need be done in a signal handler. Processes that `start` makes meet signals as this one did before.
+class AwaitedSignals {
+ public:
+  AwaitedSignals();
+  ~AwaitedSignals();
+  AwaitedSignals(const AwaitedSignals&) = delete;
+  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
+
+  /// Waits for a signal; 0 if none has come within `patience`.
+  int next(std::optional<std::chrono::milliseconds> patience = std::nullopt) const;
+
+  /// Starts a program with its arguments, without standard input, with `standard_error` as its own. Its process group
+  /// is its own: Ctrl-C goes to this process alone. It gets SIGTERM when this process ends, however that ends. Throws
+  /// std::system_error if it cannot be started.
+  pid_t start(std::vector<std::string> command, int standard_error) const;
+
+ private:
+  sigset_t awaited_;
+  sigset_t before_;
+};
+
+/// Exit code of a process that has ended, or 128 and the number of the signal that ended it; nothing while it goes on.
+std::optional<int> ending_of(pid_t process);
+
+/// Is this one of the exit codes with which a command of this program ends in order, other than by a request?
+bool is_own_exit_code(int code);
+
+/// This program's file.
+std::string this_program();
+
+}  // namespace tailwater

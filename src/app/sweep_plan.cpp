@@ -1,0 +1,224 @@
+#include "app/sweep_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+#include "case/overrides.h"
+#include "case/reader.h"
+#include "geometry/from_spec.h"
+#include "io/write_file.h"
+#include "probes/probe_set.h"
+#include "run/provenance.h"
+#include "run/run_case.h"
+
+namespace tailwater {
+namespace {
+
+/// Folders in one folder; more is a mistake in the values.
+constexpr std::size_t most_members = 1000;
+
+/// Bytes in the name of a member's folder; file systems take 255.
+constexpr std::size_t longest_folder_name = 200;
+
+constexpr int sweep_record_format = 1;
+
+constexpr std::string_view sweep_usage =
+    "write --sweep table.key=value,value, as in --sweep particles.spacing=0.02,0.01";
+
+std::string_view without_spaces(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
+  text.remove_prefix(begin);
+  return text.substr(0, text.find_last_not_of(" \t") + 1);
+}
+
+/// The parts between commas that stand outside brackets and quotes.
+std::vector<std::string> split_values(std::string_view text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{' || c == '(') {
+      ++depth;
+    } else if (c == ']' || c == '}' || c == ')') {
+      --depth;
+    }
+    if (c == ',' && depth <= 0 && quote == '\0') {
+      values.emplace_back();
+    } else {
+      values.back() += c;
+    }
+  }
+  for (std::string& value : values) value = without_spaces(value);
+  return values;
+}
+
+SweepKey parse_sweep_key(const std::string& option) {
+  const std::size_t equals = option.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(fmt::format("--sweep {}: a key or its values are missing; {}", option, sweep_usage));
+  }
+  SweepKey key{std::string(without_spaces(option.substr(0, equals))), split_values(option.substr(equals + 1))};
+  std::set<std::string> seen;
+  for (const std::string& value : key.values) {
+    if (value.empty()) throw InputError(fmt::format("--sweep {}: a value is missing; {}", option, sweep_usage));
+    if (!seen.insert(value).second) {
+      throw InputError(fmt::format("--sweep {}: the value {} is there twice; remedy: each value once", option, value));
+    }
+  }
+  return key;
+}
+
+std::string override_text(const std::string& key, const std::string& value) { return fmt::format("{}={}", key, value); }
+
+/// "particles.spacing=0.02_scheme.integrator=implicit"; what a shell or a file system might take amiss becomes "_".
+std::string folder_name(const std::vector<std::string>& keys, const std::vector<std::string>& values) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < keys.size(); ++k) parts.push_back(override_text(keys[k], values[k]));
+  std::string name = fmt::format("{}", fmt::join(parts, "_")).substr(0, longest_folder_name);
+  constexpr std::string_view harmless = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.=+-_";
+  for (char& c : name) {
+    if (harmless.find(c) == std::string_view::npos) c = '_';
+  }
+  return name;
+}
+
+template <int Dim>
+void require_sound_probes(const CaseSpec& spec) {
+  make_probes<Dim>(spec, make_boundary<Dim>(spec));
+}
+
+CaseSpec read_member(const std::filesystem::path& case_file, const std::vector<std::string>& overrides) {
+  CaseSpec spec = read_case(case_file, overrides);
+  with_places(spec, [&] {
+    require_sound_geometry(spec, false);
+    if (spec.general.dimension == 2) {
+      require_sound_probes<2>(spec);
+    } else {
+      require_sound_probes<3>(spec);
+    }
+  });
+  return spec;
+}
+
+/// A line about a member's case with the option of the command line that it comes from, or else with the member.
+std::string told_of_sweep(std::string_view line, const std::vector<std::string>& swept, const std::string& folder) {
+  for (const std::string& text : swept) {
+    const std::string origin = fmt::format("{}{}", override_prefix, text);
+    if (line.starts_with(origin)) return fmt::format("--sweep {}{}", text, line.substr(origin.size()));
+  }
+  return fmt::format("{} (with {})", line, folder);
+}
+
+}  // namespace
+
+SweepPlan sweep_plan(const std::vector<std::string>& options) {
+  std::vector<SweepKey> keys;
+  std::size_t count = 1;
+  for (const std::string& option : options) {
+    SweepKey key = parse_sweep_key(option);
+    for (const SweepKey& other : keys) {
+      if (other.key != key.key) continue;
+      throw InputError(
+          fmt::format("--sweep {}: the key is swept twice; remedy: all its values in one --sweep", option));
+    }
+    count *= key.values.size();
+    if (count > most_members) {
+      throw InputError(
+          fmt::format("--sweep {}: makes more than {} members; remedy: fewer values", option, most_members));
+    }
+    keys.push_back(std::move(key));
+  }
+  SweepPlan plan;
+  for (const SweepKey& key : keys) plan.keys.push_back(key.key);
+  std::set<std::string> folders;
+  for (std::size_t number = 0; number < count; ++number) {
+    SweepMember member;
+    std::size_t rest = number;
+    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+      member.values.insert(member.values.begin(), key->values[rest % key->values.size()]);
+      rest /= key->values.size();
+    }
+    member.folder = folder_name(plan.keys, member.values);
+    while (!folders.insert(member.folder).second) member.folder += "_";
+    plan.members.push_back(std::move(member));
+  }
+  return plan;
+}
+
+std::vector<CaseSpec> cases_of_sweep(const std::filesystem::path& case_file, const std::vector<std::string>& overrides,
+                                     const SweepPlan& plan) {
+  std::vector<CaseSpec> cases;
+  std::vector<std::string> problems;
+  for (const SweepMember& member : plan.members) {
+    std::vector<std::string> swept;
+    for (std::size_t k = 0; k < plan.keys.size(); ++k) swept.push_back(override_text(plan.keys[k], member.values[k]));
+    std::vector<std::string> all = overrides;
+    all.insert(all.end(), swept.begin(), swept.end());
+    try {
+      cases.push_back(read_member(case_file, all));
+    } catch (const InputError& error) {
+      const std::string_view message = error.what();
+      for (std::size_t start = 0; start < message.size();) {
+        const std::size_t end = std::min(message.find('\n', start), message.size());
+        const std::string told = told_of_sweep(message.substr(start, end - start), swept, member.folder);
+        if (std::find(problems.begin(), problems.end(), told) == problems.end()) problems.push_back(told);
+        start = end + 1;
+      }
+    }
+  }
+  if (!problems.empty()) throw InputError(fmt::format("{}", fmt::join(problems, "\n")));
+  return cases;
+}
+
+bool is_sweep(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::exists(folder / sweep_record_name, error);
+}
+
+SweepPlan read_sweep_record(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / sweep_record_name;
+  std::ifstream file(path);
+  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
+  try {
+    const nlohmann::json record = nlohmann::json::parse(file);
+    if (record.at("format") != sweep_record_format) {
+      throw IoError(fmt::format("'{}' has format {}, and this program reads format {}; remedy: use {}", path.string(),
+                                record.at("format").dump(), sweep_record_format, record.value("program", "another")));
+    }
+    SweepPlan plan;
+    record.at("keys").get_to(plan.keys);
+    for (const nlohmann::json& member : record.at("members")) {
+      plan.members.push_back({member.at("folder"), member.at("values")});
+      if (plan.members.back().values.size() == plan.keys.size()) continue;
+      throw IoError(fmt::format("'{}': a member has not as many values as there are keys", path.string()));
+    }
+    return plan;
+  } catch (const nlohmann::json::exception& error) {
+    throw IoError(fmt::format("'{}' is not the record of a sweep: {}", path.string(), error.what()));
+  }
+}
+
+void write_sweep_record(const std::filesystem::path& folder, const SweepPlan& plan) {
+  nlohmann::ordered_json members = nlohmann::ordered_json::array();
+  for (const SweepMember& member : plan.members) {
+    members.push_back({{"folder", member.folder}, {"values", member.values}});
+  }
+  const nlohmann::ordered_json record = {
+      {"format", sweep_record_format}, {"program", version_line()}, {"keys", plan.keys}, {"members", members}};
+  write_text_file(folder / sweep_record_name, record.dump(2) + "\n");
+}
+
+}  // namespace tailwater
