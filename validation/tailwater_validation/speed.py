@@ -45,7 +45,7 @@ class Level:
 
 
 LEVELS = {
-    "tiny": Level(((0.06, 0.2),), ((0.1, 0.01),), {2: (500, 1000)}, {2: (500,), 3: (600,)}, {2: 500}, (), 10,
+    "tiny": Level(((0.06, 0.2),), ((0.1, 0.01),), {2: (500, 1000)}, {2: (500,), 3: (600,)}, {2: 500}, (), 30,
                   1, 0.001),
     "quick": Level(((0.015, 4),), ((0.05, 0.3),), {2: (5e3, 2e4, 6e4), 3: (5e3, 1.5e4)}, {2: (2e4,), 3: (1e4,)},
                    {2: 3e4}, (), 10, 1, 0.1),
@@ -85,9 +85,9 @@ class Bench:
         """Whole runs from their start."""
         for dx, end in self.level.zhou:
             for integrator in INTEGRATORS:
-                self.whole_run(f"zhou.{dx:g}.{end:g}.{integrator}", f"Zhou, dx = {dx:g} m, to T = {end:g}, {integrator}",
-                               ZHOU, (*WATERS[2].at(dx), f"time.end={end:g}*sqrt(H/g)",
-                                      f"scheme.integrator={integrator}"), ZHOU_BARS.get(dx))
+                settings = (*WATERS[2].at(dx), f"time.end={end:g}*sqrt(H/g)", f"scheme.integrator={integrator}")
+                self.whole_run(f"zhou.{dx:g}.{end:g}.{integrator}",
+                               f"Zhou, dx = {dx:g} m, to T = {end:g}, {integrator}", ZHOU, settings, ZHOU_BARS.get(dx))
         for dx, end in self.level.dam_break_3d:
             water = WATERS[3]
             self.whole_run(f"dam_break_3d.{dx:g}.{end:g}", f"3D dam break, dx = {dx:g} m, first {end:g} s", water.case,
@@ -98,8 +98,8 @@ class Bench:
                       for _ in range(self.level.repeats)], key)
 
     def growth(self):
-        """First steps at several numbers of particles. The memory of the program itself is taken out by the difference of
-        the smallest and the largest."""
+        """First steps at several numbers of particles. The memory of the program itself is taken out by the difference
+        of the smallest and the largest."""
         for dimension, sizes in self.level.growth.items():
             costs = []
             for particles in sizes:
@@ -117,8 +117,11 @@ class Bench:
             if len(costs) > 1:
                 fluid = [cost.fluid for cost in costs]
                 what = f"{dimension}D, {fluid[0]} to {fluid[-1]} particles"
-                self.add(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", "exponent",
-                         exponent(fluid, [cost.cpu for cost in costs]), EXPONENT_BAR)
+                try:
+                    self.add(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", "exponent",
+                             exponent(fluid, [cost.cpu for cost in costs]), EXPONENT_BAR)
+                except DataError as error:
+                    self.fail(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", error)
                 self.add(f"step.{dimension}D.memory", f"{what}, peak memory without the program",
                          "bytes per fluid particle", (costs[-1].memory - costs[0].memory) / (fluid[-1] - fluid[0]),
                          MEMORY_BARS[dimension])
@@ -208,8 +211,8 @@ def say(text):
 def make_parser():
     parser = command.PlainParser("tailwater bench speed", "Measures what cases, steps and rooms cost in CPU time and "
                                  "memory.", "speed")
-    parser.epilog = ("Times are CPU times, which a busy machine still disturbs: measure both sides of a comparison in the "
-                     "same minutes. Verdicts do not change the exit code.")
+    parser.epilog = ("Times are CPU times, which a busy machine still disturbs: measure both sides of a comparison in "
+                     "the same minutes. Verdicts do not change the exit code.")
     parser.add_argument("--level", choices=LEVELS, default="quick",
                         help="tiny: seconds, to try the bench; quick: three minutes; full: some hours, quiet machine")
     parser.add_argument("--part", action="append", default=[], metavar="NAME", dest="parts",
@@ -217,8 +220,8 @@ def make_parser():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="change the default under test; may be repeated")
     parser.add_argument("--compare", type=Path, nargs="+", default=[], metavar="JSON",
-                        help="print the ratios to an earlier speed.json; of two files, those of the second to the first, "
-                        "and measure nothing")
+                        help="print the ratios to an earlier speed.json; of two files, those of the second to the "
+                        "first, and measure nothing")
     return parser
 
 

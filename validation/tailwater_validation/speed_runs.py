@@ -17,8 +17,8 @@ UNCOUNTED_STEPS = 5  # at the start of a run, which builds lists and patterns an
 
 @dataclass(frozen=True)
 class Water:
-    """A column that collapses: `key` is the setting that is its particle spacing. What is measured of a step is measured
-    at the start, from jittered particles."""
+    """A column that collapses: `key` is the setting that is its particle spacing. What is measured of a step is
+    measured at the start, from jittered particles."""
 
     case: Path
     key: str
@@ -117,9 +117,11 @@ def least(costs, key):
 
 
 def exponent(sizes, costs):
-    """p of cost ~ size^p, by least squares of the logarithms. Throws DataError if there are no two sizes."""
+    """p of cost ~ size^p, by least squares of the logarithms. Throws DataError where there is none."""
     if len(set(sizes)) < 2:
         raise DataError("an exponent needs two sizes")
+    if min(costs) <= 0:  # differences of times of short runs on a busy machine
+        raise DataError("a cost is not positive: the machine is too busy, or the runs are too short")
     x, y = [math.log(size) for size in sizes], [math.log(cost) for cost in costs]
     x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
     return (sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / sum((a - x_mean) ** 2 for a in x))
