@@ -99,7 +99,7 @@ void add_pressure(Stage<Dim>& stage);
 template <int Dim>
 void add_steps(Stage<Dim>& stage);
 
-/// What memory can deliver, after McCalpin's STREAM: no flow is needed.
-void add_bandwidth();
+/// What memory and one core can deliver, after McCalpin's STREAM: no flow is needed.
+void add_machine();
 
 }  // namespace tailwater

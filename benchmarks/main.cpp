@@ -1,6 +1,6 @@
 // Benchmarks of the rooms on a flow of a case after some steps. `tailwater bench speed` runs it; by hand:
 //   bench_rooms CASE [--set KEY=VALUE]... [--steps N] [--benchmark_filter=REGEX and other options of Google Benchmark]
-//   bench_rooms bandwidth
+//   bench_rooms machine
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
   std::string case_file;
   std::vector<std::string> overrides;
   int steps = 10;
-  app.add_option("case", case_file, "The case file, or \"bandwidth\"")->required();
+  app.add_option("case", case_file, "The case file, or \"machine\"")->required();
   app.add_option("--set", overrides)->allow_extra_args(false);
   app.add_option("--steps", steps, "Steps before the benchmarks")->check(CLI::Range(1, 1000000));
   app.allow_extras();
@@ -75,8 +75,8 @@ int run(int argc, char** argv) {
   benchmark::Initialize(&count, remaining.data());
   if (benchmark::ReportUnrecognizedArguments(count, remaining.data())) return 2;
 
-  if (case_file == "bandwidth") {
-    add_bandwidth();
+  if (case_file == "machine") {
+    add_machine();
     benchmark::RunSpecifiedBenchmarks();
     return 0;
   }

@@ -7,10 +7,11 @@ import io
 import json
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from fake_program import ProgramTest
-from tailwater_validation import speed, speed_report, speed_rooms, speed_runs
+from tailwater_validation import speed, speed_profile, speed_report, speed_rooms, speed_runs
 from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric
 
@@ -107,9 +108,26 @@ class Rooms(unittest.TestCase):
             speed_rooms.require_same_commit(google(), "def")
 
 
+class Profile(unittest.TestCase):
+    def test_functions_by_name_and_libraries_as_a_whole(self):
+        report = """
+# Overhead|Shared Object|Symbol
+    5.00%|tailwater |[.] tailwater::add_noise<3>(tailwater::Pairs<3> const&, double)
+    4.00%|tailwater |[.] void tailwater::(anonymous namespace)::add_noise<2>
+    2.00%|tailwater |[.] tailwater::Neighbourhood<3>::rebuild
+   30.00%|libpetsc_real.so.3.18.5|[.] 0x0000000000923d27
+   20.00%|libpetsc_real.so.3.18.5|[.] 0x0000000000923dcf
+    1.50%|libc-2.36.so|[.] memset
+    1.00%|[kernel.kallsyms]|[k] page_fault
+"""
+        self.assertEqual(speed_profile.shares(report), {"libpetsc_real": 50.0, "add_noise": 9.0, "Neighbourhood::rebuild": 2.0,
+                                                        "libc": 1.5, "kernel": 1.0})
+
+
 def result(commit="abc", **numbers):
     metrics = [Metric(name, f"what {name}", "s", "", high=1, value=value) for name, value in numbers.items()]
     return {**PROVENANCE, "commit": commit, "date": "now", "level": "quick", "settings": [], "load_before": 0.1,
+            "interrupted": False,
             "numbers": [speed_report.record(metric) for metric in metrics]}
 
 
@@ -189,6 +207,13 @@ class Command(ProgramTest):
         code, _, _ = self.bench("--part", "growth")
         self.assertEqual(code, 3)
         self.assertIn("the longer run has 50 steps", self.numbers()["step.2D.500"]["note"])
+
+    def test_an_interrupted_bench_leaves_what_it_has(self):
+        with unittest.mock.patch.object(speed.Bench, "growth", side_effect=KeyboardInterrupt):
+            code, _, err = self.bench("--part", "cases", "--part", "growth")
+        self.assertEqual(code, 130)
+        self.assertIn("is written", err)
+        self.assertEqual(self.numbers()["zhou.0.06.0.2.explicit"]["value"], 8.0)
 
     def test_rooms_that_are_not_built(self):
         code, _, err = self.bench("--part", "cases", "--part", "rooms")

@@ -16,12 +16,14 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import command, speed_report, speed_rooms
+from . import command, speed_profile, speed_report, speed_rooms
 from .curves import DataError
 from .metric import Metric
 from .runs import INTERRUPTED
 from .speed_runs import WATERS, ZHOU, Runner, box_of_rows, exponent, least, step_cost
 
+PARTS = ("rooms", "cases", "growth", "deep", "ranks", "profile")  # the last only if it is asked for
+PROFILED_STEPS = 40
 INTEGRATORS = ("explicit", "implicit")
 MEMORY_BARS = {2: 1200, 3: 3000}  # bytes per fluid particle
 EXPONENT_BAR = 1.08
@@ -65,6 +67,17 @@ class Bench:
     def fail(self, name, what, error):
         self.say(f"failed: {what}: {error}")
         self.add(name, what, "", None, note=str(error))
+
+    def measure(self, part, options, commit):
+        if part != "rooms":
+            getattr(self, part)()
+            return
+        try:
+            for metrics in speed_rooms.measure(rooms_program(options.program), self.level, commit, options.settings,
+                                               self.say):
+                self.metrics += metrics
+        except DataError as error:
+            self.fail("rooms", "rooms", error)
 
     def whole_run(self, name, what, case, settings, high):
         self.say(what)
@@ -156,17 +169,32 @@ class Bench:
             self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
 
 
+    def profile(self):
+        """Of the first steps, start of the run included."""
+        for dimension, sizes in self.level.rooms.items():
+            name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
+            self.say(what)
+            water = WATERS[dimension]
+            run = self.runner.command(water.case, water.first_steps(sizes[0], PROFILED_STEPS))
+            try:
+                self.metrics += speed_profile.measure(self.runner, dimension, run)
+            except DataError as error:
+                self.fail(name, what, error)
+
+
 def rooms_program(program):
     return program.with_name("bench_rooms")
 
 
 def choose_parts(options):
-    """The parts to measure, in order; those of `--part`, else all that are possible. Throws DataError."""
-    parts = ["rooms", "cases", "growth", "deep", "ranks"]
+    """The parts to measure, in order; those of `--part`, else all that need no tool beside the program. Throws
+    DataError."""
     for name in options.parts:
-        if name not in parts:
-            raise DataError(f"--part {name}: there is no such part; parts: {', '.join(parts)}")
-    chosen = [name for name in parts if not options.parts or name in options.parts]
+        if name not in PARTS:
+            raise DataError(f"--part {name}: there is no such part; parts: {', '.join(PARTS)}")
+    if "profile" in options.parts:
+        speed_profile.require_perf()
+    chosen = [name for name in PARTS if name in (options.parts or PARTS[:-1])]
     if "rooms" in chosen and not rooms_program(options.program).is_file():
         remedy = (f"the benchmarks of the rooms are not built; remedy: scripts/install.sh benchmarks, then "
                   f"cmake --build {options.program.parent.parent} --target benchmarks")
@@ -190,17 +218,14 @@ def measure(options, parts, say):
         runner = Runner(options.program, Path(scratch), tuple(options.settings), say)
         told = provenance(runner)
         bench = Bench(LEVELS[options.level], runner, say)
-        for part in parts:
-            if part == "rooms":
-                try:
-                    bench.metrics += speed_rooms.measure(rooms_program(options.program), bench.level, told["commit"],
-                                                         options.settings, say)
-                except DataError as error:
-                    bench.fail("rooms", "rooms", error)
-            else:
-                getattr(bench, part)()
+        is_interrupted = False
+        try:
+            for part in parts:
+                bench.measure(part, options, told["commit"])
+        except KeyboardInterrupt:
+            is_interrupted = True
     return {**told, "date": started.isoformat(timespec="seconds"), "level": options.level,
-            "settings": list(options.settings), "load_before": load,
+            "settings": list(options.settings), "load_before": load, "interrupted": is_interrupted,
             "numbers": [speed_report.record(metric) for metric in bench.metrics]}
 
 
@@ -216,7 +241,8 @@ def make_parser():
     parser.add_argument("--level", choices=LEVELS, default="quick",
                         help="tiny: seconds, to try the bench; quick: three minutes; full: some hours, quiet machine")
     parser.add_argument("--part", action="append", default=[], metavar="NAME", dest="parts",
-                        help="only rooms, cases, growth, deep or ranks; may be repeated")
+                        help="only rooms, cases, growth, deep, ranks or profile; may be repeated (default: all but "
+                        "profile, which needs perf)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="change the default under test; may be repeated")
     parser.add_argument("--compare", type=Path, nargs="+", default=[], metavar="JSON",
@@ -244,12 +270,14 @@ def main(arguments=None):
     except OSError as error:
         return command.complain(f"{error.filename}: {error.strerror}", 4)
     except KeyboardInterrupt:
-        print("interrupted: nothing was written", file=sys.stderr)
         return INTERRUPTED
     print(speed_report.table(speed_report.COLUMNS, speed_report.rows(result)))
     print(f"\n{speed_report.heading(result)}\nwritten: {options.out}/speed.json, speed.csv, speed.md")
     if earlier:
         print(f"\n{speed_report.comparison(earlier[0], result)}")
+    if result["interrupted"]:
+        print("interrupted: what had been measured by then is written", file=sys.stderr)
+        return INTERRUPTED
     return 3 if any(number["value"] is None for number in result["numbers"]) else 0
 
 

@@ -4,7 +4,7 @@ import csv
 import json
 
 from .curves import DataError
-from .metric import bar
+from .metric import Metric, bar
 
 COLUMNS = ("what", "value", "unit", "bar", "verdict", "note")
 
@@ -28,7 +28,7 @@ def heading(result):
     machine = result["machine"]
     return (f"tailwater {result['version']} (commit {result['commit']}), {result['compiler']}, {machine['processor']}, "
             f"{machine['cores']} cores, level {result['level']}{settings}, {result['date']}, "
-            f"load {result['load_before']:.1f} before")
+            f"load {result['load_before']:.1f} before{', interrupted' if result['interrupted'] else ''}")
 
 
 def table(header, lines):
@@ -53,7 +53,7 @@ def write(result, folder):
     (folder / "speed.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     (folder / "speed.md").write_text(markdown(result), encoding="utf-8")
     with (folder / "speed.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ("commit", *result["numbers"][0]))
+        writer = csv.DictWriter(file, ("commit", *record(Metric("", "", "", ""))))
         writer.writeheader()
         writer.writerows({"commit": result["commit"], **number} for number in result["numbers"])
 

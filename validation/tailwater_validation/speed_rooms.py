@@ -86,16 +86,17 @@ def growth(dimension, results):
                    "", value=exponent(sizes, [other[name][0] for _, other in found])) for name in shared]
 
 
-def bandwidth(result):
-    return [Metric(f"machine.{name}", f"{name}, one core", "GB/s", "", value=1e-9 * entry["bytes"] / seconds)
-            for name, (seconds, entry) in times(result).items()]
+def machine(result):
+    """What one core can do at best."""
+    return [Metric(name, f"{name}, one core", unit, "", value=1e-9 * entry[counter] / seconds)
+            for name, (seconds, entry) in times(result).items()
+            for counter, unit in (("bytes", "GB/s"), ("operations", "GFlop/s")) if counter in entry]
 
 
 def measure(program, level, commit, settings, say):
-    """All numbers of the rooms. Throws DataError if the program fails."""
-    metrics = []
-    say("memory bandwidth")
-    metrics += bandwidth(run(program, ["bandwidth"], level.min_time, level.repeats))
+    """Yields the numbers of the rooms, flow by flow. Throws DataError if the program fails."""
+    say("the machine")
+    yield machine(run(program, ["machine"], level.min_time, level.repeats))
     for dimension, sizes in level.rooms.items():
         results = []
         for particles in sizes:
@@ -106,7 +107,6 @@ def measure(program, level, commit, settings, say):
                 words += ["--set", setting]
             results.append(run(program, [str(water.case), *words], level.min_time, level.repeats))
             require_same_commit(results[-1], commit)
-            metrics += metrics_of(f"{dimension}D {particles:g}", dimension, results[-1])
+            yield metrics_of(f"{dimension}D {particles:g}", dimension, results[-1])
         if len(sizes) > 1:
-            metrics += growth(dimension, results)
-    return metrics
+            yield growth(dimension, results)

@@ -17,8 +17,7 @@ UNCOUNTED_STEPS = 5  # at the start of a run, which builds lists and patterns an
 
 @dataclass(frozen=True)
 class Water:
-    """A column that collapses: `key` is the setting that is its particle spacing. What is measured of a step is
-    measured at the start, from jittered particles."""
+    """A column that collapses: `key` is the setting that is its particle spacing."""
 
     case: Path
     key: str
@@ -36,6 +35,13 @@ class Water:
     def first_step(self, spacing):
         """s; the length of the first steps."""
         return COURANT * spacing / math.sqrt(2 * GRAVITY * self.depth)
+
+    def first_steps(self, particles, steps):
+        """Settings of a run of about so many steps from a jittered start."""
+        spacing = self.spacing(particles)
+        end = (steps - 0.5) * self.first_step(spacing)
+        return (*self.at(spacing), "particles.jitter=0.1", f"time.end={end:.6g}",
+                f"output.fields_interval={2 * end:.6g}")
 
 
 def box_of_rows(rows_deep):
@@ -58,14 +64,17 @@ class Runner:
     def __init__(self, program, folder, settings, say):
         self.program, self.folder, self.settings, self.say = program, folder, settings, say
 
+    def command(self, case, settings, ranks=1):
+        words = [str(self.program), "run", str(case), "--out", str(self.folder / "run"), "--force", "--quiet",
+                 "-n", str(ranks)]
+        for setting in (*self.settings, *settings):
+            words += ["--set", setting]
+        return words
+
     def run(self, case, settings, ranks=1):
         """Summary of a finished run. Throws DataError with the program's message."""
-        command = [str(self.program), "run", str(case), "--out", str(self.folder / "run"), "--force", "--quiet",
-                   "-n", str(ranks)]
-        for setting in (*self.settings, *settings):
-            command += ["--set", setting]
         try:
-            told = subprocess.run(command, capture_output=True, text=True, check=False)
+            told = subprocess.run(self.command(case, settings, ranks), capture_output=True, text=True, check=False)
         except OSError as error:
             raise DataError(f"{self.program}: cannot be started ({error.strerror})") from error
         if told.returncode != 0:
@@ -102,12 +111,8 @@ def difference(short, long):
 
 
 def step_cost(runner, water, particles, steps, ranks=1):
-    spacing = water.spacing(particles)
-    runs = []
-    for count in (UNCOUNTED_STEPS, UNCOUNTED_STEPS + steps):
-        end = (count - 0.5) * water.first_step(spacing)
-        runs.append(runner.run(water.case, (*water.at(spacing), "particles.jitter=0.1", f"time.end={end:.6g}",
-                                            f"output.fields_interval={2 * end:.6g}"), ranks))
+    runs = [runner.run(water.case, water.first_steps(particles, count), ranks)
+            for count in (UNCOUNTED_STEPS, UNCOUNTED_STEPS + steps)]
     return difference(*runs)
 
 

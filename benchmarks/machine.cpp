@@ -23,13 +23,29 @@ std::function<void(benchmark::UserCounters&)> moved(double arrays) {
   };
 }
 
+using Packet = double __attribute__((vector_size(32)));
+constexpr int packets = 10;  // that do not wait for each other, and stay in registers
+constexpr int rounds = 1000000;
+
+/// Returns something that depends on all of them, so that none is left out.
+double multiply_and_add() {
+  Packet x[packets] = {};
+  for (int round = 0; round < rounds; ++round) {
+#pragma GCC unroll 10
+    for (Packet& packet : x) packet = 0.5 * packet + 1.0;
+  }
+  Packet sum = x[0];
+  for (int k = 1; k < packets; ++k) sum += x[k];
+  return sum[0] + sum[1] + sum[2] + sum[3];
+}
+
 }  // namespace
 
-void add_bandwidth() {
+void add_machine() {
   const auto arrays = std::make_shared<Arrays>();
   const auto sum = std::make_shared<double>(0.0);
   add_benchmark(
-      "bandwidth/read",
+      "machine/read",
       [=] {
         constexpr std::size_t width = 32;  // independent sums, so that no addition waits for another
         double sums[width] = {};
@@ -41,9 +57,9 @@ void add_bandwidth() {
       },
       {}, moved(1));
   add_benchmark(
-      "bandwidth/copy", [=] { std::copy(arrays->a.begin(), arrays->a.end(), arrays->c.begin()); }, {}, moved(2));
+      "machine/copy", [=] { std::copy(arrays->a.begin(), arrays->a.end(), arrays->c.begin()); }, {}, moved(2));
   add_benchmark(
-      "bandwidth/triad",
+      "machine/triad",
       [=] {
         double* const a = arrays->a.data();
         const double* const b = arrays->b.data();
@@ -51,6 +67,11 @@ void add_bandwidth() {
         for (std::size_t i = 0; i < count; ++i) a[i] = b[i] + 0.25 * c[i];
       },
       {}, moved(3));
+  add_benchmark(
+      "machine/multiply_add", [=] { *sum += multiply_and_add(); }, {},
+      [](benchmark::UserCounters& counters) {
+        counters["operations"] = 2.0 * rounds * packets * sizeof(Packet) / sizeof(double);
+      });
 }
 
 }  // namespace tailwater
