@@ -2,8 +2,8 @@
 """The least time of a step by bytes and operations, beside what is measured: the tables of docs/performance.md.
 
 Counts what each pass over pairs must read, write and compute, takes the machine's bandwidth and multiply-adds from the
-speed bench, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass: its
-neighbours' are taken to be in a cache.
+speed bench, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass:
+its neighbours' are taken to be in a cache.
 Usage: benchmarks/floor.py speed/speed.json    of `tailwater bench speed --part rooms`
 """
 import json
@@ -17,6 +17,7 @@ DOUBLE, SINGLE, INDEX = 8, 4, 4  # bytes
 # Products of all solves of a step that multigrid should do with: 5 iterations of conjugate gradients, each one product,
 # two sweeps and a residual, on levels that add up to a third more than the finest.
 FLOOR_PRODUCTS = 5 * 4 * 4 / 3
+FIELDS_HELD = 40  # doubles of a particle that must be kept: state, its values before the step, moments, the solver's
 FIELDS = 6  # doubles of a particle's own that a pass reads or writes, about
 
 
@@ -60,7 +61,8 @@ PASSES = (
     Pass("moment correction", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d**2 + 5, 2),
     Pass("corrected vectors", lambda d: INDEX + 2 * vector(d) + DOUBLE, lambda d: INDEX, lambda d: 3 * d**2 + 1, 2),
     Pass("closing: pose", lambda d: INDEX + vector(d) + 2 * DOUBLE, lambda d: 0, lambda d: 2 * d + 4, 2),
-    Pass("closing: three sweeps", lambda d: 3 * (INDEX + 2 * DOUBLE), lambda d: 3 * INDEX, lambda d: 3 * (2 * d + 3), 2),
+    Pass("closing: three sweeps", lambda d: 3 * (INDEX + 2 * DOUBLE), lambda d: 3 * INDEX,
+         lambda d: 3 * (2 * d + 3), 2),
     Pass("closing: close", lambda d: INDEX + 2 * vector(d) + 2 * DOUBLE, lambda d: INDEX + SINGLE * d,
          lambda d: 3 * d + 1, 2),
     Pass("velocity gradient", lambda d: INDEX + vector(d) + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
@@ -110,12 +112,23 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
         operations, floor = pairs * one.operations(d), one.floor(d)
         add(one.name, one.times * (pairs * one.now(d) + own), best_times(one) * (pairs * floor + (own if floor else 0)),
             one.times * operations, best_times(one) * operations)
-    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; two solves check their residual twice.
+    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; both solves check their residual at
+    # their start and end.
     product = pairs * (DOUBLE + INDEX) + 2 * DOUBLE
     products = 2 * iterations + 4
     add("pressure solves", products * product, FLOOR_PRODUCTS * product, products * 2 * pairs,
         FLOOR_PRODUCTS * 2 * pairs)
     return found
+
+
+def memory(d, pairs, numbers, label):
+    """A sentence on bytes per fluid particle: what is held now, and what the arrangement at best would hold."""
+    parts = (("lists", INDEX * listed(d) * pairs), ("pair vectors", SINGLE * d * pairs),
+             ("half a matrix", (DOUBLE + INDEX) * pairs / 2), ("fields", DOUBLE * FIELDS_HELD))
+    now = {name: numbers[f"{label}.bytes.{name}"] for name in ("all", "pairs", "pair_vectors", "matrix")}
+    return (f"Memory, bytes per fluid particle: now {now['all']:.0f} (pairs {now['pairs']:.0f}, pair vectors "
+            f"{now['pair_vectors']:.0f}, matrix {now['matrix']:.0f}); at best {sum(part for _, part in parts):.0f} ("
+            + ", ".join(f"{name} {part:.0f}" for name, part in parts) + ").")
 
 
 def table(d, numbers):
@@ -127,8 +140,8 @@ def table(d, numbers):
     label = f"rooms.{sizes[-1]}"
     pairs, iterations = numbers[f"{label}.pairs"], numbers[f"{label}.step/whole.iterations"]
     found = rows(d, pairs, iterations, numbers["machine/triad"], numbers["machine/multiply_add"])
-    lines = [f"{d}D, {float(sizes[-1].split()[1]):.0f} particles, {pairs:.1f} pairs per fluid particle, {iterations:.1f} "
-             "iterations per step:", "",
+    lines = [f"{d}D, {float(sizes[-1].split()[1]):.0f} particles, {pairs:.1f} pairs per fluid particle, "
+             f"{iterations:.1f} iterations per step:", "",
              "| pass | bytes now | bytes at best | operations at best | ns by bytes and operations now | at best |",
              "| --- " * 6 + "|"]
     total = Row("a step", *(sum(getattr(row, field) for row in found)
@@ -137,9 +150,10 @@ def table(d, numbers):
         lines.append(f"| {row.name} | {row.now_bytes:.0f} | {row.best_bytes:.0f} | {row.best_operations:.0f} | "
                      f"{row.now:.0f} | {row.best:.0f} |")
     measured = numbers[f"{label}.step/whole"]
-    return "\n".join([*lines, "", f"Measured: {measured:.0f} ns per fluid particle and step, {measured / total.now:.1f} "
-                      f"times what the bytes and operations of its loops take, {measured / total.best:.1f} times the "
-                      "floor.", ""])
+    return "\n".join([*lines, "", f"Measured: {measured:.0f} ns per fluid particle and step, "
+                      f"{measured / total.now:.1f} times what the bytes and operations of its loops take, "
+                      f"{measured / total.best:.1f} times the floor.", "",
+                      memory(d, pairs, numbers, label), ""])
 
 
 def main():

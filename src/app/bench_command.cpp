@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "app/commands.h"
 #include "app/python_package.h"
 

@@ -3,8 +3,11 @@ only pretends."""
 
 import contextlib
 import csv
+import importlib.util
 import io
 import json
+import math
+import sys
 import tempfile
 import unittest
 import unittest.mock
@@ -120,8 +123,8 @@ class Profile(unittest.TestCase):
     1.50%|libc-2.36.so|[.] memset
     1.00%|[kernel.kallsyms]|[k] page_fault
 """
-        self.assertEqual(speed_profile.shares(report), {"libpetsc_real": 50.0, "add_noise": 9.0, "Neighbourhood::rebuild": 2.0,
-                                                        "libc": 1.5, "kernel": 1.0})
+        self.assertEqual(speed_profile.shares(report), {"libpetsc_real": 50.0, "add_noise": 9.0,
+                                                        "Neighbourhood::rebuild": 2.0, "libc": 1.5, "kernel": 1.0})
 
 
 def result(commit="abc", **numbers):
@@ -164,6 +167,34 @@ class Report(unittest.TestCase):
                     path.write_text(text)
                 with self.subTest(text), self.assertRaisesRegex(DataError, part):
                     speed_report.read(path)
+
+
+class Floor(unittest.TestCase):
+    def setUp(self):
+        path = Path(speed.__file__).resolve().parents[2] / "benchmarks" / "floor.py"
+        spec = importlib.util.spec_from_file_location("floor", path)
+        self.floor = importlib.util.module_from_spec(spec)
+        sys.modules["floor"] = self.floor  # its dataclasses look themselves up there
+        self.addCleanup(sys.modules.pop, "floor")
+        spec.loader.exec_module(self.floor)
+
+    def test_times_are_those_of_what_is_slower(self):
+        for d in (2, 3):
+            for row in self.floor.rows(d, 30, 8, 10.0, 1e15):
+                self.assertAlmostEqual(row.now, row.now_bytes / 10, places=9)
+            for row in self.floor.rows(d, 30, 8, 1e15, 5.0):
+                self.assertAlmostEqual(row.best, row.best_operations / 5, places=9)
+
+    def test_nothing_is_cheaper_now_than_at_best(self):
+        for d in (2, 3):
+            for row in self.floor.rows(d, 30, 12, 10.0, 20.0):
+                self.assertGreaterEqual(row.now_bytes, row.best_bytes, row.name)
+                self.assertGreaterEqual(row.now, row.best, row.name)
+
+    def test_a_search_of_the_plane_looks_at_a_square_of_seven_cells(self):
+        # 7 cells of a third of 3.6 dx: 8.4^2 particles, of which pi 3^2 are pairs and pi 3.6^2 listed.
+        self.assertAlmostEqual(self.floor.candidates(2) * math.pi * 9, 8.4**2, places=9)
+        self.assertAlmostEqual(self.floor.listed(2) * math.pi * 9, math.pi * 3.6**2, places=9)
 
 
 class Command(ProgramTest):
