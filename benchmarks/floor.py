@@ -114,10 +114,11 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
             one.times * operations, best_times(one) * operations)
     # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; both solves check their residual at
     # their start and end.
-    product = pairs * (DOUBLE + INDEX) + 2 * DOUBLE
+    entries, vectors = pairs * (DOUBLE + INDEX), 2 * DOUBLE
     products = 2 * iterations + 4
-    add("pressure solves", products * product, FLOOR_PRODUCTS * product, products * 2 * pairs,
-        FLOOR_PRODUCTS * 2 * pairs)
+    best_products = min(products, FLOOR_PRODUCTS)
+    add("pressure solves", products * (entries + vectors), best_products * (entries / 2 + vectors),
+        products * 2 * pairs, best_products * 2 * pairs)
     return found
 
 
