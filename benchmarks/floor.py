@@ -10,8 +10,10 @@ import json
 import math
 import pathlib
 import sys
+import textwrap
 from dataclasses import dataclass
 
+LINE = 120  # characters
 SKIN, SUPPORT = 0.6, 3.0  # dx; of the lists, and of the default kernel
 DOUBLE, SINGLE, INDEX = 8, 4, 4  # bytes
 # Products of all solves of a step that multigrid should do with: 5 iterations of conjugate gradients, each one product,
@@ -151,10 +153,10 @@ def table(d, numbers):
         lines.append(f"| {row.name} | {row.now_bytes:.0f} | {row.best_bytes:.0f} | {row.best_operations:.0f} | "
                      f"{row.now:.0f} | {row.best:.0f} |")
     measured = numbers[f"{label}.step/whole"]
-    return "\n".join([*lines, "", f"Measured: {measured:.0f} ns per fluid particle and step, "
-                      f"{measured / total.now:.1f} times what the bytes and operations of its loops take, "
-                      f"{measured / total.best:.1f} times the floor.", "",
-                      memory(d, pairs, numbers, label), ""])
+    took = (f"Measured: {measured:.0f} ns per fluid particle and step, {measured / total.now:.1f} times what the bytes and "
+            f"operations of its loops take, {measured / total.best:.1f} times the floor.")
+    sentences = [textwrap.fill(text, LINE) for text in (took, memory(d, pairs, numbers, label))]
+    return "\n".join([*lines, "", sentences[0], "", sentences[1], ""])
 
 
 def main():
