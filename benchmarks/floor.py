@@ -153,8 +153,8 @@ def table(d, numbers):
         lines.append(f"| {row.name} | {row.now_bytes:.0f} | {row.best_bytes:.0f} | {row.best_operations:.0f} | "
                      f"{row.now:.0f} | {row.best:.0f} |")
     measured = numbers[f"{label}.step/whole"]
-    took = (f"Measured: {measured:.0f} ns per fluid particle and step, {measured / total.now:.1f} times what the bytes and "
-            f"operations of its loops take, {measured / total.best:.1f} times the floor.")
+    took = (f"Measured: {measured:.0f} ns per fluid particle and step, {measured / total.now:.1f} times what the bytes "
+            f"and operations of its loops take, {measured / total.best:.1f} times the floor.")
     sentences = [textwrap.fill(text, LINE) for text in (took, memory(d, pairs, numbers, label))]
     return "\n".join([*lines, "", sentences[0], "", sentences[1], ""])
 
