@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures]   default: all three
+# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks]   default: all four
 set -euo pipefail
 
 build=(
@@ -9,16 +9,18 @@ build=(
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
+benchmarks=(libbenchmark-dev "${pictures[@]}")
 tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}")
 
-(($# > 0)) || set -- build tests pictures
+(($# > 0)) || set -- build tests pictures benchmarks
 wanted=()
 for group in "$@"; do
   case $group in
     build) wanted+=("${build[@]}") ;;
     tests) wanted+=("${tests[@]}") ;;
     pictures) wanted+=("${pictures[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures" >&2; exit 2 ;;
+    benchmarks) wanted+=("${benchmarks[@]}") ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks" >&2; exit 2 ;;
   esac
 done
 missing=()

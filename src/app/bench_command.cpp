@@ -1,18 +1,27 @@
+#include <utility>
+
 #include "app/commands.h"
 #include "app/python_package.h"
 
 namespace tailwater {
 
 void add_bench_command(CLI::App& app, ExitCode&) {
-  CLI::App* command = app.add_subcommand("bench", "Run and score a set of cases whose outcome is known");
+  CLI::App* command = app.add_subcommand("bench", "Measure robustness or speed with a set of cases");
   command->require_subcommand(1);
   command->footer(
       "Examples: tailwater bench robustness --list\n"
-      "          tailwater bench robustness --out my_bench --gate tank --gate noise");
-  CLI::App* robustness = command->add_subcommand("robustness", "The gates of the robust core");
-  robustness->set_help_flag();  // the bench explains its own options
-  robustness->prefix_command();
-  robustness->callback([robustness] { become_python("robustness", robustness->remaining()); });
+      "          tailwater bench robustness --out my_bench --gate tank --gate noise\n"
+      "          tailwater bench speed --compare before/speed.json");
+  const std::pair<const char*, const char*> benches[] = {
+      {"robustness", "The gates of the robust core"},
+      {"speed", "CPU time and memory of cases, steps and rooms, and how they grow"},
+  };
+  for (const auto& [name, what] : benches) {
+    CLI::App* bench = command->add_subcommand(name, what);
+    bench->set_help_flag();  // the bench explains its own options
+    bench->prefix_command();
+    bench->callback([bench] { become_python(bench->get_name(), bench->remaining()); });
+  }
 }
 
 }  // namespace tailwater

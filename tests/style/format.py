@@ -1,4 +1,4 @@
-"""clang-format has nothing to change in any C++ file of src/ and tests/. Usage: format.py ROOT"""
+"""clang-format has nothing to change in any C++ file of src/, tests/ and benchmarks/. Usage: format.py ROOT"""
 import pathlib
 import re
 import shutil
@@ -10,7 +10,7 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     if shutil.which("clang-format") is None:
         sys.exit("clang-format is not installed; run scripts/install.sh")
-    files = [str(file.relative_to(root)) for room in ("src", "tests") for file in sorted((root / room).rglob("*"))
+    files = [str(file.relative_to(root)) for room in ("src", "tests", "benchmarks") for file in sorted((root / room).rglob("*"))
              if file.suffix in {".h", ".cpp"}]
     result = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], cwd=root, capture_output=True, text=True,
                             check=False)

@@ -7,12 +7,12 @@ import sys
 
 TEXTS = {".md", ".h", ".cpp", ".py", ".toml", ".txt", ".sh", ".csv"}
 LONGEST = 120
-WRITTEN = {"bench.md"}  # by the program, beside its runs
+WRITTEN = {"bench.md", "speed.md"}  # by the program, beside its runs
 
 
 def files(root):
     """Of the tree, without what a build or a run left in it."""
-    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake"):
+    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake", "benchmarks"):
         for file in sorted((root / top).rglob("*") if top else root.glob("*")):
             if file.is_file() and file.suffix in TEXTS and file != pathlib.Path(__file__).resolve():
                 yield file

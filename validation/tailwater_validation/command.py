@@ -11,22 +11,29 @@ from .curves import DataError
 from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
 
 
-class Parser(argparse.ArgumentParser):
+class PlainParser(argparse.ArgumentParser):
     """The options that all commands have; errors read like those of the rest of the program."""
 
-    def __init__(self, name, what, out, jobs):
-        super().__init__(prog=name, description=what, allow_abbrev=False,
-                         epilog="Finished runs are not repeated. Verdicts do not change the exit code.")
-        self.set_defaults(ranks=1, settings=[])
+    def __init__(self, name, what, out):
+        super().__init__(prog=name, description=what, allow_abbrev=False)
         self.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
         self.add_argument("--out", type=Path, default=Path(out), metavar="DIR",
                           help=f"folder for runs and results ({out})")
-        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
-        self.add_argument("--list", action="store_true", help="list what would be run, with estimated times, and exit")
 
     def error(self, message):
         print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
         sys.exit(2)
+
+
+class Parser(PlainParser):
+    """Of commands whose runs are made once, several at a time, and kept."""
+
+    def __init__(self, name, what, out, jobs):
+        super().__init__(name, what, out)
+        self.epilog = "Finished runs are not repeated. Verdicts do not change the exit code."
+        self.set_defaults(ranks=1, settings=[])
+        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
+        self.add_argument("--list", action="store_true", help="list what would be run, with estimated times, and exit")
 
 
 def choose(every, names, kind, option=""):

@@ -1,0 +1,106 @@
+// What all benchmarks of the rooms share: the flow on which they work, and how they are timed.
+#pragma once
+
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include <cstdint>
+#include <ctime>
+#include <functional>
+#include <string>
+
+#include "pressure/verbs.h"
+#include "schemes/advance.h"
+
+namespace tailwater {
+
+inline double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Bytes that this process holds on the heap, PETSc's included.
+inline double bytes_on_heap() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+/// Registers `work`, timed by CPU time: other programs on the machine disturb it less than a clock. `prepare` comes
+/// before each and is not timed. `counters` are read after the last.
+inline void add_benchmark(const std::string& name, std::function<void()> work, std::function<void()> prepare = {},
+                          std::function<void(benchmark::UserCounters&)> counters = {}) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State& state) {
+                                 for ([[maybe_unused]] auto _ : state) {
+                                   if (prepare) prepare();
+                                   const double begin = cpu_seconds();
+                                   work();
+                                   benchmark::ClobberMemory();
+                                   state.SetIterationTime(cpu_seconds() - begin);
+                                 }
+                                 if (counters) counters(state.counters);
+                               })
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+constexpr int steps_between_sorts = 5;  // as a run has them
+
+/// A flow after some steps, with everything that the verbs of the next step hand to each other.
+template <int Dim>
+struct Stage {
+  Stage(const CaseSpec& spec, int steps) : flow(spec) {
+    locate(flow);
+    tailwater::start(flow);
+    for (int n = 0; n < steps; ++n) step();
+    share_out(flow);
+    dt = next_time_step(flow);
+    gather_walls(flow);
+    hold_open_ends(flow, dt);
+    begin = remember(flow);
+    drive = drive_walls(flow, begin, dt);
+    locate(flow);
+    predicted = predict(flow, begin, drive, dt);
+    target = aim(flow, predicted, dt);
+    pose();
+  }
+
+  StepReport step() {
+    if (flow.state.step % steps_between_sorts == 0) share_out(flow);
+    return advance(flow, next_time_step(flow));
+  }
+  /// The pressure equation of the next step.
+  void pose() { equation = assemble(flow, predicted, target, drive, dt); }
+
+  std::size_t fluid() const {
+    const Particles<Dim>& particles = flow.state.particles;
+    return std::count(particles.kind.begin(), particles.kind.begin() + static_cast<std::ptrdiff_t>(particles.owned),
+                      ParticleKind::fluid);
+  }
+
+  Flow<Dim> flow;
+  double dt = 0.0;
+  StepStart<Dim> begin;
+  WallDrive<Dim> drive;
+  Prediction<Dim> predicted;
+  std::vector<double> target;
+  PosedEquation equation;
+};
+
+/// Neighbours, operators, closures, assembly and output. The stage outlives the benchmarks.
+template <int Dim>
+void add_passes(Stage<Dim>& stage, const CaseSpec& spec, const std::string& scratch_file);
+
+/// The pressure solve, and the matrix-vector product by which it is measured.
+template <int Dim>
+void add_pressure(Stage<Dim>& stage);
+
+/// Whole steps. They move the particles, so they come last.
+template <int Dim>
+void add_steps(Stage<Dim>& stage);
+
+/// What memory and one core can deliver, after McCalpin's STREAM: no flow is needed.
+void add_machine();
+
+}  // namespace tailwater

@@ -1,0 +1,175 @@
+#!/usr/bin/python3
+"""The least time of a step by bytes and operations, beside what is measured: the tables of docs/performance.md.
+
+Counts what each pass over pairs must read, write and compute, takes the machine's bandwidth and multiply-adds from the
+speed bench, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass:
+its neighbours' are taken to be in a cache.
+Usage: benchmarks/floor.py speed/speed.json    of `tailwater bench speed --part rooms`
+"""
+import json
+import math
+import pathlib
+import sys
+import textwrap
+from dataclasses import dataclass
+
+LINE = 120  # characters
+SKIN, SUPPORT = 0.6, 3.0  # dx; of the lists, and of the default kernel
+DOUBLE, SINGLE, INDEX = 8, 4, 4  # bytes
+# Products of all solves of a step that multigrid should do with: 5 iterations of conjugate gradients, each one product,
+# two sweeps and a residual, on levels that add up to a third more than the finest.
+FLOOR_PRODUCTS = 5 * 4 * 4 / 3
+FIELDS_HELD = 40  # doubles of a particle that must be kept: state, its values before the step, moments, the solver's
+FIELDS = 6  # doubles of a particle's own that a pass reads or writes, about
+
+
+@dataclass(frozen=True)
+class Pass:
+    """`now` and `floor`: bytes per pair, as the loops are written and as they could be at best (0: joined to another
+    pass). `operations`: per pair, a multiply-add counting twice. All as functions of the dimension."""
+
+    name: str
+    now: object
+    floor: object
+    operations: object
+    times: int = 1  # in a step
+
+
+def candidates(d):
+    """Particles in the cells that a search looks at, per pair: seven cells of a third of the reach along each axis."""
+    ball = {2: math.pi, 3: 4 / 3 * math.pi}[d]
+    return (7 / 3 * (1 + SKIN / SUPPORT)) ** d / ball
+
+
+def listed(d):
+    """Entries of a list per pair."""
+    return (1 + SKIN / SUPPORT) ** d
+
+
+def vector(d):
+    return DOUBLE * d
+
+
+# At best a pass reads the neighbour's index and computes the rest from positions in the cache; only corrected pair
+# vectors, which depend on sums over neighbours, are kept, in single precision. A pass is joined to the one before it
+# unless it needs a result of that one at the neighbours.
+PASSES = (
+    Pass("search", lambda d: INDEX * (candidates(d) + listed(d)), lambda d: INDEX * (candidates(d) + listed(d)) / 2,
+         lambda d: 3 * d * candidates(d), 2),
+    Pass("list to pairs", lambda d: INDEX * listed(d) + INDEX + 3 * vector(d) + 6 * DOUBLE,
+         lambda d: INDEX * listed(d) + INDEX, lambda d: 4 * d + 13, 2),
+    Pass("kernel sums", lambda d: INDEX + vector(d) + 3 * DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3, 2),
+    Pass("interior", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 4, 2),
+    Pass("moment correction", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d**2 + 5, 2),
+    Pass("corrected vectors", lambda d: INDEX + 2 * vector(d) + DOUBLE, lambda d: INDEX, lambda d: 3 * d**2 + 1, 2),
+    Pass("closing: pose", lambda d: INDEX + vector(d) + 2 * DOUBLE, lambda d: 0, lambda d: 2 * d + 4, 2),
+    Pass("closing: three sweeps", lambda d: 3 * (INDEX + 2 * DOUBLE), lambda d: 3 * INDEX,
+         lambda d: 3 * (2 * d + 3), 2),
+    Pass("closing: close", lambda d: INDEX + 2 * vector(d) + 2 * DOUBLE, lambda d: INDEX + SINGLE * d,
+         lambda d: 3 * d + 1, 2),
+    Pass("velocity gradient", lambda d: INDEX + vector(d) + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
+    Pass("viscosity", lambda d: INDEX + 2 * vector(d) + DOUBLE, lambda d: INDEX + SINGLE * d,
+         lambda d: 3 * d**2 + 7 * d + 6),
+    Pass("noise viscosity", lambda d: INDEX + vector(d) + 2 * DOUBLE, lambda d: 0, lambda d: 3 * d**2 + 11 * d + 5),
+    Pass("pattern", lambda d: 3 * INDEX, lambda d: 2 * INDEX, lambda d: 0),
+    Pass("weights", lambda d: 2 * INDEX + 3 * DOUBLE, lambda d: INDEX + DOUBLE + SINGLE * d, lambda d: 4),
+    Pass("open faces", lambda d: INDEX + vector(d), lambda d: 0, lambda d: 2 * d),
+    Pass("divergence, source", lambda d: INDEX + vector(d), lambda d: 0, lambda d: 3 * d + 1),
+    Pass("gradient", lambda d: INDEX + vector(d), lambda d: INDEX + SINGLE * d, lambda d: 2 * d + 2),
+    Pass("divergence, reported", lambda d: INDEX + vector(d), lambda d: 0, lambda d: 3 * d + 1, 2),
+    Pass("shift", lambda d: INDEX + vector(d) + 2 * DOUBLE, lambda d: INDEX, lambda d: 2 * d + 12),
+)
+# The second set of pair vectors in a step, at the positions before shifting, serves only the reported divergence.
+AT_BEST_ONCE = {"moment correction", "corrected vectors", "closing: pose", "closing: three sweeps", "closing: close"}
+AT_BEST_NEVER = {"divergence, reported"}
+
+
+def best_times(one):
+    return 0 if one.name in AT_BEST_NEVER else 1 if one.name in AT_BEST_ONCE else one.times
+
+
+@dataclass(frozen=True)
+class Row:
+    """Of a step; bytes and operations per fluid particle, times in ns per fluid particle."""
+
+    name: str
+    now_bytes: float
+    best_bytes: float
+    best_operations: float
+    now: float
+    best: float
+
+
+def rows(d, pairs, iterations, bandwidth, multiply_adds):
+    """One per pass, then the solve. `bandwidth` in bytes per ns, `multiply_adds` in operations per ns."""
+    own = FIELDS * DOUBLE
+    found = []
+
+    def add(name, now_bytes, best_bytes, operations, best_operations):
+        found.append(Row(name, now_bytes, best_bytes, best_operations,
+                         max(now_bytes / bandwidth, operations / multiply_adds),
+                         max(best_bytes / bandwidth, best_operations / multiply_adds)))
+
+    for one in PASSES:
+        operations, floor = pairs * one.operations(d), one.floor(d)
+        add(one.name, one.times * (pairs * one.now(d) + own), best_times(one) * (pairs * floor + (own if floor else 0)),
+            one.times * operations, best_times(one) * operations)
+    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; both solves check their residual at
+    # their start and end.
+    entries, vectors = pairs * (DOUBLE + INDEX), 2 * DOUBLE
+    products = 2 * iterations + 4
+    best_products = min(products, FLOOR_PRODUCTS)
+    add("pressure solves", products * (entries + vectors), best_products * (entries / 2 + vectors),
+        products * 2 * pairs, best_products * 2 * pairs)
+    return found
+
+
+def memory(d, pairs, numbers, label):
+    """A sentence on bytes per fluid particle: what is held now, and what the arrangement at best would hold."""
+    parts = (("lists", INDEX * listed(d) * pairs), ("pair vectors", SINGLE * d * pairs),
+             ("half a matrix", (DOUBLE + INDEX) * pairs / 2), ("fields", DOUBLE * FIELDS_HELD))
+    now = {name: numbers[f"{label}.bytes.{name}"] for name in ("all", "pairs", "pair_vectors", "matrix")}
+    return (f"Memory, bytes per fluid particle: now {now['all']:.0f} (pairs {now['pairs']:.0f}, pair vectors "
+            f"{now['pair_vectors']:.0f}, matrix {now['matrix']:.0f}); at best {sum(part for _, part in parts):.0f} ("
+            + ", ".join(f"{name} {part:.0f}" for name, part in parts) + ").")
+
+
+def table(d, numbers):
+    """Markdown for one dimension, or nothing if the bench has no rooms of it."""
+    sizes = sorted({name.split(".")[1] for name in numbers if name.startswith(f"rooms.{d}D ")},
+                   key=lambda size: float(size.split()[1]))
+    if not sizes:
+        return ""
+    label = f"rooms.{sizes[-1]}"
+    pairs, iterations = numbers[f"{label}.pairs"], numbers[f"{label}.step/whole.iterations"]
+    found = rows(d, pairs, iterations, numbers["machine/triad"], numbers["machine/multiply_add"])
+    lines = [f"{d}D, {float(sizes[-1].split()[1]):.0f} particles, {pairs:.1f} pairs per fluid particle, "
+             f"{iterations:.1f} iterations per step:", "",
+             "| pass | bytes now | bytes at best | operations at best | ns by bytes and operations now | at best |",
+             "| --- " * 6 + "|"]
+    total = Row("a step", *(sum(getattr(row, field) for row in found)
+                            for field in ("now_bytes", "best_bytes", "best_operations", "now", "best")))
+    for row in (*found, total):
+        lines.append(f"| {row.name} | {row.now_bytes:.0f} | {row.best_bytes:.0f} | {row.best_operations:.0f} | "
+                     f"{row.now:.0f} | {row.best:.0f} |")
+    measured = numbers[f"{label}.step/whole"]
+    took = (f"Measured: {measured:.0f} ns per fluid particle and step, {measured / total.now:.1f} times what the bytes "
+            f"and operations of its loops take, {measured / total.best:.1f} times the floor.")
+    sentences = [textwrap.fill(text, LINE) for text in (took, memory(d, pairs, numbers, label))]
+    return "\n".join([*lines, "", sentences[0], "", sentences[1], ""])
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    told = json.loads(pathlib.Path(sys.argv[1]).read_text())
+    numbers = {number["name"]: number["value"] for number in told["numbers"]}
+    if "machine/triad" not in numbers:
+        sys.exit(f"error: {sys.argv[1]} has no rooms; remedy: tailwater bench speed --part rooms")
+    print(f"Commit {told['commit']}, {told['machine']['processor']}: {numbers['machine/triad']:.1f} GB/s, "
+          f"{numbers['machine/multiply_add']:.1f} GFlop/s on one core.\n")
+    print("\n".join(text for text in (table(2, numbers), table(3, numbers)) if text), end="")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <memory>
+
+#include "bench.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double cold_tolerance = 1e-6;
+/// Reached by the first iteration, so that a solve to it is the set-up and little else.
+constexpr double next_to_nothing = 0.999;
+
+/// y = A x: the yardstick. A plain loop over the whole compressed rows, so that it stays the same whatever the solver
+/// does.
+void multiply(LinearSystem& rows, const std::vector<double>& x, std::vector<double>& y) {
+  const LinearSystem::Block& own = rows.own();
+  const std::span<const double> values = rows.values_of_own();
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    double sum = 0.0;
+    for (int slot = own.begin[i]; slot < own.begin[i + 1]; ++slot) sum += values[slot] * x[own.column[slot]];
+    y[i] = sum;
+  }
+}
+
+/// Solves from 0, a new equation each time, as every step has one.
+template <int Dim>
+void add_cold_solve(Stage<Dim>& stage, const std::string& name, double tolerance) {
+  const auto pressure = std::make_shared<std::vector<double>>();
+  const auto iterations = std::make_shared<int>(0);
+  add_benchmark(
+      name,
+      [&stage, pressure, iterations, tolerance] {
+        *iterations = stage.flow.pressure_solver.solve(stage.flow.pressure_rows, *pressure, tolerance).iterations;
+      },
+      [&stage, pressure] {
+        stage.pose();
+        pressure->assign(stage.flow.pressure_rows.size(), 0.0);
+      },
+      [iterations](benchmark::UserCounters& counters) { counters["iterations_of_solve"] = *iterations; });
+}
+
+}  // namespace
+
+template <int Dim>
+void add_pressure(Stage<Dim>& stage) {
+  const std::size_t size = stage.flow.pressure_rows.size();
+  const auto x = std::make_shared<std::vector<double>>(size, 1.0);
+  const auto y = std::make_shared<std::vector<double>>(size);
+  add_benchmark(
+      "pressure/product", [&stage, x, y] { multiply(stage.flow.pressure_rows, *x, *y); }, {},
+      [&stage](benchmark::UserCounters& counters) {
+        const LinearSystem::Block& own = stage.flow.pressure_rows.own();
+        counters["rows"] = static_cast<double>(stage.flow.pressure_rows.size());
+        counters["bytes"] = static_cast<double>(own.column.size()) * (sizeof(int) + sizeof(double));
+      });
+  add_cold_solve(stage, "pressure/set_up", next_to_nothing);
+  add_cold_solve(stage, "pressure/cold", cold_tolerance);
+  // From the pressure of the step before, as steps solve it.
+  const auto before = std::make_shared<std::vector<double>>(stage.flow.state.particles.pressure);
+  const auto iterations = std::make_shared<int>(0);
+  add_benchmark(
+      "pressure/step",
+      [&stage, iterations] { *iterations = solve(stage.flow, stage.drive, stage.equation).iterations; },
+      [&stage, before] {
+        stage.pose();
+        stage.flow.state.particles.pressure = *before;
+      },
+      [iterations](benchmark::UserCounters& counters) { counters["iterations_of_solve"] = *iterations; });
+}
+
+template void add_pressure<2>(Stage<2>&);
+template void add_pressure<3>(Stage<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,285 @@
+"""`tailwater bench speed`: what cases, steps and rooms cost in CPU time and memory, and how that grows.
+
+Runs one thing at a time, prints a table, and writes OUT/speed.json, speed.csv and speed.md. Times are CPU times, except
+where ranks are compared; memory is the peak of the process.
+
+Usage: python -m tailwater_validation.speed --program FILE [--level tiny|quick|full] [--part NAME]... [--out DIR]
+Exit codes: 0 all was measured, whatever the verdicts are; 2 bad input, 3 a run failed (the rest is written), 4 a file
+cannot be read or written, 130 interrupted.
+"""
+
+import datetime
+import os
+import signal
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import command, speed_profile, speed_report, speed_rooms
+from .curves import DataError
+from .metric import Metric
+from .runs import INTERRUPTED
+from .speed_runs import WATERS, ZHOU, Runner, box_of_rows, exponent, least, step_cost
+
+PARTS = ("rooms", "cases", "growth", "deep", "ranks", "profile")  # the last only if it is asked for
+PROFILED_STEPS = 40
+INTEGRATORS = ("explicit", "implicit")
+MEMORY_BARS = {2: 1200, 3: 3000}  # bytes per fluid particle
+EXPONENT_BAR = 1.08
+SPEED_UP_BAR = 1.8
+ZHOU_BARS = {0.015: 4, 0.0075: 30}  # CPU s per simulated s
+DAM_BREAK_3D_BARS = {0.02: 300}
+DEEP_BARS = {25: 5, 100: 7}  # us per fluid particle and step, by rows of depth
+
+
+@dataclass(frozen=True)
+class Level:
+    zhou: tuple  # (dx, end in sqrt(H/g))
+    dam_break_3d: tuple  # (dx, end in s)
+    growth: dict  # numbers of fluid particles, by dimension
+    rooms: dict
+    ranks: dict
+    deep: tuple  # rows of depth
+    steps: int  # counted
+    repeats: int
+    min_time: float  # s, of a benchmark of the rooms
+
+
+LEVELS = {
+    "tiny": Level(((0.06, 0.2),), ((0.1, 0.01),), {2: (500, 1000)}, {2: (500,), 3: (600,)}, {2: 500}, (), 30,
+                  1, 0.001),
+    "quick": Level(((0.015, 4),), ((0.05, 0.3),), {2: (5e3, 2e4, 6e4), 3: (5e3, 1.5e4)}, {2: (2e4,), 3: (1e4,)},
+                   {2: 3e4}, (), 10, 1, 0.1),
+    "full": Level(((0.015, 8), (0.0075, 8)), ((0.02, 2.0),), {2: (5e3, 2e4, 1e5, 3e5, 1e6), 3: (5e3, 3e4, 1e5, 5e5)},
+                  {2: (5e4, 2e5, 1e6), 3: (5e4, 5e5)}, {2: 2e5, 3: 8e4}, (25, 100), 20, 3, 0.5),
+}
+
+
+class Bench:
+    def __init__(self, level, runner, say):
+        self.level, self.runner, self.say = level, runner, say
+        self.metrics = []
+
+    def add(self, name, what, unit, value, high=None, low=None, note=""):
+        self.metrics.append(Metric(name, what, unit, "", low, high, value, note=note))
+
+    def fail(self, name, what, error):
+        self.say(f"failed: {what}: {error}")
+        self.add(name, what, "", None, note=str(error))
+
+    def measure(self, part, options, commit):
+        if part != "rooms":
+            getattr(self, part)()
+            return
+        try:
+            for metrics in speed_rooms.measure(rooms_program(options.program), self.level, commit, options.settings,
+                                               self.say):
+                self.metrics += metrics
+        except DataError as error:
+            self.fail("rooms", "rooms", error)
+
+    def whole_run(self, name, what, case, settings, high):
+        self.say(what)
+        try:
+            run = self.runner.run(case, settings)
+        except DataError as error:
+            self.fail(name, what, error)
+            return
+        fluid, cost, steps = run["particles"]["fluid"], run["cost"], run["steps"]["count"]
+        self.add(name, what, "CPU s per simulated s", cost["cpu_s_per_simulated_s"], high)
+        self.add(f"{name}.step", what, "us per fluid particle and step", 1e6 * cost["cpu_s"] / steps / fluid)
+        self.add(f"{name}.steps", what, "steps per simulated s", steps / run["time_s"]["reached"])
+        self.add(f"{name}.iterations", what, "iterations per step", run["pressure_solver"]["iterations"] / steps)
+        self.add(f"{name}.memory", what, "bytes per fluid particle, program included",
+                 cost["peak_memory_bytes"] / fluid)
+
+    def cases(self):
+        """Whole runs from their start."""
+        for dx, end in self.level.zhou:
+            for integrator in INTEGRATORS:
+                settings = (*WATERS[2].at(dx), f"time.end={end:g}*sqrt(H/g)", f"scheme.integrator={integrator}")
+                self.whole_run(f"zhou.{dx:g}.{end:g}.{integrator}",
+                               f"Zhou, dx = {dx:g} m, to T = {end:g}, {integrator}", ZHOU, settings, ZHOU_BARS.get(dx))
+        for dx, end in self.level.dam_break_3d:
+            water = WATERS[3]
+            self.whole_run(f"dam_break_3d.{dx:g}.{end:g}", f"3D dam break, dx = {dx:g} m, first {end:g} s", water.case,
+                           (*water.at(dx), f"time.end={end:g}"), DAM_BREAK_3D_BARS.get(dx))
+
+    def step(self, water, particles, ranks=1, key="cpu"):
+        return least([step_cost(self.runner, water, particles, self.level.steps, ranks)
+                      for _ in range(self.level.repeats)], key)
+
+    def growth(self):
+        """First steps at several numbers of particles. The memory of the program itself is taken out by the difference
+        of the smallest and the largest."""
+        for dimension, sizes in self.level.growth.items():
+            costs = []
+            for particles in sizes:
+                name, what = f"step.{dimension}D.{particles:g}", f"{dimension}D dam break, {particles:g} particles"
+                self.say(what)
+                try:
+                    cost = self.step(WATERS[dimension], particles)
+                except DataError as error:
+                    self.fail(name, what, error)
+                    continue
+                costs.append(cost)
+                self.add(name, what, "us per fluid particle and step", 1e6 * cost.cpu_per_particle)
+                self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
+                self.add(f"{name}.memory", what, "bytes per fluid particle, program included", cost.memory / cost.fluid)
+            if len(costs) > 1:
+                fluid = [cost.fluid for cost in costs]
+                what = f"{dimension}D, {fluid[0]} to {fluid[-1]} particles"
+                try:
+                    self.add(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", "exponent",
+                             exponent(fluid, [cost.cpu for cost in costs]), EXPONENT_BAR)
+                except DataError as error:
+                    self.fail(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", error)
+                self.add(f"step.{dimension}D.memory", f"{what}, peak memory without the program",
+                         "bytes per fluid particle", (costs[-1].memory - costs[0].memory) / (fluid[-1] - fluid[0]),
+                         MEMORY_BARS[dimension])
+
+    def deep(self):
+        """Equally many particles, of water of several depths: the pressure solve feels the depth."""
+        for rows in self.level.deep:
+            name, what = f"deep.{rows}", f"3D dam break, {rows} rows deep"
+            self.say(what)
+            try:
+                water = box_of_rows(rows)
+                cost = self.step(water, 6e4)
+                self.add(name, what, "us per fluid particle and step", 1e6 * cost.cpu_per_particle, DEEP_BARS[rows])
+                self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
+            except DataError as error:
+                self.fail(name, what, error)
+
+    def ranks(self):
+        """One rank and two in turn."""
+        for dimension, particles in self.level.ranks.items():
+            name, what = f"ranks.{dimension}D.{particles:g}", f"{dimension}D, {particles:g} particles, two ranks"
+            self.say(what)
+            try:
+                pairs = [[step_cost(self.runner, WATERS[dimension], particles, self.level.steps, ranks)
+                          for ranks in (1, 2)] for _ in range(self.level.repeats)]
+            except DataError as error:
+                self.fail(name, what, error)
+                continue
+            one, two = (least(costs, "wall") for costs in zip(*pairs))
+            self.add(name, f"{what}: clock time of one rank's step over theirs", "ratio", one.wall / two.wall,
+                     low=SPEED_UP_BAR)
+            self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
+
+
+    def profile(self):
+        """Of the first steps, start of the run included."""
+        for dimension, sizes in self.level.rooms.items():
+            name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
+            self.say(what)
+            water = WATERS[dimension]
+            run = self.runner.command(water.case, water.first_steps(sizes[0], PROFILED_STEPS))
+            try:
+                self.metrics += speed_profile.measure(self.runner, dimension, run)
+            except DataError as error:
+                self.fail(name, what, error)
+
+
+def rooms_program(program):
+    return program.with_name("bench_rooms")
+
+
+def choose_parts(options):
+    """The parts to measure, in order; those of `--part`, else all that need no tool beside the program. Throws
+    DataError."""
+    for name in options.parts:
+        if name not in PARTS:
+            raise DataError(f"--part {name}: there is no such part; parts: {', '.join(PARTS)}")
+    if "profile" in options.parts:
+        speed_profile.require_perf()
+    chosen = [name for name in PARTS if name in (options.parts or PARTS[:-1])]
+    if "rooms" in chosen and not rooms_program(options.program).is_file():
+        remedy = (f"the benchmarks of the rooms are not built; remedy: scripts/install.sh benchmarks, then "
+                  f"cmake --build {options.program.parent.parent} --target benchmarks")
+        if options.parts:
+            raise DataError(remedy)
+        print(f"left out: {remedy}", file=sys.stderr)
+        chosen.remove("rooms")
+    return chosen
+
+
+def provenance(runner):
+    """Of the program, by a run of no length; so settings that it does not accept are refused before all else."""
+    summary = runner.run(ZHOU, ("particles.spacing=0.06", "time.end=1e-6"))
+    return {key: summary[key] for key in ("version", "commit", "compiler", "options", "libraries", "machine")}
+
+
+def measure(options, parts, say):
+    load = os.getloadavg()[0]
+    started = datetime.datetime.now(datetime.timezone.utc)
+    with tempfile.TemporaryDirectory(prefix="tailwater_speed_") as scratch:
+        runner = Runner(options.program, Path(scratch), tuple(options.settings), say)
+        told = provenance(runner)
+        bench = Bench(LEVELS[options.level], runner, say)
+        is_interrupted = False
+        try:
+            for part in parts:
+                bench.measure(part, options, told["commit"])
+        except KeyboardInterrupt:
+            is_interrupted = True
+    return {**told, "date": started.isoformat(timespec="seconds"), "level": options.level,
+            "settings": list(options.settings), "load_before": load, "interrupted": is_interrupted,
+            "numbers": [speed_report.record(metric) for metric in bench.metrics]}
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def make_parser():
+    parser = command.PlainParser("tailwater bench speed", "Measures what cases, steps and rooms cost in CPU time and "
+                                 "memory.", "speed")
+    parser.epilog = ("Times are CPU times, which a busy machine still disturbs: measure both sides of a comparison in "
+                     "the same minutes. Verdicts do not change the exit code.")
+    parser.add_argument("--level", choices=LEVELS, default="quick",
+                        help="tiny: seconds, to try the bench; quick: three minutes; full: some hours, quiet machine")
+    parser.add_argument("--part", action="append", default=[], metavar="NAME", dest="parts",
+                        help="only rooms, cases, growth, deep, ranks or profile; may be repeated (default: all but "
+                        "profile, which needs perf)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+                        help="change the default under test; may be repeated")
+    parser.add_argument("--compare", type=Path, nargs="+", default=[], metavar="JSON",
+                        help="print the ratios to an earlier speed.json; of two files, those of the second to the "
+                        "first, and measure nothing")
+    return parser
+
+
+def main(arguments=None):
+    signal.signal(signal.SIGTERM, command.interrupt)
+    options = make_parser().parse_args(arguments)
+    try:
+        if len(options.compare) > 2:
+            raise DataError("--compare takes one file, or two")
+        earlier = [speed_report.read(path) for path in options.compare]
+        if len(earlier) == 2:
+            print(speed_report.comparison(*earlier))
+            return 0
+        parts = choose_parts(options)
+        options.out.mkdir(parents=True, exist_ok=True)
+        result = measure(options, parts, say)
+        speed_report.write(result, options.out)
+    except DataError as error:
+        return command.complain(error, 2)
+    except OSError as error:
+        return command.complain(f"{error.filename}: {error.strerror}", 4)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    print(speed_report.table(speed_report.COLUMNS, speed_report.rows(result)))
+    print(f"\n{speed_report.heading(result)}\nwritten: {options.out}/speed.json, speed.csv, speed.md")
+    if earlier:
+        print(f"\n{speed_report.comparison(earlier[0], result)}")
+    if result["interrupted"]:
+        print("interrupted: what had been measured by then is written", file=sys.stderr)
+        return INTERRUPTED
+    return 3 if any(number["value"] is None for number in result["numbers"]) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

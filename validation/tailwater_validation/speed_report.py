@@ -1,0 +1,89 @@
+"""What the speed bench found, as speed.json, speed.csv and speed.md, and beside what it found before."""
+
+import csv
+import json
+
+from .curves import DataError
+from .metric import Metric, bar
+
+COLUMNS = ("what", "value", "unit", "bar", "verdict", "note")
+
+
+def record(metric):
+    return {"name": metric.name, "what": metric.what, "value": metric.value, "unit": metric.unit, "low": metric.low,
+            "high": metric.high, "verdict": metric.verdict, "note": metric.note}
+
+
+def shown(value):
+    return "-" if value is None else f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+
+
+def rows(result):
+    return [(number["what"], shown(number["value"]), number["unit"], bar(number["low"], number["high"]),
+             number["verdict"], number["note"]) for number in result["numbers"]]
+
+
+def heading(result):
+    settings = "".join(f" --set {setting}" for setting in result["settings"])
+    machine = result["machine"]
+    return (f"tailwater {result['version']} (commit {result['commit']}), {result['compiler']}, {machine['processor']}, "
+            f"{machine['cores']} cores, level {result['level']}{settings}, {result['date']}, "
+            f"load {result['load_before']:.1f} before{', interrupted' if result['interrupted'] else ''}")
+
+
+def table(header, lines):
+    """For the terminal."""
+    lines = [header, *lines]
+    widths = [max(len(row[k]) for row in lines) for k in range(len(header) - 1)]
+    text = ["  ".join(cell.ljust(width) for cell, width in zip(row, [*widths, 0])).rstrip() for row in lines]
+    return "\n".join([text[0], "-" * len(text[0]), *text[1:]])
+
+
+def markdown_table(header, lines):
+    text = ["| " + " | ".join(header) + " |", "| --- " * len(header) + "|"]
+    return "\n".join(text + ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in lines])
+
+
+def markdown(result):
+    return f"# Speed\n\n{heading(result)}.\n\n{markdown_table(COLUMNS, rows(result))}\n"
+
+
+def write(result, folder):
+    """Throws OSError."""
+    (folder / "speed.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    (folder / "speed.md").write_text(markdown(result), encoding="utf-8")
+    with (folder / "speed.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, ("commit", *record(Metric("", "", "", ""))))
+        writer.writeheader()
+        writer.writerows({"commit": result["commit"], **number} for number in result["numbers"])
+
+
+def read(path):
+    """A speed.json of before. Throws DataError."""
+    try:
+        result = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise DataError(f"{path}: {error.strerror}; give a speed.json of another commit") from error
+    except ValueError as error:
+        raise DataError(f"{path}: is no JSON ({error})") from error
+    try:
+        heading(result)
+        rows(result)
+    except (KeyError, TypeError) as error:
+        raise DataError(f"{path}: is not of this bench, {error} is missing") from error
+    return result
+
+
+def comparison(old, new):
+    """A table of all numbers that both have, with the ratio of the new to the old one, and what else differs."""
+    before = {number["name"]: number["value"] for number in old["numbers"]}
+    lines = []
+    for number in new["numbers"]:
+        was, now = before.get(number["name"]), number["value"]
+        if was is not None and now is not None:
+            lines.append((number["what"], shown(was), shown(now), f"{now / was:.3f}" if was else "-", number["unit"]))
+    others = [f"{what}: {one} and {other}" for what, one, other in (
+        ("machine", old["machine"], new["machine"]), ("compiler", old["compiler"], new["compiler"]),
+        ("options", old["options"], new["options"]), ("settings", old["settings"], new["settings"])) if one != other]
+    text = table(("what", f"{old['commit']}", f"{new['commit']}", "ratio", "unit"), lines)
+    return text + "".join(f"\nnot the same {other}" for other in others)

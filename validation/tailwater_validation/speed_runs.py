@@ -1,0 +1,132 @@
+"""Runs of the speed bench: what a case costs, and what a step of it costs, read from the summaries of runs."""
+
+import json
+import math
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from .curves import DataError
+
+ROOT = Path(__file__).resolve().parents[2]
+ZHOU = ROOT / "cases" / "zhou1999" / "case.toml"
+DAM_BREAK_3D = ROOT / "benchmarks" / "dam_break_3d.toml"
+GRAVITY, COURANT = 9.81, 0.25  # of the cases; scheme.courant's default sets how long the first steps are
+UNCOUNTED_STEPS = 5  # at the start of a run, which builds lists and patterns and has no pressure to begin with
+
+
+@dataclass(frozen=True)
+class Water:
+    """A column that collapses: `key` is the setting that is its particle spacing."""
+
+    case: Path
+    key: str
+    volume: float  # m^2 or m^3
+    depth: float  # m
+    dimension: int
+    settings: tuple = ()
+
+    def spacing(self, particles):
+        return float(f"{(self.volume / particles) ** (1 / self.dimension):.4g}")
+
+    def at(self, spacing):
+        return (*self.settings, f"{self.key}={spacing:g}")
+
+    def first_step(self, spacing):
+        """s; the length of the first steps."""
+        return COURANT * spacing / math.sqrt(2 * GRAVITY * self.depth)
+
+    def first_steps(self, particles, steps):
+        """Settings of a run of about so many steps from a jittered start."""
+        spacing = self.spacing(particles)
+        end = (steps - 0.5) * self.first_step(spacing)
+        return (*self.at(spacing), "particles.jitter=0.1", f"time.end={end:.6g}",
+                f"output.fields_interval={2 * end:.6g}")
+
+
+def box_of_rows(rows_deep):
+    """60 000 particles of a 3D dam break, so many rows deep: a short and narrow tank if that is many."""
+    d = 0.01
+    long, wide = {25: (60, 40), 100: (30, 20)}[rows_deep]
+    shape = {"length": 2 * long, "width": wide, "height": rows_deep + 20, "column": long, "depth": rows_deep,
+             "box_begin": 8, "box_length": 4, "box_width": 8, "box_side": (wide - 8) // 2}
+    return Water(DAM_BREAK_3D, "parameters.d", long * wide * rows_deep * d**3, rows_deep * d, 3,
+                 tuple(f"parameters.{name}={number * d:g}" for name, number in shape.items()))
+
+
+WATERS = {2: Water(ZHOU, "particles.spacing", 1.2 * 0.6, 0.6, 2),
+          3: Water(DAM_BREAK_3D, "parameters.d", 1.228 * 1.0 * 0.55, 0.55, 3)}
+
+
+class Runner:
+    """Runs cases one after the other, each into the same scratch folder, and tells of each on standard error."""
+
+    def __init__(self, program, folder, settings, say):
+        self.program, self.folder, self.settings, self.say = program, folder, settings, say
+
+    def command(self, case, settings, ranks=1):
+        words = [str(self.program), "run", str(case), "--out", str(self.folder / "run"), "--force", "--quiet",
+                 "-n", str(ranks)]
+        for setting in (*self.settings, *settings):
+            words += ["--set", setting]
+        return words
+
+    def run(self, case, settings, ranks=1):
+        """Summary of a finished run. Throws DataError with the program's message."""
+        try:
+            told = subprocess.run(self.command(case, settings, ranks), capture_output=True, text=True, check=False)
+        except OSError as error:
+            raise DataError(f"{self.program}: cannot be started ({error.strerror})") from error
+        if told.returncode != 0:
+            raise DataError(" ".join(told.stderr.split()).removeprefix("error: ") or f"exit code {told.returncode}")
+        return json.loads((self.folder / "run" / "summary.json").read_text(encoding="utf-8"))
+
+
+@dataclass(frozen=True)
+class StepCost:
+    """Of one step."""
+
+    fluid: int
+    cpu: float  # s
+    wall: float  # s
+    iterations: float
+    memory: float  # bytes; peak of the run, all ranks
+
+    @property
+    def cpu_per_particle(self):
+        return self.cpu / self.fluid
+
+
+def difference(short, long):
+    """What a step costs, from two runs that differ in their ends: start and end of the runs cancel."""
+    steps = long["steps"]["count"] - short["steps"]["count"]
+    if steps <= 0:
+        raise DataError(f"the longer run has {long['steps']['count']} steps, the shorter {short['steps']['count']}")
+
+    def per_step(block, key):
+        return (long[block][key] - short[block][key]) / steps
+
+    return StepCost(long["particles"]["fluid"], per_step("cost", "cpu_s"), per_step("cost", "wall_clock_s"),
+                    per_step("pressure_solver", "iterations"), long["cost"]["peak_memory_bytes"])
+
+
+def step_cost(runner, water, particles, steps, ranks=1):
+    runs = [runner.run(water.case, water.first_steps(particles, count), ranks)
+            for count in (UNCOUNTED_STEPS, UNCOUNTED_STEPS + steps)]
+    return difference(*runs)
+
+
+def least(costs, key):
+    """The one of several measurements that other programs disturbed least."""
+    return min(costs, key=lambda cost: getattr(cost, key))
+
+
+def exponent(sizes, costs):
+    """p of cost ~ size^p, by least squares of the logarithms. Throws DataError where there is none."""
+    if len(set(sizes)) < 2:
+        raise DataError("an exponent needs two sizes")
+    if min(costs) <= 0:  # differences of times of short runs on a busy machine
+        raise DataError("a cost is not positive: the machine is too busy, or the runs are too short")
+    x, y = [math.log(size) for size in sizes], [math.log(cost) for cost in costs]
+    x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
+    return (sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / sum((a - x_mean) ** 2 for a in x))
