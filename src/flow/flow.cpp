@@ -17,7 +17,7 @@ constexpr double skin_over_spacing = 0.6;
 
 /// Fluid first, then walls; ids in that order.
 template <int Dim>
-Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, double volume) {
+Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, double wall_volume) {
   Particles<Dim> particles;
   const std::size_t fluid_count = fluid.position.size();
   particles.resize(fluid_count + walls.size());
@@ -27,7 +27,7 @@ Particles<Dim> make_particles(const FluidParticles<Dim>& fluid, const WallPartic
     particles.position[i] = is_fluid ? fluid.position[i] : walls.position[i - fluid_count];
     particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
-    particles.volume[i] = volume;
+    particles.volume[i] = is_fluid ? fluid.volume[i] : wall_volume;
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(i - fluid_count);
     particles.id[i] = static_cast<std::int64_t>(i);
