@@ -22,7 +22,9 @@ void write_new_case(const NewOptions& options) {
     throw InputError(
         fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
   }
-  write_text_file(options.file, options.kind == "tank" ? templates::tank : templates::dam_break);
+  write_text_file(options.file, options.kind == "tank"   ? templates::tank
+                                : options.kind == "pier" ? templates::pier
+                                                         : templates::dam_break);
   const std::string file = options.file.string();
   fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
              options.file.stem().string());
@@ -33,9 +35,13 @@ void write_new_case(const NewOptions& options) {
 void add_new_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<NewOptions>();
   CLI::App* command = app.add_subcommand("new", "Start a case file from a template");
-  command->add_option("template", options->kind, "dam-break (a column collapses in a tank) or tank (water at rest)")
+  command
+      ->add_option(
+          "template", options->kind,
+          "dam-break (a column collapses in a tank), tank (water at rest) or pier (3D, a dam breaks against a pier "
+          "from an STL file)")
       ->required()
-      ->check(CLI::IsMember({"dam-break", "tank"}))
+      ->check(CLI::IsMember({"dam-break", "tank", "pier"}))
       ->type_name("NAME");
   command->add_option("file", options->file, "The case file to write")->required()->type_name("");
   command->add_flag("--force", options->force, "Overwrite the file if it exists");

@@ -8,9 +8,9 @@
 
 namespace tailwater {
 
-enum class BlockShape { box, polygon };
-enum class WallShape { polyline, polygon, box };
-enum class FluidSide { left, right, inside, outside };
+enum class BlockShape { box, polygon, fill };
+enum class WallShape { polyline, polygon, box, mesh };
+enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
 
 enum class SchemeName { farzin2014, farmani2020 };
@@ -52,15 +52,16 @@ struct Choices;
 
 template <>
 struct Choices<BlockShape> {
-  static constexpr std::array<std::string_view, 2> names{"box", "polygon"};
+  static constexpr std::array<std::string_view, 3> names{"box", "polygon", "fill"};
 };
 template <>
 struct Choices<WallShape> {
-  static constexpr std::array<std::string_view, 3> names{"polyline", "polygon", "box"};
+  static constexpr std::array<std::string_view, 4> names{"polyline", "polygon", "box", "mesh"};
 };
 template <>
 struct Choices<FluidSide> {
-  static constexpr std::array<std::string_view, 4> names{"left", "right", "inside", "outside"};
+  static constexpr std::array<std::string_view, 8> names{"left",  "right", "inside", "outside",
+                                                         "above", "below", "front",  "back"};
 };
 template <>
 struct Choices<Slip> {

@@ -25,9 +25,11 @@ std::span<const KeyUse> key_uses() {
   static const std::vector<KeyUse> uses{
       {"fluid", "shape", "box", {"min", "max"}, {}},
       {"fluid", "shape", "polygon", {"points"}, {}},
-      {"wall", "shape", "polyline", {"points"}, {}},
-      {"wall", "shape", "polygon", {"points"}, {}},
+      {"fluid", "shape", "fill", {"seed", "level"}, {}},
+      {"wall", "shape", "polyline", {}, {"points", "points_file"}},
+      {"wall", "shape", "polygon", {}, {"points", "points_file"}},
       {"wall", "shape", "box", {"min", "max"}, {"open"}},
+      {"wall", "shape", "mesh", {"file"}, {"checksum", "scale", "rotate", "translate"}},
       {"wall", "slip", "free", {}, {}},
       {"wall", "slip", "no-slip", {}, {}},
       {"wall", "slip", "partial", {}, {"friction"}},

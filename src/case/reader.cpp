@@ -106,6 +106,7 @@ class CaseReader {
     reader.report_unknown_keys(rows);
     check_key_uses(name, rows, reader);
     check(table, reader);
+    read_linked_files(table, reader);
   }
 
   void report(const toml::node& node, std::string_view key, const std::string& message) {
@@ -304,18 +305,10 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   return sources;
 }
 
-}  // namespace
-
-CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_case_text(read_text(path, largest_file), path.string(), overrides);
-}
-
-CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_case_text(read_text(path, largest_effective_case), path.string(), overrides);
-}
-
-CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
-  Context context(origin);
+/// `folder`: that of the case, for files it names.
+CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text, const std::string& origin,
+                      const std::vector<std::string>& overrides) {
+  Context context(origin, folder);
   toml::table root = parse(text, origin);
   for (const std::string& problem : apply_overrides(root, overrides)) {
     context.problems.add_override(problem);
@@ -334,6 +327,20 @@ CaseSpec read_case_text(std::string_view text, const std::string& origin, const 
   }
   spec.sources = find_sources(spec, root, origin);
   return spec;
+}
+
+}  // namespace
+
+CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read_case_in(path.parent_path(), read_text(path, largest_file), path.string(), overrides);
+}
+
+CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read_case_in(path.parent_path(), read_text(path, largest_effective_case), path.string(), overrides);
+}
+
+CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
+  return read_case_in({}, text, origin, overrides);
 }
 
 }  // namespace tailwater

@@ -138,6 +138,8 @@ struct FluidTable {
   Coordinates min;
   Coordinates max;
   std::vector<Coordinates> points;
+  Coordinates seed;
+  double level = 0.0;
   VectorField velocity;
 
   bool operator==(const FluidTable&) const = default;
@@ -145,10 +147,15 @@ struct FluidTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages (default: fluid1, fluid2, ...)");
-    v.choice("shape", self.shape, "Shape of the block: an axis-parallel box, or a polygon (2D)");
+    v.choice("shape", self.shape,
+             "Shape of the block: an axis-parallel box, a polygon (2D), or all that water poured in at a seed point "
+             "fills up "
+             "to a level (fill); bodies that stand in the block are left out of it");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
+    v.coordinates("seed", self.seed, "m", "Point in the water of a fill");
+    v.number("level", self.level, "m", {}, "Height of the surface of a fill: its y in 2D, its z in 3D");
     v.field("velocity", self.velocity, Variables::position, "m/s",
             "Initial velocity (default: at rest); expressions may use the particle's coordinates x, y, z");
   }
@@ -158,9 +165,15 @@ struct WallTable {
   std::string name;
   WallShape shape = WallShape::polyline;
   std::vector<Coordinates> points;
+  std::string points_file;
   Coordinates min;
   Coordinates max;
   std::vector<std::string> open;
+  std::string file;
+  std::string checksum;
+  double scale = 1.0;
+  Coordinates rotate;
+  Coordinates translate;
   FluidSide fluid_side = FluidSide::left;
   Slip slip = Slip::free;
   double friction = 0.5;
@@ -174,15 +187,29 @@ struct WallTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
     v.choice("shape", self.shape,
-             "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box");
+             "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
+             "from a "
+             "file (3D)");
     v.points("points", self.points, "m", "Corners of a polyline or polygon, in order");
+    v.text("points_file", self.points_file,
+           "Instead of points: CSV file of them, relative to the case file (docs/theory/geometry.md); a run keeps the "
+           "points in its case");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.texts("open", self.open, box_face_names, "Faces of a box that are left open");
+    v.text("file", self.file, "STL, OBJ or PLY file of a mesh, relative to the case file");
+    v.text("checksum", self.checksum,
+           "CRC-32 of the mesh file, which a run writes into its case; a file with another one is refused");
+    v.number("scale", self.scale, "", Range::above(0.0), "Length of the mesh file's unit in m: 0.001 for millimetres");
+    v.coordinates("rotate", self.rotate, "deg",
+                  "Angles by which the mesh is turned after scaling: about the x, the y and the z axis, in this order, "
+                  "counter-clockwise as seen against the axis");
+    v.coordinates("translate", self.translate, "m", "Displacement of the mesh after it has been turned");
     v.choice(
         "fluid_side", self.fluid_side,
         "Side on which the water is: left or right of a polyline, seen in the order of its points; inside or outside a "
-        "polygon or box (default: left; inside)");
+        "polygon, box or closed mesh; above or below an open mesh, or in front or at the back of it, where the front "
+        "sees the corners of triangles counter-clockwise (default: left; inside; needed for a mesh)");
     v.choice("slip", self.slip,
              "Friction on the wall: none (free), that of a smooth wall (no-slip), or a fraction of it (partial)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),

@@ -1,6 +1,7 @@
 // Reads one table of a case file, key by key, with the keys' own ranges and types.
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <set>
@@ -25,9 +26,10 @@ std::optional<double> number_in(const toml::node& node);
 
 /// State that the tables of one file share while they are read.
 struct Context {
-  explicit Context(const std::string& file) : problems(file) {}
+  Context(const std::string& file, std::filesystem::path home) : problems(file), folder(std::move(home)) {}
 
   Problems problems;
+  std::filesystem::path folder;  ///< files that the case names are relative to it
   NamedNumbers numbers;
   int dimension = 0;                 ///< 0: unknown, because the file gives an invalid one
   std::set<std::string> keys_done;   ///< full keys that were read ahead of their table
@@ -80,6 +82,11 @@ class TableReader {
   bool is_wrong(std::string_view key) const { return context_.keys_wrong.contains(full(key)); }
   /// 2 or 3; 0 if the file gives an invalid one.
   int dimension() const { return context_.dimension; }
+
+  /// The file that the case names, relative to its own folder.
+  std::filesystem::path linked(const std::string& file) const {
+    return std::filesystem::absolute(context_.folder / file).lexically_normal();
+  }
 
   /// Reports a problem with the value of `key`, or with the part of it at `place`.
   void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");

@@ -6,20 +6,23 @@
 #include <cmath>
 #include <functional>
 
+#include "base/error.h"
 #include "case/formulation.h"
 #include "case/key_use.h"
+#include "case/linked_files.h"
 
 namespace tailwater {
 
 namespace {
 
-void check_shape_dimension(std::string_view shape, bool is_planar, TableReader& reader) {
+/// `dimension`: the only one in which the shape exists; 0: it exists in both.
+void check_shape_dimension(std::string_view shape, int dimension, std::string_view instead, TableReader& reader) {
   const toml::node* node = reader.given("shape");
-  if (!is_planar || reader.dimension() != 3) {
+  if (dimension == 0 || reader.dimension() == 0 || reader.dimension() == dimension) {
     return;
   }
-  const std::string message =
-      fmt::format("\"{}\" is a shape of two dimensions, but case.dimension = 3; use \"box\"", shape);
+  const std::string message = fmt::format("\"{}\" is a shape of {} dimensions, but case.dimension = {}; use {}", shape,
+                                          dimension == 2 ? "two" : "three", reader.dimension(), instead);
   if (node != nullptr) {
     reader.wrong("shape", *node, message);
   } else {
@@ -86,6 +89,7 @@ void set_defaults(WallTable& wall, TableReader& reader) {
   wall.fluid_side = wall.shape == WallShape::polyline ? FluidSide::left : FluidSide::inside;
   wall.displacement.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
   wall.pivot.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+  wall.rotate = wall.translate = wall.pivot;
 }
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
@@ -127,13 +131,66 @@ void check(const PhysicsTable& physics, TableReader& reader) {
 }
 
 void check(const FluidTable& fluid, TableReader& reader) {
-  check_shape_dimension(name_of(fluid.shape), fluid.shape == BlockShape::polygon, reader);
+  check_shape_dimension(name_of(fluid.shape), fluid.shape == BlockShape::polygon ? 2 : 0, "\"box\" or \"fill\"",
+                        reader);
   check_box(fluid.min, fluid.max, reader);
   check_corner_count(fluid.points, 3, reader);
 }
 
+namespace {
+
+/// A chain has its points in the case or in a file.
+void check_points_given(const WallTable& wall, TableReader& reader) {
+  if (wall.shape != WallShape::polyline && wall.shape != WallShape::polygon) return;
+  const bool has_file = !wall.points_file.empty();
+  if (has_file && reader.given("points") != nullptr) {
+    reader.wrong("points_file", *reader.given("points_file"),
+                 "the wall has points as well; remove one of the two keys");
+  } else if (!has_file && reader.given("points") == nullptr && !reader.is_wrong("shape") &&
+             !reader.is_wrong("points_file")) {
+    reader.missing(
+        "points", fmt::format("shape = \"{}\" needs it: give its corners in m, or a points_file", name_of(wall.shape)));
+  }
+}
+
+void check_fluid_side(const WallTable& wall, TableReader& reader) {
+  if (reader.is_wrong("shape") || reader.is_wrong("fluid_side")) return;
+  const toml::node* node = reader.given("fluid_side");
+  const FluidSide side = wall.fluid_side;
+  const bool is_chain_side = side == FluidSide::left || side == FluidSide::right;
+  const bool is_body_side = side == FluidSide::inside || side == FluidSide::outside;
+  if (wall.shape == WallShape::mesh) {
+    constexpr std::string_view sides =
+        "\"inside\" or \"outside\" of a closed mesh, \"above\" or \"below\" an open one, or its \"front\" or \"back\"";
+    if (node == nullptr) {
+      reader.missing("fluid_side", fmt::format("a mesh needs it; give {}", sides));
+    } else if (is_chain_side) {
+      reader.wrong("fluid_side", *node, fmt::format("does not fit shape = \"mesh\"; give {}", sides));
+    }
+    return;
+  }
+  const bool is_chain = wall.shape == WallShape::polyline;
+  if (is_chain ? is_chain_side : is_body_side) return;
+  reader.wrong("fluid_side", *node,
+               fmt::format("does not fit shape = \"{}\"; give {}", name_of(wall.shape),
+                           is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
+}
+
+}  // namespace
+
 void check(const WallTable& wall, TableReader& reader) {
-  check_shape_dimension(name_of(wall.shape), wall.shape != WallShape::box, reader);
+  switch (wall.shape) {
+    case WallShape::polyline:
+    case WallShape::polygon:
+      check_shape_dimension(name_of(wall.shape), 2, "\"box\" or \"mesh\"", reader);
+      break;
+    case WallShape::mesh:
+      check_shape_dimension(name_of(wall.shape), 3, "\"polyline\", \"polygon\" or \"box\"", reader);
+      break;
+    case WallShape::box:
+      break;
+  }
+  check_points_given(wall, reader);
   check_box(wall.min, wall.max, reader);
   check_corner_count(wall.points, wall.shape == WallShape::polyline ? 2 : 3, reader);
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
@@ -143,15 +200,46 @@ void check(const WallTable& wall, TableReader& reader) {
       }
     }
   }
-  const bool is_chain = wall.shape == WallShape::polyline;
-  const bool is_side_of_chain = wall.fluid_side == FluidSide::left || wall.fluid_side == FluidSide::right;
-  if (is_chain != is_side_of_chain && !reader.is_wrong("shape") && !reader.is_wrong("fluid_side")) {
-    reader.wrong("fluid_side", *reader.given("fluid_side"),
-                 fmt::format("does not fit shape = \"{}\"; give {}", name_of(wall.shape),
-                             is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
-  }
+  check_fluid_side(wall, reader);
   if (reader.dimension() == 3 && wall.rotation != Varying(0.0)) {
     reader.wrong("rotation", *reader.given("rotation"), "walls turn in two dimensions only; remove the key");
+  }
+}
+
+void read_linked_files(WallTable& wall, TableReader& reader) {
+  const auto read = [&](std::string_view key, auto&& body) {
+    const toml::node* node = reader.given(key);
+    if (node == nullptr || reader.is_wrong(key) || reader.is_wrong("shape")) return;
+    try {
+      body();
+    } catch (const UserError& error) {
+      reader.wrong(key, *node, error.what());
+    }
+  };
+  if (!wall.points_file.empty() && wall.points.empty()) {
+    read("points_file", [&] {
+      wall.points = read_points_file(reader.linked(wall.points_file));
+      const std::size_t least = wall.shape == WallShape::polyline ? 2 : 3;
+      if (wall.points.size() < least) {
+        throw InputError(fmt::format("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
+                                     wall.points.size(), least));
+      }
+      wall.points_file.clear();
+    });
+  }
+  if (wall.shape == WallShape::mesh) {
+    read("file", [&] {
+      const std::filesystem::path path = reader.linked(wall.file);
+      const std::string found = checksum_of_file(path);
+      if (!wall.checksum.empty() && wall.checksum != found) {
+        throw InputError(
+            fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
+                        "was made for, or start a new run without checksum",
+                        path.string(), found, wall.checksum));
+      }
+      wall.file = path.string();
+      wall.checksum = found;
+    });
   }
 }
 

@@ -21,6 +21,12 @@ void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
 
+/// Reads the files that a sound table names. Points from a file become the table's own, and the name of a mesh file
+/// becomes absolute, so that the case does not depend on its folder any more.
+template <class Table>
+void read_linked_files(Table&, TableReader&) {}
+void read_linked_files(WallTable& wall, TableReader& reader);
+
 /// Checks a table that has been read.
 template <class Table>
 void check(const Table&, TableReader&) {}

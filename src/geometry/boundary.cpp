@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+#include "geometry/mesh_walls.h"
+#include "geometry/sampling.h"
 
 namespace tailwater {
 namespace {
@@ -176,27 +180,30 @@ Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
 
 // The region of a triangle (corner, edge, inside) that holds the nearest point follows from the signs of the
 // barycentric coordinates of the projection: C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
-Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x) {
-  const auto& [a, b, c] = face.corners;
+Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& x) {
   const Vec<3> ab = b - a;
   const Vec<3> ac = c - a;
   const double ab_a = ab.dot(x - a), ac_a = ac.dot(x - a);
-  if (ab_a <= 0.0 && ac_a <= 0.0) return a;
+  if (ab_a <= 0.0 && ac_a <= 0.0) return {a, 0};
   const double ab_b = ab.dot(x - b), ac_b = ac.dot(x - b);
-  if (ab_b >= 0.0 && ac_b <= ab_b) return b;
+  if (ab_b >= 0.0 && ac_b <= ab_b) return {b, 1};
   const double ab_c = ab.dot(x - c), ac_c = ac.dot(x - c);
-  if (ac_c >= 0.0 && ab_c <= ac_c) return c;
+  if (ac_c >= 0.0 && ab_c <= ac_c) return {c, 2};
 
   const double weight_c = ab_a * ac_b - ab_b * ac_a;
-  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) return a + ab_a / (ab_a - ab_b) * ab;
+  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) return {a + ab_a / (ab_a - ab_b) * ab, 3};
   const double weight_b = ab_c * ac_a - ab_a * ac_c;
-  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) return a + ac_a / (ac_a - ac_c) * ac;
+  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) return {a + ac_a / (ac_a - ac_c) * ac, 5};
   const double weight_a = ab_b * ac_c - ab_c * ac_b;
   const double towards_c = ac_b - ab_b, towards_b = ab_c - ac_c;
   if (weight_a <= 0.0 && towards_c >= 0.0 && towards_b >= 0.0) {
-    return b + towards_c / (towards_c + towards_b) * (c - b);
+    return {b + towards_c / (towards_c + towards_b) * (c - b), 4};
   }
-  return a + (weight_b * ab + weight_c * ac) / (weight_a + weight_b + weight_c);
+  return {a + (weight_b * ab + weight_c * ac) / (weight_a + weight_b + weight_c), -1};
+}
+
+Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x) {
+  return closest_feature(face.corners[0], face.corners[1], face.corners[2], x).point;
 }
 
 template <int Dim>
@@ -214,15 +221,39 @@ template <int Dim>
 void Boundary<Dim>::file_faces(double reach) {
   moving_.clear();
   resting_ = FaceGrid<Dim>(reach);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  visit_plain_faces([&](int f) {
     if (walls[faces[f].wall].moves()) {
-      moving_.push_back(static_cast<int>(f));
-      continue;
+      moving_.push_back(f);
+      return;
     }
     const Eigen::AlignedBox<double, Dim> box = faces[f].box();
-    resting_.add(static_cast<int>(f), box.min(), box.max(),
-                 [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
+    resting_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
+  });
+}
+
+int WallMesh::end_face() const { return first_face + static_cast<int>(surface->mesh().triangles.size()); }
+
+template <int Dim>
+const WallMesh* Boundary<Dim>::mesh_of(int face) const {
+  for (const WallMesh& mesh : meshes) {
+    if (face >= mesh.first_face && face < mesh.end_face()) return &mesh;
   }
+  return nullptr;
+}
+
+template <int Dim>
+double Boundary<Dim>::height_above(const WallMesh& mesh, const Vec<Dim>& x, double search_distance) const {
+  if constexpr (Dim == 3) {
+    const SurfacePlace place = mesh.surface->nearest(x - way_of(mesh), search_distance);
+    if (place.triangle >= 0) return place.signed_distance;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+Vec<Dim> Boundary<Dim>::way_of(const WallMesh& mesh) const {
+  if constexpr (Dim == 3) return faces[mesh.first_face].corners[0] - mesh.surface->mesh().corner(0, 0);
+  return Vec<Dim>::Zero();
 }
 
 template <int Dim>
@@ -260,7 +291,20 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
     for (const int f : resting_.near(x)) look_at(f);
     for (const int f : moving_) look_at(f);
   } else {
-    for (std::size_t f = 0; f < faces.size(); ++f) look_at(static_cast<int>(f));
+    visit_plain_faces(look_at);
+  }
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : meshes) {
+      const Vec<3> way = way_of(mesh);
+      const SurfacePlace place = mesh.surface->nearest(x - way, best_distance);
+      if (place.triangle < 0) continue;
+      // Where a mesh touches another wall, what is behind either is behind the walls.
+      const double distance = std::abs(place.signed_distance);
+      const bool is_tie = best.face >= 0 && best_distance - distance <= 1e-9 * distance;
+      if (is_tie && place.signed_distance >= 0.0) continue;
+      best = {mesh.first_face + place.triangle, place.point + way, place.signed_distance};
+      best_distance = distance;
+    }
   }
   return best;
 }
@@ -268,8 +312,10 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec) {
   Boundary<Dim> boundary;
+  std::size_t compared = 0;
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const WallTable& table = spec.walls[w];
+    const std::size_t before = boundary.faces.size();
     const int wall = static_cast<int>(w);
     boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w)});
     const std::string owner = wall_label(boundary, wall);
@@ -277,15 +323,21 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
     } else if constexpr (Dim == 2) {
       append_chain(table, wall, owner, spec.particles.spacing, boundary.faces);
+    } else if (table.shape == WallShape::mesh) {
+      append_mesh(spec, table, wall, owner, boundary);
     } else {
-      throw InputError(
-          fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\"", owner, name_of(table.shape)));
+      throw InputError(fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\" or \"mesh\"", owner,
+                                   name_of(table.shape)));
     }
-    if (boundary.faces.size() > most_faces) {
-      throw InputError(fmt::format("{}: with it the walls have {} pieces, and a case has at most {}: draw them coarser",
-                                   owner, boundary.faces.size(), most_faces));
+    // The faces of a resting mesh are found by its own tree.
+    if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
+    if (compared > most_faces) {
+      throw InputError(
+          fmt::format("{}: with it the walls have {} pieces{}, and a case has at most {}: draw them coarser", owner,
+                      compared, boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces));
     }
   }
+  if (!boundary.meshes.empty() && !spec.fluid.empty()) boundary.lattice = make_lattice<Dim>(spec, 0, boundary);
   return boundary;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/face_grid.h"
+#include "geometry/lattice_axis.h"
 
 namespace tailwater {
 
@@ -26,6 +28,19 @@ struct WallFace {
   /// The axis-parallel box around it.
   Eigen::AlignedBox<double, Dim> box() const;
 };
+
+/// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
+/// corner 2 to corner 0.
+struct Foot {
+  Vec<3> point = Vec<3>::Zero();
+  int feature = -1;  ///< -1: the inside; 0 to 2: a corner; 3 to 5: an edge
+
+  bool is_corner() const { return feature >= 0 && feature < 3; }
+  bool is_edge() const { return feature >= 3; }
+  int number() const { return feature % 3; }  ///< of the corner or edge
+};
+
+Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& x);
 
 /// Point of the face nearest to `x`.
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
@@ -63,10 +78,27 @@ struct NearestWall {
   double signed_distance = 0.0;  ///< m; positive on the fluid side, negative behind the wall
 };
 
+class MeshSurface;
+
+/// A wall that is a mesh: its faces are consecutive, in the order of the triangles of its surface, and face the water.
+struct WallMesh {
+  std::shared_ptr<const MeshSurface> surface;  ///< as drawn
+  int first_face = 0;
+  int wall = 0;
+
+  int end_face() const;
+};
+
+/// The cells of the water's lattice, by axis.
+template <int Dim>
+using Lattice = std::array<LatticeAxis, Dim>;
+
 template <int Dim>
 struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
+  std::vector<WallMesh> meshes;  ///< by first face; none in 2D
+  Lattice<Dim> lattice;          ///< of the first block of water, which goes on behind the meshes
 
   /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
@@ -75,12 +107,32 @@ struct Boundary {
 
   /// Nearest wall within `search_distance` (m, may be infinite) of `x`. Where several faces are equally near (a shared
   /// corner), the sign is that of the face whose plane is farthest from `x`, which is right at convex and concave
-  /// corners.
+  /// corners. The sign of a mesh is right at saddles as well (mesh_surface.h).
   NearestWall<Dim> nearest(const Vec<Dim>& x, double search_distance) const;
 
+  /// The signed distance of `x` from one mesh; infinite if there is nothing of it within `search_distance`.
+  double height_above(const WallMesh& mesh, const Vec<Dim>& x, double search_distance) const;
+
+  /// How far a mesh that moves is from where it is drawn.
+  Vec<Dim> way_of(const WallMesh& mesh) const;
+
+  /// Calls visit(f) for every face that is not of a mesh.
+  template <class Visit>
+  void visit_plain_faces(Visit&& visit) const {
+    int f = 0;
+    for (const WallMesh& mesh : meshes) {
+      for (; f < mesh.first_face; ++f) visit(f);
+      f = mesh.end_face();
+    }
+    for (; f < static_cast<int>(faces.size()); ++f) visit(f);
+  }
+
+  /// The mesh that a face belongs to; null if it belongs to none.
+  const WallMesh* mesh_of(int face) const;
+
  private:
-  FaceGrid<Dim> resting_;    ///< reach 0: nothing is filed
-  std::vector<int> moving_;  ///< faces, when others are filed
+  FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is filed
+  std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed
 };
 
 /// "wall 'gate'": the name of a wall in messages.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/from_spec.h"
 
@@ -37,7 +38,7 @@ CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces
     }
     cells *= count_[axis];
   }
-  near_wall_.resize(cells);
+  near_faces_.resize(cells + 1);
   set_faces(std::move(faces));
 }
 
@@ -75,10 +76,17 @@ std::optional<typename CellSpace<Dim>::Cell> CellSpace<Dim>::next(Cell c, int ax
 template <int Dim>
 void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
   faces_ = std::move(faces);
-  std::fill(near_wall_.begin(), near_wall_.end(), false);
-  for (const WallFace<Dim>& face : faces_) {
-    visit_around(face, face, [&](const Cell& c) { near_wall_[index(c)] = true; });
-  }
+  const auto for_each_near = [&](auto&& visit) {
+    for (std::size_t f = faces_.size(); f-- > 0;) {
+      visit_around(faces_[f], faces_[f], [&](const Cell& c) { visit(index(c), static_cast<int>(f)); });
+    }
+  };
+  // First how many faces each cell has, then where its list ends; filling it from the end leaves where it begins.
+  std::fill(near_faces_.begin(), near_faces_.end(), 0);
+  for_each_near([&](std::size_t c, int) { ++near_faces_[c]; });
+  std::partial_sum(near_faces_.begin(), near_faces_.end(), near_faces_.begin());
+  near_list_.resize(near_faces_.back());
+  for_each_near([&](std::size_t c, int f) { near_list_[--near_faces_[c]] = f; });
 }
 
 template <int Dim>
@@ -89,18 +97,18 @@ bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, con
 }
 
 template <int Dim>
-int CellSpace<Dim>::face_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
-  const auto face =
-      std::ranges::find_if(faces_, [&](const WallFace<Dim>& candidate) { return passes(candidate, from, to); });
-  return face == faces_.end() ? -1 : static_cast<int>(face - faces_.begin());
+int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
+  const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
+  const auto face = std::find_if(begin, end, [&](int f) { return passes(faces_[f], from, to); });
+  return face == end ? -1 : *face;
 }
 
 template <int Dim>
 int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
-  if (!near_wall_[index(c)]) return -1;
   Cell beside = c;
   beside[axis] += step;  // also beyond a periodic end: faces have no images
-  return face_between(centre(c), centre(beside));
+  return face_between(c, centre(c), centre(beside));
 }
 
 template <int Dim>
@@ -141,7 +149,7 @@ std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space,
   std::vector<typename CellSpace<Dim>::Cell> cells;
   for (const Vec<Dim>& x : positions) {
     const auto c = space.cell_of(x);
-    if (space.face_between(x, space.centre(c)) < 0) cells.push_back(c);
+    if (space.face_between(c, x, space.centre(c)) < 0) cells.push_back(c);
   }
   return cells;
 }

@@ -21,7 +21,7 @@ class CellSpace {
 
   CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, std::span<const Vec<Dim>> water, double most);
 
-  std::size_t count() const { return near_wall_.size(); }
+  std::size_t count() const { return near_faces_.size() - 1; }
   double volume() const { return size_.prod(); }  ///< of a cell, m^Dim
   std::size_t index(const Cell& c) const;
   Vec<Dim> centre(const Cell& c) const;
@@ -36,9 +36,9 @@ class CellSpace {
   /// Whether the way from one place to another passes the face. A place exactly on it counts as in front, so that no
   /// way can pass a wall by resting on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// A face that the way passes; -1 if none.
-  int face_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// The same from a cell to the next one, which may be outside; faster.
+  /// A face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none.
+  int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// The same from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;
 
   /// Calls visit(cell) for all cells in the box around two faces, and those beside it.
@@ -67,7 +67,9 @@ class CellSpace {
   Vec<Dim> low_, size_;
   Cell count_;
   std::array<bool, Dim> is_periodic_;
-  std::vector<bool> near_wall_;  ///< cells from which one step may meet a face
+  std::vector<std::size_t>
+      near_faces_;  ///< by cell: where in near_list_ the faces begin that one step from it may meet
+  std::vector<int> near_list_;
 };
 
 /// The cells that water reaches.

@@ -12,6 +12,8 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if constexpr (Dim == 2) {
     append(findings, check_self_crossing(spec, boundary));
     append(findings, check_crests(spec, boundary));
+  } else {
+    append(findings, check_meshes(spec, boundary, fluid));
   }
   append(findings, check_wall_thickness(spec, boundary));
   append(findings, check_overlap(spec, fluid));

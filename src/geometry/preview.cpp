@@ -264,13 +264,18 @@ void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid
     svg.dots(fluid.position, view, fluid_colour, diameter);
     return;
   }
-  for (const FluidTable& block : spec.fluid) {
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
     std::vector<Vec<2>> corners;
     if (block.shape == BlockShape::polygon) {
       for (const Coordinates& x : block.points) corners.push_back(view(project(x)));
     } else {
-      const Vec<2> low = view(project(block.min));
-      const Vec<2> high = view(project(block.max));
+      Extent extent;
+      for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+        if (fluid.block[i] == static_cast<int>(b)) extent.include(project(fluid.position[i]));
+      }
+      const Vec<2> low = view(extent.low);
+      const Vec<2> high = view(extent.high);
       corners = {low, {high[0], low[1]}, high, {low[0], high[1]}};
     }
     svg.outline(corners, fluid_colour, fluid_colour);

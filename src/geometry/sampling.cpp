@@ -4,16 +4,26 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <variant>
 
 #include "case/named_numbers.h"
+#include "geometry/fill.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
 namespace {
 
+/// dx; a face as large as a square of this edge (in 2D as long) divides the lattice.
+constexpr double least_edge = 3.0;
+
 constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
+
+template <int Dim>
+bool is_axis_parallel(const WallFace<Dim>& face) {
+  return face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
+}
 
 /// Number in [-1, 1) that depends only on the arguments (SplitMix64, Steele, Lea & Flood 2014). The standard library's
 /// distributions differ between machines.
@@ -46,54 +56,90 @@ Where where_in(const std::vector<Vec<2>>& corners, const Vec<2>& x, double toler
   return is_inside ? Where::inside : Where::outside;
 }
 
-/// One block's lattice: node (i, j, k) stands at low + (index + offset) dx.
+/// The places where one block may have particles.
 template <int Dim>
-struct Lattice {
-  Vec<Dim> low, high;
-  std::array<int, Dim> count;
-  Vec<Dim> offset;
-  std::vector<Vec<2>> outline;  ///< corners of a polygon; empty for a box
+struct Places {
+  Lattice<Dim> lattice;
+  std::array<int, Dim> count;     ///< of places along each axis
+  std::array<double, Dim> share;  ///< of the way through its cell at which a place stands
+  std::vector<Vec<2>> outline;    ///< corners of a polygon
+
+  Vec<Dim> at(const Cell<Dim>& cell) const {
+    Vec<Dim> x;
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = lattice[axis].at(static_cast<int>(cell[axis]), share[axis]);
+    return x;
+  }
+  double volume(const Cell<Dim>& cell) const {
+    double volume = 1.0;
+    for (int axis = 0; axis < Dim; ++axis) volume *= lattice[axis].width(static_cast<int>(cell[axis]));
+    return volume;
+  }
 };
 
+std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner) {
+  std::vector<Vec<2>> outline;
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
+  }
+  if (outline.size() < 3) {
+    throw InputError(fmt::format("{} has {} points: a polygon needs at least 3", owner, outline.size()));
+  }
+  return outline;
+}
+
+/// The box around a box or polygon.
 template <int Dim>
-Lattice<Dim> make_lattice(const CaseSpec& spec, const FluidTable& block, const std::string& owner) {
-  const double dx = spec.particles.spacing;
-  Lattice<Dim> lattice;
+Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::string& owner) {
+  Eigen::AlignedBox<double, Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw InputError(fmt::format("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\"", owner));
+      throw InputError(
+          fmt::format("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\" or \"fill\"", owner));
     } else {
-      for (std::size_t k = 0; k < block.points.size(); ++k) {
-        lattice.outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
-      }
-      if (lattice.outline.size() < 3) {
-        throw InputError(fmt::format("{} has {} points: a polygon needs at least 3", owner, lattice.outline.size()));
-      }
-      lattice.low = lattice.high = lattice.outline[0];
-      for (const Vec<2>& corner : lattice.outline) {
-        lattice.low = lattice.low.cwiseMin(corner);
-        lattice.high = lattice.high.cwiseMax(corner);
-      }
+      for (const Vec<2>& corner : outline_of(block, owner)) box.extend(corner);
     }
   } else {
-    lattice.low = to_vec<Dim>(block.min, owner, "min");
-    lattice.high = to_vec<Dim>(block.max, owner, "max");
+    box.min() = to_vec<Dim>(block.min, owner, "min");
+    box.max() = to_vec<Dim>(block.max, owner, "max");
   }
   for (int axis = 0; axis < Dim; ++axis) {
-    const double extent = lattice.high[axis] - lattice.low[axis];
-    if (extent <= 0.0) {
-      throw InputError(
-          fmt::format("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
-                      owner, "xyz"[axis], lattice.low[axis], lattice.high[axis]));
-    }
-    const bool is_on_nodes = placement_of(spec.scheme.walls).on_wall && periodic_range(spec.domain, axis).empty();
-    const double cells = extent / dx;
-    // A polygon needs every lattice point of its bounding box; a box the number that fits best.
-    const double whole = lattice.outline.empty() ? std::round(cells) : std::ceil(cells - corner_tolerance);
-    lattice.count[axis] = std::max(1, static_cast<int>(whole)) + (is_on_nodes ? 1 : 0);
-    lattice.offset[axis] = is_on_nodes ? 0.0 : 0.5;
+    if (box.max()[axis] > box.min()[axis]) continue;
+    throw InputError(
+        fmt::format("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
+                    owner, "xyz"[axis], box.min()[axis], box.max()[axis]));
   }
-  return lattice;
+  return box;
+}
+
+/// Places of the planes of axis-parallel walls across `axis` that reach into the box.
+template <int Dim>
+std::vector<double> planes_in(const Boundary<Dim>& boundary, const Eigen::AlignedBox<double, Dim>& box, int axis,
+                              double least_measure) {
+  std::vector<double> planes;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (is_axis_parallel(face) && face.measure() >= least_measure && std::abs(face.normal[axis]) > 0.5 &&
+        box.intersects(face.box())) {
+      planes.push_back(face.corners[0][axis]);
+    }
+  }
+  std::ranges::sort(planes);
+  planes.erase(std::ranges::unique(planes).begin(), planes.end());
+  return planes;
+}
+
+template <int Dim>
+Places<Dim> make_places(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary) {
+  const FluidTable& block = spec.fluid[index];
+  Places<Dim> places{.lattice = make_lattice<Dim>(spec, index, boundary), .count = {}, .share = {}, .outline = {}};
+  if (block.shape == BlockShape::polygon) {
+    if constexpr (Dim == 2) places.outline = outline_of(block, fluid_label(spec, index));
+  }
+  for (int axis = 0; axis < Dim; ++axis) {
+    const bool is_on_nodes = placement_of(spec.scheme.walls).on_wall && periodic_range(spec.domain, axis).empty();
+    places.count[axis] = places.lattice[axis].count() + (is_on_nodes ? 1 : 0);
+    places.share[axis] = is_on_nodes ? 0.0 : 0.5;
+  }
+  return places;
 }
 
 /// The starting velocity of one block.
@@ -148,8 +194,7 @@ class StartVelocity {
 /// reports it.
 template <int Dim>
 bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
-  const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
-  return block.shape == BlockShape::polygon || !is_axis_parallel;
+  return block.shape != BlockShape::box || !is_axis_parallel(face);
 }
 
 /// Whether no fluid particle takes the lattice place `x`, because a wall particle stands there or because it is behind
@@ -183,13 +228,13 @@ Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, 
 template <int Dim>
 class InBlock {
  public:
-  InBlock(const Lattice<Dim>& lattice, double dx) : lattice_(lattice), tolerance_(corner_tolerance * dx) {}
+  InBlock(const std::vector<Vec<2>>& outline, double dx) : outline_(outline), tolerance_(corner_tolerance * dx) {}
 
   /// Call once for each place, in order.
   bool operator()(const Vec<Dim>& x) {
     if constexpr (Dim == 2) {
-      if (!lattice_.outline.empty()) {
-        const Where where = where_in(lattice_.outline, x, tolerance_);
+      if (!outline_.empty()) {
+        const Where where = where_in(outline_, x, tolerance_);
         if (where == Where::on_outline) return takes_next_on_outline_ = !takes_next_on_outline_;
         return where == Where::inside;
       }
@@ -198,50 +243,142 @@ class InBlock {
   }
 
  private:
-  const Lattice<Dim>& lattice_;
+  const std::vector<Vec<2>>& outline_;  ///< empty for a box
   double tolerance_;
   bool takes_next_on_outline_ = false;
 };
 
-/// Calls visit(x) for every place of the lattice, along x first.
+/// Bodies that stand in the water.
+template <int Dim>
+class Bodies {
+ public:
+  Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary)
+      : boundary_(boundary), tolerance_(corner_tolerance * spec.particles.spacing) {
+    for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+      const WallTable& wall = spec.walls[w];
+      if (wall.fluid_side != FluidSide::outside) continue;
+      const std::string owner = wall_label(boundary, static_cast<int>(w));
+      if (wall.shape == WallShape::box) {
+        boxes_.emplace_back(to_vec<Dim>(wall.min, owner, "min"), to_vec<Dim>(wall.max, owner, "max"));
+      } else if constexpr (Dim == 2) {
+        std::vector<Vec<2>>& outline = outlines_.emplace_back();
+        for (const Coordinates& point : wall.points) outline.push_back(to_vec<2>(point, owner, "points"));
+      }
+    }
+    for (const WallMesh& mesh : boundary.meshes) {
+      if (spec.walls[mesh.wall].fluid_side == FluidSide::outside) meshes_.push_back(&mesh);
+    }
+  }
+
+  /// Whether `x` is inside one of them, and not on its surface.
+  bool hold(const Vec<Dim>& x) const {
+    const Vec<Dim> margin = Vec<Dim>::Constant(tolerance_);
+    for (const Eigen::AlignedBox<double, Dim>& box : boxes_) {
+      if (((x - margin).array() > box.min().array()).all() && ((x + margin).array() < box.max().array()).all()) {
+        return true;
+      }
+    }
+    if constexpr (Dim == 2) {
+      for (const std::vector<Vec<2>>& outline : outlines_) {
+        if (where_in(outline, x, tolerance_) == Where::inside) return true;
+      }
+    }
+    return std::ranges::any_of(meshes_, [&](const WallMesh* mesh) {
+      return boundary_.height_above(*mesh, x, std::numeric_limits<double>::infinity()) < -tolerance_;
+    });
+  }
+
+ private:
+  const Boundary<Dim>& boundary_;
+  double tolerance_;  ///< m
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
+  std::vector<std::vector<Vec<2>>> outlines_;
+  std::vector<const WallMesh*> meshes_;
+};
+
+/// Calls visit(cell) for every cell with a place, along x first.
 template <int Dim, class Visit>
-void for_each_place(const Lattice<Dim>& lattice, double dx, Visit&& visit) {
-  std::array<int, Dim> node{};
+void for_each_cell(const std::array<int, Dim>& count, Visit&& visit) {
+  Cell<Dim> cell{};
   for (int axis = 0; axis < Dim;) {
-    Vec<Dim> x;
-    for (int k = 0; k < Dim; ++k) x[k] = lattice.low[k] + (node[k] + lattice.offset[k]) * dx;
-    visit(x);
-    for (axis = 0; axis < Dim && ++node[axis] == lattice.count[axis]; ++axis) node[axis] = 0;
+    visit(cell);
+    for (axis = 0; axis < Dim && ++cell[axis] == count[axis]; ++axis) cell[axis] = 0;
   }
 }
 
 }  // namespace
 
 template <int Dim>
+Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary) {
+  const FluidTable& block = spec.fluid[index];
+  const std::string owner = fluid_label(spec, index);
+  const double dx = spec.particles.spacing;
+  std::array<LatticeAxis, Dim> lattice;
+  Eigen::AlignedBox<double, Dim> box;
+  if (block.shape == BlockShape::fill) {
+    for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+    box.extend(to_vec<Dim>(block.seed, owner, "seed"));
+    box.max()[Dim - 1] = block.level;
+  } else {
+    box = box_around<Dim>(block, owner);
+  }
+  // Walls that only touch the block's sides do not divide it.
+  const Vec<Dim> margin = Vec<Dim>::Constant(0.25 * dx);
+  const Eigen::AlignedBox<double, Dim> inside(Vec<Dim>(box.min() + margin), Vec<Dim>(box.max() - margin));
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double low = box.min()[axis];
+    const double high = box.max()[axis];
+    std::vector<double> planes{low, high};
+    if (block.shape == BlockShape::polygon) {
+      // Every place of the box around it, at distances of exactly dx.
+      planes = {low, low + dx * std::max(1.0, std::ceil((high - low) / dx - corner_tolerance))};
+    } else if (const std::vector<double>& range = periodic_range(spec.domain, axis);
+               block.shape == BlockShape::fill && range.size() == 2) {
+      planes = range;
+    } else {
+      const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(least_edge * dx, Dim - 1));
+      planes.insert(planes.end(), walls.begin(), walls.end());
+    }
+    lattice[axis] = LatticeAxis(planes, dx);
+  }
+  return lattice;
+}
+
+template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
   const double jitter = spec.particles.jitter * dx;
+  const Bodies<Dim> bodies(spec, boundary);
   FluidParticles<Dim> fluid;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const FluidTable& block = spec.fluid[b];
     const std::string owner = fluid_label(spec, b);
-    const Lattice<Dim> lattice = make_lattice<Dim>(spec, block, owner);
+    const Places<Dim> places = make_places<Dim>(spec, b, boundary);
     StartVelocity<Dim> velocity(spec, block, owner);
-    InBlock<Dim> is_in_block(lattice, dx);
-    for_each_place<Dim>(lattice, dx, [&](Vec<Dim> x) {
-      if (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x)) return;
+    InBlock<Dim> is_in_block(places.outline, dx);
+    const auto put = [&](const Cell<Dim>& cell) {
+      Vec<Dim> x = places.at(cell);
+      if (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x) || bodies.hold(x)) return;
       for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
         x[axis] += jitter * random_number(spec.particles.seed, fluid.position.size(), axis);
       }
       x = kept_off_walls(boundary, block, x, dx);
       fluid.position.push_back(x);
       fluid.velocity.push_back(velocity.at(x));
+      fluid.volume.push_back(places.volume(cell));
       fluid.block.push_back(static_cast<int>(b));
-    });
+    };
+    if (block.shape == BlockShape::fill) {
+      for (const Cell<Dim>& cell : filled_cells<Dim>(spec, block, owner, boundary, places.lattice)) put(cell);
+    } else {
+      for_each_cell<Dim>(places.count, put);
+    }
   }
   return fluid;
 }
 
+template Lattice<2> make_lattice<2>(const CaseSpec&, std::size_t, const Boundary<2>&);
+template Lattice<3> make_lattice<3>(const CaseSpec&, std::size_t, const Boundary<3>&);
 template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&);
 template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&);
 

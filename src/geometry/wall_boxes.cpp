@@ -1,4 +1,4 @@
-// Wall particles in 3D. Walls are boxes. Wall particles are nodes of the box's own lattice, continued outside the box,
+// Wall particles of boxes in 3D: nodes of the box's own lattice, continued outside the box,
 // or inside it for a body that stands in the water. Nodes are the centres of lattice cells behind the wall, or their
 // corners if the first layer stands on the wall.
 #include <algorithm>
@@ -20,24 +20,25 @@ struct Box {
   bool fluid_is_inside = true;
 };
 
-/// The walls that have faces.
+/// The walls that are boxes and have faces.
 std::set<int> walls_of(const Boundary<3>& boundary) {
   std::set<int> walls;
-  for (const WallFace<3>& face : boundary.faces) walls.insert(face.wall);
+  boundary.visit_plain_faces([&](int f) { walls.insert(boundary.faces[f].wall); });
   return walls;
 }
 
 Box box_of(const Boundary<3>& boundary, int wall) {
   Box box;
-  for (const WallFace<3>& face : boundary.faces) {
-    if (face.wall == wall) {
-      for (const Vec<3>& corner : face.corners) {
+  boundary.visit_plain_faces([&](int f) {
+    if (boundary.faces[f].wall == wall) {
+      for (const Vec<3>& corner : boundary.faces[f].corners) {
         box.low = box.low.cwiseMin(corner);
         box.high = box.high.cwiseMax(corner);
       }
     }
-  }
-  for (const WallFace<3>& face : boundary.faces) {
+  });
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<3>& face = boundary.faces[f];
     if (face.wall == wall) {
       int axis = 0;
       [[maybe_unused]] const double length = face.normal.cwiseAbs().maxCoeff(&axis);
@@ -49,7 +50,7 @@ Box box_of(const Boundary<3>& boundary, int wall) {
       box.closed[axis][is_low ? 0 : 1] = true;
       box.fluid_is_inside = points_up == is_low;
     }
-  }
+  });
   return box;
 }
 
@@ -137,7 +138,7 @@ void add_nodes(const Boundary<3>& body, int wall, const WallLayers& layers, doub
                WallParticleCollector<3>& collector) {
   const Box box = box_of(body, wall);
   const BoxLattice lattice{box, layers.spacing, layers.starts_on_wall ? 0.0 : 0.5};
-  const auto is_own = [&](std::size_t f) { return body.faces[f].wall == wall; };
+  const auto is_own = [&](int f) { return body.faces[f].wall == wall; };
   const int margin = box.fluid_is_inside ? static_cast<int>(std::ceil(to)) : 0;
   const int last = layers.starts_on_wall ? 1 : 0;  // a face of n steps has n + 1 corners
   const Eigen::Vector3i low = Eigen::Vector3i::Constant(-margin);
@@ -157,19 +158,17 @@ void add_nodes(const Boundary<3>& body, int wall, const WallLayers& layers, doub
 
 }  // namespace
 
-WallParticles<3> sample_boxes(const Boundary<3>& body, const WallLayers& layers) {
-  WallParticleCollector<3> collector(body, layers.spacing);
+void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector) {
   const std::set<int> walls = walls_of(body);
   if (!layers.starts_on_wall) {
     for (const int wall : walls) add_nodes(body, wall, layers, 0.5, layers.count - 0.5, collector);
-    return std::move(collector).particles();
+    return;
   }
   // Layer by layer: a particle on one wall takes precedence over one behind another wall at the same place.
   for (int layer = 0; layer < layers.count; ++layer) {
     for (const int wall : walls) add_nodes(body, wall, layers, layer, layer, collector);
     if (layer == 0) collector.end_of_places_on_wall();
   }
-  return std::move(collector).particles();
 }
 
 }  // namespace tailwater

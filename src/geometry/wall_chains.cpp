@@ -222,7 +222,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
         // A place nearer to the chain than its row: the row has folded over itself inside a convex corner.
         const double distance = (x - place.foot).norm();
         if (distance < depth - 2.0 * tolerance || distance > farthest) continue;
-        collector.add_unless_behind_another(place, [&](std::size_t f) { return joints.chain[f] == chain; });
+        collector.add_unless_behind_another(place, [&](int f) { return joints.chain[f] == chain; });
       }
     }
     if (depth == 0.0) collector.end_of_places_on_wall();

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "geometry/mesh_surface.h"
+
 namespace tailwater {
 namespace {
 
@@ -22,6 +24,17 @@ Mat<Dim> blocked_by(const std::vector<Vec<Dim>>& normals) {
 template <int Dim>
 WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, double spacing)
     : body_(body), tolerance_(corner_tolerance * spacing), taken_((least_distance - corner_tolerance) * spacing) {}
+
+template <int Dim>
+bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const {
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : body_.meshes) {
+      // The body is sampled where it is drawn.
+      if (&mesh != own && mesh.surface->first_crossed(place.position, place.foot, tolerance_) >= 0) return true;
+    }
+  }
+  return false;
+}
 
 template <int Dim>
 void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place) {

@@ -42,14 +42,15 @@ class WallParticleCollector {
   }
 
   /// The same, unless a face that is not the place's own lies between the place and its foot; the place is then behind
-  /// another wall. is_own(f) says whether Boundary::faces[f] is the place's own.
+  /// another wall. is_own(f) says whether Boundary::faces[f], which is of no mesh, is the place's own.
   template <class IsOwn>
-  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
+  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own, const WallMesh* own_mesh = nullptr) {
     if (taken_.has_near(place.position)) return;
-    for (std::size_t f = 0; f < body_.faces.size(); ++f) {
-      if (!is_own(f) && crosses(body_.faces[f], place.position, place.foot, tolerance_)) return;
-    }
-    keep(place);
+    bool is_behind = is_behind_mesh(place, own_mesh);
+    body_.visit_plain_faces([&](int f) {
+      is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.position, place.foot, tolerance_));
+    });
+    if (!is_behind) keep(place);
   }
 
   /// Call after all places on the wall itself have been proposed, before those behind it.
@@ -58,6 +59,8 @@ class WallParticleCollector {
   WallParticles<Dim> particles() && { return std::move(particles_); }
 
  private:
+  /// Whether a mesh other than its own lies between a place and its foot.
+  bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
   void keep(const WallPlace<Dim>& place);
 
   const Boundary<Dim>& body_;
@@ -70,6 +73,9 @@ class WallParticleCollector {
 WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
 
 /// 3D: axis-parallel boxes (wall_boxes.cpp).
-WallParticles<3> sample_boxes(const Boundary<3>& body, const WallLayers& layers);
+void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);
+
+/// 3D: meshes (wall_meshes.cpp). Throws InputError if the layers start on the wall.
+void sample_meshes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);
 
 }  // namespace tailwater

@@ -12,7 +12,12 @@ namespace {
 
 // Which function samples the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers) { return sample_chains(body, layers); }
-WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers) { return sample_boxes(body, layers); }
+WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers) {
+  WallParticleCollector<3> collector(body, layers.spacing);
+  sample_boxes(body, layers, collector);
+  sample_meshes(body, layers, collector);
+  return std::move(collector).particles();
+}
 
 /// Appends the entries `from` to `to` of `part` to `all`.
 template <int Dim>
@@ -26,6 +31,27 @@ void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::
   put(all.wall, part.wall);
 }
 
+/// A body with its own faces only.
+template <int Dim>
+Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
+  Boundary<Dim> alone;
+  alone.walls = boundary.walls;
+  alone.lattice = boundary.lattice;
+  std::ranges::copy_if(boundary.meshes, std::back_inserter(alone.meshes),
+                       [&](const WallMesh& mesh) { return boundary.walls[mesh.wall].body == body; });
+  // Meshes first: their faces are consecutive.
+  for (WallMesh& mesh : alone.meshes) {
+    const auto from = boundary.faces.begin();
+    const int first = static_cast<int>(alone.faces.size());
+    alone.faces.insert(alone.faces.end(), from + mesh.first_face, from + mesh.end_face());
+    mesh.first_face = first;
+  }
+  boundary.visit_plain_faces([&](int f) {
+    if (boundary.walls[boundary.faces[f].wall].body == body) alone.faces.push_back(boundary.faces[f]);
+  });
+  return alone;
+}
+
 /// Samples each body as if it were alone, because bodies separate. Particles on a wall come first.
 template <int Dim>
 WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers& layers) {
@@ -33,11 +59,7 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
   for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
   std::vector<WallParticles<Dim>> parts;
   for (const int body : bodies) {
-    Boundary<Dim> alone;
-    alone.walls = boundary.walls;
-    std::ranges::copy_if(boundary.faces, std::back_inserter(alone.faces),
-                         [&](const WallFace<Dim>& face) { return boundary.walls[face.wall].body == body; });
-    parts.push_back(sample(alone, layers));
+    parts.push_back(sample(body_alone(boundary, body), layers));
   }
   WallParticles<Dim> all;
   for (const WallParticles<Dim>& part : parts) append_range(all, part, 0, part.on_wall);

@@ -1,8 +1,11 @@
 """new, check and info, and the command line itself."""
 
 import json
+import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree
+from pathlib import Path
 
 from program import SMALL_CASE, ProgramTest
 
@@ -81,6 +84,17 @@ class New(ProgramTest):
                 coarse = ("--set", "particles.spacing=0.1", "--set", "time.end=0.05")
                 self.call("run", f"{template}.toml", "--out", template, "--quiet", *coarse)
                 self.assertEqual(self.summary(template)["status"], "done")
+
+    def test_the_template_with_a_mesh_can_be_checked_and_run(self):
+        self.call("new", "pier", "pier.toml")
+        self.assertIn("pier.stl", self.call("check", "pier.toml", expect=2).stderr)
+        script = Path(__file__).resolve().parents[2] / "scripts/make_pier_stl.py"
+        subprocess.run([sys.executable, script, self.folder / "pier.stl"], check=True)
+        coarse = ("--set", "particles.spacing=0.06", "--set", "time.end=0.02")
+        self.assertEqual(self.call("check", "pier.toml", *coarse).stderr, "")
+        self.call("run", "pier.toml", "--out", "pier", "--quiet", *coarse)
+        (self.folder / "pier.stl").write_text("solid\n")
+        self.assertIn("has changed", self.call("resume", "pier", "--set", "time.end=0.03", expect=2).stderr)
 
     def test_refuses_to_overwrite(self):
         message = self.call("new", "tank", "small.toml", expect=2).stderr

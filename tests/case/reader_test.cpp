@@ -13,7 +13,7 @@ TEST(Reader, GivesDefaultsForAllThatIsAbsent) {
   expected.particles.spacing = 0.1;
   expected.time.end = 1.0;
   expected.fluid.push_back(
-      {.name = "fluid1", .min = {0.0, 0.0}, .max = {1.0, 1.0}, .points = {}, .velocity = {0.0, 0.0}});
+      {.name = "fluid1", .min = {0.0, 0.0}, .max = {1.0, 1.0}, .points = {}, .seed = {}, .velocity = {0.0, 0.0}});
   EXPECT_EQ(read_text(required_keys + water), expected);
 }
 

@@ -36,12 +36,13 @@ TEST(FluidLattice, IsCellCentred) {
   }
 }
 
-TEST(FluidLattice, StartsAtTheLowEdgeWhereTheExtentIsNotWhole) {
+TEST(FluidLattice, HasTheVolumeOfABlockWhoseExtentIsNotWhole) {
   CaseSpec spec = empty_case(0.1);
-  spec.fluid = {box_fluid({0.03, 0.0}, {0.36, 0.04})};  // 3.3 and 0.4 spacings
+  spec.fluid = {box_fluid({0.03, 0.0}, {0.36, 0.04})};  // 3.3 and 0.4 spacings: cells of 0.11 m by 0.04 m
   const FluidParticles<2> fluid = fluid_of(spec);
   ASSERT_EQ(fluid.position.size(), 3u);
-  EXPECT_NEAR(fluid.position[2][0], 0.03 + 0.25, round_off);
+  EXPECT_NEAR(fluid.position[2][0], 0.36 - 0.055, round_off);
+  for (const double volume : fluid.volume) EXPECT_NEAR(volume, 0.11 * 0.04, round_off);
 }
 
 TEST(FluidLattice, IsNodeCentredBesidePressureRows) {

@@ -1,34 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
 namespace {
-
-/// How far from a whole number of spacings (in spacings) a box may be without a warning.
-constexpr double tolerated_misfit = 1e-3;
-
-/// The spacing nearest to dx that divides every extent of a box. If there is none, one that divides `extent`.
-double fitting_spacing(const FluidTable& block, double extent, double dx) {
-  double best = extent / std::max(1.0, std::round(extent / dx));
-  double best_change = std::numeric_limits<double>::infinity();
-  for (double cells = std::max(1.0, std::floor(0.8 * extent / dx)); cells <= 1.25 * extent / dx + 1.0; ++cells) {
-    const double candidate = extent / cells;
-    bool fits = true;
-    for (std::size_t axis = 0; axis < block.min.size(); ++axis) {
-      const double n = (block.max[axis] - block.min[axis]) / candidate;
-      fits = fits && std::abs(n - std::round(n)) < 1e-6 * n;
-    }
-    if (fits && std::abs(candidate - dx) < best_change) {
-      best = candidate;
-      best_change = std::abs(candidate - dx);
-    }
-  }
-  return best;
-}
 
 template <int Dim>
 void check_polygon(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
@@ -52,17 +29,18 @@ void check_box(const FluidTable& block, const std::string& label, std::size_t pa
         "{} at {} is {:.6g} m long in {}, so it holds no particle of spacing {:.6g} m: use a spacing of at most "
         "{:.6g} m, or a larger block",
         label, place(low), extent[smallest], "xyz"[smallest], dx, extent[smallest]));
-    return;
   }
-  for (int axis = 0; axis < Dim; ++axis) {
-    const double cells = extent[axis] / dx;
-    if (std::abs(cells - std::round(cells)) <= tolerated_misfit) continue;
-    findings.push_back(Finding::warning(
-        "{} at {} is {:.6g} m long in {}, which is {:.2f} spacings: its particles fill {:.6g} m; a spacing of {:.6g} m "
-        "fits",
-        label, place(low), extent[axis], "xyz"[axis], cells, std::round(cells) * dx,
-        fitting_spacing(block, extent[axis], dx)));
-  }
+}
+
+template <int Dim>
+void check_fill(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
+                Findings& findings) {
+  if (particles > 0) return;
+  findings.push_back(
+      Finding::error("{} holds no particle of spacing {:.6g} m between the walls around its seed {}: use a smaller "
+                     "spacing, or move the "
+                     "seed",
+                     label, dx, place(to_vec<Dim>(block.seed, label, "seed"))));
 }
 
 }  // namespace
@@ -74,7 +52,10 @@ Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   for (const int block : fluid.block) ++particles[block];
   Findings findings;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
-    const auto check = spec.fluid[b].shape == BlockShape::polygon ? check_polygon<Dim> : check_box<Dim>;
+    const BlockShape shape = spec.fluid[b].shape;
+    const auto check = shape == BlockShape::polygon ? check_polygon<Dim>
+                       : shape == BlockShape::fill  ? check_fill<Dim>
+                                                    : check_box<Dim>;
     check(spec.fluid[b], fluid_label(spec, b), particles[b], spec.particles.spacing, findings);
   }
   return findings;

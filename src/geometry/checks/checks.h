@@ -9,7 +9,7 @@
 
 namespace tailwater {
 
-/// Errors: no fluid; a block too small for a single particle. Warning: a box that is not a whole number of dx long.
+/// Errors: no fluid; a block too small for a single particle.
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
@@ -23,8 +23,12 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
 /// Error: a bed with a crest as high as its own ends. Water that reaches the crest has already run over the ends.
 Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 
-/// Error: a wall thinner than its layers of wall particles, with water or another wall on its other side. Looks
-/// straight through each face from points dx apart; at most 50 points per edge.
+/// Errors: a mesh much longer than the water or shorter than dx, which is drawn in another unit; one that crosses
+/// itself; one that is a plate thinner than its layers of wall particles.
+Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
+
+/// Error: a wall that is no mesh and thinner than its layers of wall particles, with water or another wall on its other
+/// side. Looks straight through each face from points dx apart; at most 50 points per edge.
 template <int Dim>
 Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

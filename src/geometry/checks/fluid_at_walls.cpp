@@ -71,7 +71,8 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
         contact.nearest = near.signed_distance;
         contact.nearest_at = x;
       }
-      if (!is_square) continue;
+      // The particles nearest to a small triangle of a mesh may all be farther away than those beside it.
+      if (!is_square || boundary.mesh_of(near.face) != nullptr) continue;
       Approach<Dim>& approach = contacts.by_face[{near.face, fluid.block[i]}];
       if (near.signed_distance < approach.distance) approach = {near.signed_distance, x};
     } else if (is_square) {

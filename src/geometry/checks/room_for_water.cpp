@@ -1,6 +1,6 @@
 #include "geometry/checks/room_for_water.h"
 
-#include <cmath>
+#include <numeric>
 
 #include "geometry/from_spec.h"
 
@@ -15,7 +15,7 @@ constexpr double most_cells_of_room = 2e4;
 template <int Dim>
 RoomForWater<Dim>::RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
     : space_(spec, drawn.faces, fluid.position, most_cells_of_room),
-      water_(static_cast<double>(fluid.position.size()) * std::pow(spec.particles.spacing, Dim)) {
+      water_(std::reduce(fluid.volume.begin(), fluid.volume.end())) {
   Vec<Dim> down = gravity_of<Dim>(spec);
   if (down.norm() > 0.0) down.normalize();
   Spread<Dim> rest = spread(space_, cells_of<Dim>(space_, fluid.position), down);

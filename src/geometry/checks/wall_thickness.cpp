@@ -52,26 +52,28 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   const double needed = dummy_layers(spec) * dx;
   Findings findings;
   std::set<std::pair<int, int>> reported;
-  for (const WallFace<Dim>& face : boundary.faces) {
-    for (const WallFace<Dim>& other : boundary.faces) {
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    boundary.visit_plain_faces([&](int g) {
+      const WallFace<Dim>& other = boundary.faces[g];
       const double facing = -face.normal.dot(other.normal);
       const bool is_neighbour = facing < 0.999 && shares_corner(face, other, tolerance);
-      if (&other == &face || facing <= 0.0 || is_neighbour) continue;
+      if (&other == &face || facing <= 0.0 || is_neighbour) return;
       const std::optional<Vec<Dim>> foot = place_with_other_behind(face, other, needed, dx);
-      if (!foot) continue;
+      if (!foot) return;
       const double thickness = std::max(0.0, -other.height(*foot) / facing);
       const bool rests_on_it =
           thickness <= 2.0 * tolerance && (is_obstacle(spec.walls[face.wall]) || is_obstacle(spec.walls[other.wall]));
-      if (rests_on_it || thickness >= needed - tolerance) continue;
+      if (rests_on_it || thickness >= needed - tolerance) return;
       const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
-      if (!reported.insert(walls).second) continue;
+      if (!reported.insert(walls).second) return;
       findings.push_back(Finding::error(
           "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m; "
           "make it thicker, or the spacing smaller",
           wall_label(boundary, face.wall), thickness, place(*foot),
           face.wall == other.wall ? "the water" : wall_label(boundary, other.wall), dummy_layers(spec), needed));
-    }
-  }
+    });
+  });
   return findings;
 }
 

@@ -1,0 +1,224 @@
+#include "case/linked_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "base/error.h"
+#include "case/expression.h"
+
+namespace tailwater {
+namespace {
+
+constexpr std::size_t most_points = 10000;  // as many as a list of points in the case may have
+
+struct Unit {
+  std::string_view name;
+  double length;  ///< m
+};
+constexpr std::array<Unit, 5> units{{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}}};
+constexpr std::array<std::string_view, 4> names_along{"x", "station", "chainage", "distance"};
+constexpr std::array<std::string_view, 5> names_up{"y", "z", "elevation", "height", "level"};
+
+std::ifstream open_file(const std::filesystem::path& path) {
+  std::error_code error;  // what does not exist is told below
+  if (std::filesystem::is_directory(path, error)) {
+    throw IoError(fmt::format("{}: is a folder; give a file in it", path.string()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw IoError(fmt::format("{}: cannot read it ({}); check the name, which is relative to the case file",
+                              path.string(), std::generic_category().message(errno)));
+  }
+  return file;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\"'";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The fields of a line; with a blank as separator any number of blanks is one.
+std::vector<std::string_view> split(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
+    const std::string_view field = trimmed(line.substr(begin, end - begin));
+    if (separator != ' ' || !field.empty()) fields.push_back(field);
+    begin = end + 1;
+  }
+  return fields;
+}
+
+char separator_of(std::string_view line) {
+  for (const char separator : {';', '\t', ','}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ' ';
+}
+
+std::optional<double> number_in_field(std::string_view field) {
+  if (field.starts_with('+')) field.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
+  return value;
+}
+
+/// A column by its name in the header.
+struct Column {
+  std::string name;
+  double unit = 1.0;  ///< m
+};
+
+/// The first two columns of a file without header.
+struct Columns {
+  std::size_t along = 0;
+  std::size_t up = 1;
+  double unit_along = 1.0;
+  double unit_up = 1.0;
+};
+
+class PointsFile {
+ public:
+  explicit PointsFile(const std::filesystem::path& path) : path_(path.string()) {}
+
+  std::vector<Coordinates> read(std::istream& file) {
+    for (std::string text; std::getline(file, text);) {
+      ++line_;
+      if (text.find('\0') != std::string::npos) wrong("is not a text file; export the points as CSV");
+      std::string_view line = text;
+      if (line_ == 1 && line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // byte order mark
+      line = trimmed(line);
+      if (line.empty() || line.starts_with('#')) continue;
+      take(line);
+    }
+    if (points_.empty()) wrong("has no points; give lines of two numbers, such as 0.5, 1.25");
+    return std::move(points_);
+  }
+
+ private:
+  [[noreturn]] void wrong(const std::string& message) const {
+    throw InputError(fmt::format("{}:{}: {}", path_, line_, message));
+  }
+
+  void take(std::string_view line) {
+    if (separator_ == '\0') {
+      separator_ = separator_of(line);
+      const std::vector<std::string_view> fields = split(line, separator_);
+      if (!fields.empty() &&
+          std::ranges::none_of(fields, [](auto field) { return number_in_field(field).has_value(); })) {
+        columns_ = columns_named(fields);
+        return;
+      }
+      if (fields.size() > 2) {
+        wrong(
+            fmt::format("has {} columns and no line that names them; begin the file with such a line, as in \"x [m], "
+                        "z [m]\", or give two columns",
+                        fields.size()));
+      }
+    }
+    const std::vector<std::string_view> fields = split(line, separator_);
+    if (points_.size() == most_points) {
+      wrong(fmt::format("has more than {} points; a wall has at most that many: give fewer, or several walls",
+                        most_points));
+    }
+    points_.push_back(
+        {columns_.unit_along * number_at(fields, columns_.along), columns_.unit_up * number_at(fields, columns_.up)});
+  }
+
+  double number_at(const std::vector<std::string_view>& fields, std::size_t column) const {
+    if (column >= fields.size()) {
+      wrong(fmt::format("has {} columns where column {} is needed; complete the line, or remove it", fields.size(),
+                        column + 1));
+    }
+    const std::optional<double> value = number_in_field(fields[column]);
+    if (!value) {
+      const bool has_comma = fields[column].find(',') != std::string_view::npos;
+      wrong(fmt::format("\"{}\" is not a number; {}", fields[column].substr(0, 40),
+                        has_comma ? "write decimals with a point" : "correct it, or begin comments with #"));
+    }
+    if (!std::isfinite(*value) || std::abs(*value) > largest_number)
+      wrong(fmt::format("{} is no finite length; correct it", fields[column]));
+    return *value;
+  }
+
+  /// "Station [mm]" is "station", 0.001 m.
+  Column column_named(std::string_view field) const {
+    std::string text(field);
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::size_t bracket = text.find_first_of("[(");
+    const std::size_t underscore = text.rfind('_');
+    const std::size_t end = bracket != std::string::npos ? bracket : underscore;
+    if (end == std::string::npos) return {text};
+    const std::size_t unit_end = bracket != std::string::npos ? text.find_first_of("])", end) : text.size();
+    const std::string unit(trimmed(std::string_view(text).substr(end + 1, unit_end - end - 1)));
+    const auto* known = std::ranges::find(units, unit, &Unit::name);
+    if (known != units.end()) return {std::string(trimmed(std::string_view(text).substr(0, end))), known->length};
+    if (bracket == std::string::npos) return {text};  // an underscore in a name
+    wrong(fmt::format("column \"{}\" has the unknown unit \"{}\"; use m, mm, cm, km or ft", field, unit));
+  }
+
+  Columns columns_named(const std::vector<std::string_view>& fields) const {
+    if (fields.size() < 2) wrong("names one column; two are needed, as in \"x [m], z [m]\"");
+    std::vector<Column> named;
+    for (const std::string_view field : fields) named.push_back(column_named(field));
+    const auto find = [&](const auto& names) {
+      std::vector<std::size_t> found;
+      for (std::size_t k = 0; k < named.size(); ++k) {
+        if (std::ranges::find(names, named[k].name) != names.end()) found.push_back(k);
+      }
+      return found;
+    };
+    const std::vector<std::size_t> along = find(names_along);
+    const std::vector<std::size_t> up = find(names_up);
+    Columns columns;
+    if (along.size() == 1 && up.size() == 1) {
+      columns = {along[0], up[0]};
+    } else if (fields.size() > 2) {
+      wrong(fmt::format("of its {} columns {} are named {}, and {} are named {}; name one of each", fields.size(),
+                        along.size(), fmt::join(names_along, ", "), up.size(), fmt::join(names_up, ", ")));
+    }
+    columns.unit_along = named[columns.along].unit;
+    columns.unit_up = named[columns.up].unit;
+    return columns;
+  }
+
+  std::string path_;
+  std::size_t line_ = 0;
+  char separator_ = '\0';  ///< not known yet
+  Columns columns_;
+  std::vector<Coordinates> points_;
+};
+
+}  // namespace
+
+std::vector<Coordinates> read_points_file(const std::filesystem::path& path) {
+  std::ifstream file = open_file(path);
+  return PointsFile(path).read(file);
+}
+
+std::string checksum_of_file(const std::filesystem::path& path) {
+  std::ifstream file = open_file(path);
+  std::vector<char> block(1 << 20);
+  uLong sum = crc32(0, nullptr, 0);
+  do {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(block.data()), static_cast<uInt>(file.gcount()));
+  } while (file);
+  return fmt::format("{:08x}", sum);
+}
+
+}  // namespace tailwater

@@ -1,0 +1,162 @@
+#include "geometry/fill.h"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_set>
+
+#include "geometry/from_spec.h"
+#include "geometry/outlet.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+class Fill {
+ public:
+  Fill(const CaseSpec& spec, const FluidTable& block, const std::string& owner, const Boundary<Dim>& boundary,
+       const Lattice<Dim>& lattice)
+      : owner_(owner),
+        boundary_(boundary),
+        lattice_(lattice),
+        dx_(spec.particles.spacing),
+        tolerance_(corner_tolerance * dx_),
+        seed_(to_vec<Dim>(block.seed, owner, "seed")),
+        level_(block.level),
+        near_(2.0 * dx_) {
+    boundary.visit_plain_faces([&](int f) { file(boundary.faces[f]); });
+    for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
+      for (const WallFace<Dim>& face : outlet.as_faces()) file(face);
+    }
+    for (const WallFace<Dim>& face : boundary.faces) box_.extend(face.box());
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::vector<double>& range = periodic_range(spec.domain, axis);
+      if (range.size() == 2) {
+        period_[axis] = lattice[axis].count();
+        box_.extend(Vec<Dim>(range[0] * Vec<Dim>::Unit(axis)));
+      }
+    }
+  }
+
+  std::vector<Cell<Dim>> run() {
+    require_sound_seed();
+    std::vector<Cell<Dim>> cells = first_cells();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const Vec<Dim> here = centre(cells[k]);
+      for (int move = 0; move < 2 * Dim; ++move) {
+        Cell<Dim> next = cells[k];
+        next[move / 2] += move % 2 == 0 ? -1 : 1;
+        Vec<Dim> there = centre(next);
+        if (!is_open(here, there)) continue;
+        if (period_[move / 2] > 0) next[move / 2] = (next[move / 2] + period_[move / 2]) % period_[move / 2];
+        there = centre(next);
+        require_inside(there, here);
+        if (reached_.insert(cell_key<Dim>(next)).second) cells.push_back(next);
+      }
+    }
+    std::ranges::sort(cells, [](const Cell<Dim>& a, const Cell<Dim>& b) {
+      return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+    });
+    return cells;
+  }
+
+ private:
+  void file(const WallFace<Dim>& face) {
+    const Eigen::AlignedBox<double, Dim> box = face.box();
+    near_.add(static_cast<int>(plain_.size()), box.min(), box.max(),
+              [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+    plain_.push_back(face);
+  }
+
+  Vec<Dim> centre(const Cell<Dim>& cell) const {
+    Vec<Dim> x;
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = lattice_[axis].centre(static_cast<int>(cell[axis]));
+    return x;
+  }
+
+  /// Whether water gets from one place to a near one.
+  bool is_open(const Vec<Dim>& from, const Vec<Dim>& to) const {
+    if (to[Dim - 1] > level_) return false;
+    for (const int f : near_.near(from)) {
+      const WallFace<Dim>& face = plain_[f];
+      if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) continue;
+      const Vec<Dim> hit = meet(face, from, to);
+      if ((closest_point(face, hit) - hit).norm() <= tolerance_) return false;
+    }
+    // A place less than a spacing behind a mesh cannot be missed on the way through it.
+    const auto is_behind = [&](const WallMesh& mesh) { return boundary_.height_above(mesh, to, dx_) < 0.0; };
+    return std::ranges::none_of(boundary_.meshes, is_behind);
+  }
+
+  void require_sound_seed() const {
+    if (seed_[Dim - 1] >= level_) {
+      throw InputError(fmt::format("{}: seed {} is not below level = {:.6g}: put it into the water, or raise the level",
+                                   owner_, place(seed_), level_));
+    }
+    const NearestWall<Dim> wall = boundary_.nearest(seed_, std::numeric_limits<double>::infinity());
+    if (wall.face < 0) {
+      throw InputError(
+          fmt::format("{}: shape = \"fill\" needs walls that hold the water: draw them, or use a box", owner_));
+    }
+    if (wall.signed_distance < 0.0) {
+      throw InputError(
+          fmt::format("{}: seed {} is in {}, {:.6g} m behind its surface at {}: move it into the water, or "
+                      "give the wall the other fluid_side",
+                      owner_, place(seed_), wall_label(boundary_, boundary_.faces[wall.face].wall),
+                      -wall.signed_distance, place(wall.point)));
+    }
+  }
+
+  std::vector<Cell<Dim>> first_cells() {
+    std::vector<Cell<Dim>> cells;
+    Cell<Dim> around;
+    for (int axis = 0; axis < Dim; ++axis) around[axis] = lattice_[axis].cell_at(seed_[axis]);
+    for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
+      Cell<Dim> cell = around;
+      for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) cell[axis] += (rest + 1) % 3 - 1;
+      if (!is_open(seed_, centre(cell))) continue;
+      reached_.insert(cell_key<Dim>(cell));
+      return {cell};
+    }
+    throw InputError(
+        fmt::format("{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from "
+                    "the walls, or use a smaller spacing",
+                    owner_, dx_, place(seed_)));
+  }
+
+  /// Water outside the box around all walls has left the case.
+  void require_inside(const Vec<Dim>& x, const Vec<Dim>& last) const {
+    if (box_.exteriorDistance(x) <= tolerance_) return;
+    const NearestWall<Dim> wall = boundary_.nearest(last, std::numeric_limits<double>::infinity());
+    throw InputError(
+        fmt::format("{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the "
+                    "rim there, or the walls have a gap; lower the level, or close the walls",
+                    owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall)));
+  }
+
+  const std::string& owner_;
+  const Boundary<Dim>& boundary_;
+  const Lattice<Dim>& lattice_;
+  double dx_, tolerance_;
+  Vec<Dim> seed_;
+  double level_;
+  std::vector<WallFace<Dim>> plain_;  ///< faces of walls that are no meshes, and of outlets
+  FaceGrid<Dim> near_;
+  Eigen::AlignedBox<double, Dim> box_;
+  std::array<int, Dim> period_{};  ///< cells after which an axis repeats; 0: never
+  std::unordered_set<std::uint64_t> reached_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<Cell<Dim>> filled_cells(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+                                    const Boundary<Dim>& boundary, const Lattice<Dim>& lattice) {
+  return Fill<Dim>(spec, block, owner, boundary, lattice).run();
+}
+
+template std::vector<Cell<2>> filled_cells<2>(const CaseSpec&, const FluidTable&, const std::string&,
+                                              const Boundary<2>&, const Lattice<2>&);
+template std::vector<Cell<3>> filled_cells<3>(const CaseSpec&, const FluidTable&, const std::string&,
+                                              const Boundary<3>&, const Lattice<3>&);
+
+}  // namespace tailwater

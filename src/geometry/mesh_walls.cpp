@@ -1,0 +1,252 @@
+#include "geometry/mesh_walls.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "geometry/from_spec.h"
+#include "geometry/mesh_file.h"
+#include "geometry/mesh_surface.h"
+
+namespace tailwater {
+namespace {
+
+/// Binary STL holds coordinates with this relative precision, and other files are often exported with it.
+constexpr double file_precision = std::numeric_limits<float>::epsilon();
+
+/// Points this many digits apart are torn by round-off, as a transformation by the exporter leaves them.
+constexpr double torn_points = 4.0 * file_precision;
+
+constexpr double largest_round_off = 0.01;  // dx
+
+/// Of the area of an open mesh; where less of it looks up or down, neither side is above the other.
+constexpr double least_upward_share = 0.1;
+
+Eigen::Matrix3d rotation_of(const WallTable& table, const std::string& owner) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (table.rotate.empty()) return turn;
+  const Vec<3> degrees = to_vec<3>(table.rotate, owner, "rotate");
+  for (int axis = 0; axis < 3; ++axis) {
+    const double quarters = degrees[axis] / 90.0;
+    const double angle = degrees[axis] * std::numbers::pi / 180.0;
+    Eigen::Matrix3d one = Eigen::AngleAxisd(angle, Vec<3>::Unit(axis)).toRotationMatrix();
+    if (quarters == std::round(quarters)) one = one.array().round();  // exactly along the axes
+    turn = one * turn;
+  }
+  return turn;
+}
+
+/// Refuses a mesh, with the words that begin every message about it.
+class Refusal {
+ public:
+  Refusal(const TriangleMesh& mesh, std::string start) : mesh_(mesh), start_(std::move(start)) {}
+
+  template <class... Arguments>
+  [[noreturn]] void operator()(fmt::format_string<Arguments...> text, Arguments&&... arguments) const {
+    throw InputError(start_ + fmt::format(text, std::forward<Arguments>(arguments)...));
+  }
+
+  /// "triangle 7 at (0, 1, 2)": the number in the file counts from 1, the place is the triangle's middle in the case.
+  std::string triangle(int t) const {
+    const Vec<3> middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
+    return fmt::format("triangle {} at {}", t + 1, place(middle));
+  }
+  std::string edge(const TriangleEdge& edge) const {
+    return fmt::format("the edge from {} to {}", place(mesh_.points[edge.low]), place(mesh_.points[edge.high]));
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::string start_;
+};
+
+void require_triangles_with_area(const TriangleMesh& mesh, double least_height, const Refusal& refuse) {
+  int first = -1;
+  std::size_t count = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    double longest = 0.0;
+    for (int c = 0; c < 3; ++c) longest = std::max(longest, (mesh.corner(t, c) - mesh.corner(t, (c + 1) % 3)).norm());
+    if (mesh.area_normal(t).norm() > least_height * longest) continue;
+    if (count++ == 0) first = t;
+  }
+  if (count == 0) return;
+  refuse("{} has no area, nor have {} more: its corners are equal or on a line; remove degenerate triangles",
+         refuse.triangle(first), count - 1);
+}
+
+void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse) {
+  std::vector<std::array<int, 3>> corners = mesh.triangles;
+  for (std::array<int, 3>& three : corners) std::ranges::sort(three);
+  std::vector<int> order(corners.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, [&](int a, int b) { return std::pair(corners[a], a) < std::pair(corners[b], b); });
+  const auto same = std::ranges::adjacent_find(order, [&](int a, int b) { return corners[a] == corners[b]; });
+  if (same == order.end()) return;
+  refuse("{} and triangle {} have the same corners: remove double triangles", refuse.triangle(*same), same[1] + 1);
+}
+
+/// The edges that have no neighbour.
+std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<TriangleEdge>& edges, const Refusal& refuse) {
+  std::vector<TriangleEdge> rim;
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t end = k + 1;
+    while (end < edges.size() && edges[end].is_between_same_points(edges[k])) ++end;
+    const TriangleEdge& edge = edges[k];
+    if (end - k > 2) {
+      refuse(
+          "{} belongs to {} triangles, {} among them: an edge may have two; separate bodies that touch there, or "
+          "remove inner walls",
+          refuse.edge(edge), end - k, refuse.triangle(edge.triangle));
+    }
+    if (end - k == 2 && edge.runs_up == edges[k + 1].runs_up) {
+      refuse(
+          "{} and triangle {}, which share {}, face opposite sides: turn one of them over (orient the normals "
+          "consistently)",
+          refuse.triangle(edge.triangle), edges[k + 1].triangle + 1, refuse.edge(edge));
+    }
+    if (end - k == 1) rim.push_back(edge);
+    k = end;
+  }
+  return rim;
+}
+
+/// Number of the connected part that each triangle belongs to.
+std::vector<int> parts_of(const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges) {
+  std::vector<int> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  for (std::size_t k = 1; k < edges.size(); ++k) {
+    if (edges[k].is_between_same_points(edges[k - 1])) parent[root(edges[k].triangle)] = root(edges[k - 1].triangle);
+  }
+  std::vector<int> number(mesh.triangles.size(), -1);
+  std::vector<int> part(mesh.triangles.size());
+  int count = 0;
+  for (int t = 0; t < static_cast<int>(part.size()); ++t) {
+    int& known = number[root(t)];
+    if (known < 0) known = count++;
+    part[t] = known;
+  }
+  return part;
+}
+
+/// Turns a closed mesh so that its front looks outwards. A part that looks the other way must be a cavity.
+void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const Refusal& refuse) {
+  if (six_volumes(mesh, [](int) { return true; }) < 0.0) turn_over(mesh);
+  const std::vector<int> part = parts_of(mesh, edges);
+  const int count = 1 + *std::ranges::max_element(part);
+  std::vector<double> volume(count, 0.0);
+  std::vector<Eigen::AlignedBox<double, 3>> box(count);
+  std::vector<int> first(count, -1);
+  for (int t = 0; t < static_cast<int>(part.size()); ++t) {
+    const int p = part[t];
+    if (first[p] < 0) first[p] = t;
+    const Vec<3>& origin = mesh.corner(first[p], 0);
+    volume[p] += (mesh.corner(t, 0) - origin).dot(mesh.area_normal(t));
+    for (int c = 0; c < 3; ++c) box[p].extend(mesh.corner(t, c));
+  }
+  for (int p = 0; p < count; ++p) {
+    if (volume[p] > 0.0) continue;
+    bool is_cavity = false;
+    for (int q = 0; q < count; ++q) is_cavity = is_cavity || (volume[q] > 0.0 && box[q].contains(box[p]));
+    if (is_cavity) continue;
+    refuse("the part that begins with {} is inside out, unlike the rest of the file: turn its triangles over",
+           refuse.triangle(first[p]));
+  }
+}
+
+/// Turns an open mesh so that its front looks up.
+void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
+  Vec<3> sum = Vec<3>::Zero();
+  double area = 0.0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    sum += mesh.area_normal(t);
+    area += mesh.area_normal(t).norm();
+  }
+  const double upward = up.dot(sum) / area;
+  if (std::abs(upward) < least_upward_share) {
+    refuse(
+        "neither side of the mesh is above the other, because as much of it looks up as down: give fluid_side = "
+        "\"front\" or \"back\"");
+  }
+  if (upward < 0.0) turn_over(mesh);
+}
+
+}  // namespace
+
+TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const std::string& owner) {
+  TriangleMesh mesh = read_mesh(table.file, owner);
+  const Refusal refuse(mesh, fmt::format("{}: file {}: ", owner, table.file));
+  double farthest = 0.0;
+  for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  const double round_off = file_precision * farthest * table.scale;
+  if (round_off > largest_round_off * spec.particles.spacing) {
+    refuse(
+        "its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g} m, too coarse "
+        "beside a spacing of {:.6g} m: move the mesh to the origin before it is exported, or correct scale = {:g}",
+        farthest, round_off, spec.particles.spacing, table.scale);
+  }
+  const Eigen::Matrix3d turn = table.scale * rotation_of(table, owner);
+  const Vec<3> shift =
+      table.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(table.translate, owner, "translate");
+  for (Vec<3>& x : mesh.points) x = turn * x + shift;
+  const double torn = torn_points * farthest * table.scale;
+  weld(mesh, torn);
+
+  require_triangles_with_area(mesh, torn, refuse);
+  require_no_double_triangles(mesh, refuse);
+  const std::vector<TriangleEdge> edges = edges_of(mesh);
+  const std::vector<TriangleEdge> rim = require_neighbours_that_agree(edges, refuse);
+  const bool is_body = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside;
+  if (is_body && !rim.empty()) {
+    refuse(
+        "is not watertight, and fluid_side = \"{}\" needs a closed mesh: {} edges have no neighbour, the first is {} "
+        "of "
+        "{}; close the mesh, or give the side of an open one (\"above\", \"below\", \"front\" or \"back\")",
+        name_of(table.fluid_side), rim.size(), refuse.edge(rim[0]), refuse.triangle(rim[0].triangle));
+  }
+  if (!is_body && rim.empty()) {
+    refuse("is a closed mesh, so fluid_side = \"{}\" does not fit: give \"inside\" or \"outside\"",
+           name_of(table.fluid_side));
+  }
+  const Vec<3> gravity = gravity_of<3>(spec);
+  switch (table.fluid_side) {
+    case FluidSide::inside:
+    case FluidSide::outside:
+      turn_outwards(mesh, edges, refuse);
+      break;
+    case FluidSide::above:
+    case FluidSide::below:
+      turn_up(mesh, gravity.isZero(0.0) ? Vec<3>(Vec<3>::UnitZ()) : Vec<3>(-gravity.normalized()), refuse);
+      break;
+    default:
+      break;
+  }
+  if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::below ||
+      table.fluid_side == FluidSide::back) {
+    turn_over(mesh);
+  }
+  return mesh;
+}
+
+void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const std::string& owner,
+                 Boundary<3>& boundary) {
+  WallMesh& added = boundary.meshes.emplace_back();
+  added.first_face = static_cast<int>(boundary.faces.size());
+  added.wall = wall;
+  added.surface = std::make_shared<const MeshSurface>(make_wall_mesh(spec, table, owner));
+  const TriangleMesh& mesh = added.surface->mesh();
+  boundary.faces.reserve(boundary.faces.size() + mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    boundary.faces.push_back(
+        {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).normalized(), wall});
+  }
+}
+
+}  // namespace tailwater

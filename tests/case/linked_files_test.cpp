@@ -1,0 +1,136 @@
+// Files that a case names: what a CSV file of points may look like, how a bad one is refused, and that the case a run
+// leaves does not need its folder.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "case/writer.h"
+#include "case_file.h"
+
+namespace tailwater {
+namespace {
+
+const std::string bed_case = required_keys + water + "[[wall]]\nname = \"bed\"\npoints_file = \"bed.csv\"\n";
+
+class BedFile : public testing::Test {
+ protected:
+  BedFile() : file_(bed_case) {}
+
+  void write(const std::string& text) const { std::ofstream(bed()) << text; }
+  std::filesystem::path bed() const { return file_.path().parent_path() / "bed.csv"; }
+  std::vector<Coordinates> points() const { return read_case(file_.path()).walls[0].points; }
+
+  std::string message(const std::string& text) const {
+    write(text);
+    try {
+      read_case(file_.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no InputError for\n" << text;
+    return {};
+  }
+
+  CaseFile file_;
+};
+
+TEST_F(BedFile, IsReadWithAnySeparatorHeaderAndUnit) {
+  const std::vector<Coordinates> bed{{0.0, 1.5}, {2.5, -0.25}};
+  for (const char* text : {
+           "0,1.5\n2.5,-0.25\n",
+           "# surveyed 2021\n\n0 1.5\r\n  2.5   -0.25\r\n",
+           "\xef\xbb\xbfx [m];z [m]\n0;1.5\n+2.5;-2.5e-1\n",
+           "\"x_mm\",\"z_cm\"\n0,150\n2500,-25\n",
+           "Point\tElevation (m)\tStation (km)\tRemark\nP1\t1.5\t0\tleft bank\nP2\t-0.25\t0.0025\tgate\n",
+       }) {
+    write(text);
+    const std::vector<Coordinates> found = points();
+    ASSERT_EQ(found.size(), 2u) << text;
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_DOUBLE_EQ(found[k][0], bed[k][0]) << text;
+      EXPECT_DOUBLE_EQ(found[k][1], bed[k][1]) << text;
+    }
+  }
+}
+
+TEST_F(BedFile, IsRefusedWithPlaceAndRemedy) {
+  struct Bad {
+    std::string text, line;
+    std::vector<std::string> words;
+  };
+  for (const Bad& bad : {
+           Bad{"", "bed.csv:0", {"has no points"}},
+           Bad{"# nothing else\n", "bed.csv:1", {"has no points"}},
+           Bad{"x,z\n0,1\n1,abc\n", "bed.csv:3", {"\"abc\" is not a number", "correct it"}},
+           Bad{"0;1,5\n1;2,5\n", "bed.csv:1", {"\"1,5\" is not a number", "decimals with a point"}},
+           Bad{"0,1\n1\n", "bed.csv:2", {"has 1 columns", "complete the line"}},
+           Bad{"0,1\n1,nan\n", "bed.csv:2", {"nan is no finite length"}},
+           Bad{"0,1\n1,1e999\n", "bed.csv:2", {"is not a number"}},
+           Bad{"0,1,2\n", "bed.csv:1", {"has 3 columns and no line that names them"}},
+           Bad{"x,y,z\n0,1,2\n", "bed.csv:1", {"2 are named y, z", "name one of each"}},
+           Bad{"x [inch], z [m]\n0,1\n", "bed.csv:1", {"unknown unit \"inch\"", "m, mm, cm, km or ft"}},
+           Bad{std::string("0,1\n\0\1\2,1\n", 10), "bed.csv:2", {"not a text file"}},
+           Bad{"0,1\n", "case.toml:8", {"too few points", "at least 2"}},
+       }) {
+    const std::string message = this->message(bad.text);
+    EXPECT_NE(message.find("case.toml:8:15: wall[0].points_file = \"bed.csv\": "), std::string::npos) << message;
+    EXPECT_NE(message.find(bad.line), std::string::npos) << message;
+    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+  std::filesystem::remove(bed());
+  EXPECT_THROW(read_case(file_.path()), InputError);
+}
+
+TEST_F(BedFile, OfManyPointsIsRefused) {
+  std::string text;
+  for (int k = 0; k <= 10000; ++k) text += fmt::format("{},0\n", k);
+  const std::string message = this->message(text);
+  EXPECT_NE(message.find("bed.csv:10001"), std::string::npos) << message;
+}
+
+TEST_F(BedFile, IsPartOfTheCaseThatARunLeaves) {
+  write("x,z\n0.1,1\n0.7,0\n");
+  const CaseSpec spec = read_case(file_.path());
+  std::filesystem::remove(bed());
+  EXPECT_EQ(read_text(effective_case(spec)), spec);
+}
+
+TEST_F(BedFile, AndPointsExcludeEachOther) {
+  write("0,0\n1,0\n");
+  EXPECT_NE(message_of(bed_case + "points = [[0, 0], [1, 0]]\n").find("has points as well"), std::string::npos);
+  EXPECT_NE(message_of(required_keys + water + "[[wall]]\n").find("points_file"), std::string::npos);
+}
+
+const std::string mesh_case = "case.dimension = 3\n" + required_keys +
+                              "[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[[wall]]\nshape = \"mesh\"\n"
+                              "file = \"pier.stl\"\nfluid_side = \"outside\"\n";
+
+TEST(MeshFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
+  const CaseFile file(mesh_case);
+  const std::filesystem::path mesh = file.path().parent_path() / "pier.stl";
+  std::ofstream(mesh) << "123456789";  // whose CRC-32 is known
+  const CaseSpec spec = read_case(file.path());
+  EXPECT_EQ(spec.walls[0].file, mesh.string());
+  EXPECT_EQ(spec.walls[0].checksum, "cbf43926");
+  const std::string written = effective_case(spec);
+  EXPECT_EQ(read_case_text(written, "run"), spec);
+  std::ofstream(mesh) << "1234567890";
+  try {
+    read_case_text(written, "run");
+    ADD_FAILURE() << "a changed file was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has changed"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MeshFile, NeedsASideAndThreeDimensions) {
+  const std::string no_side = mesh_case.substr(0, mesh_case.find("fluid_side"));
+  EXPECT_NE(message_of(no_side).find("wall[0].fluid_side is missing"), std::string::npos);
+  EXPECT_NE(message_of(no_side + "fluid_side = \"left\"\n").find("\"above\" or \"below\""), std::string::npos);
+  EXPECT_NE(message_of(mesh_case.substr(mesh_case.find('\n') + 1)).find("shape of three dimensions"),
+            std::string::npos);
+  EXPECT_NE(message_of(mesh_case).find("cannot read it"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tailwater
