@@ -15,6 +15,10 @@ namespace {
 /// the scale of single particles.
 constexpr double coarse_tolerance = 0.03;
 
+/// Share of a direction's square that must be left when it has been made orthogonal to the last one. Less is rounding,
+/// which the length that suits it would multiply by more than a million: momentum would no longer be kept.
+constexpr double least_new_share = 1e-12;
+
 /// One correction of the pressure and its effect. Only owned entries count.
 template <int Dim>
 struct Correction {
@@ -109,10 +113,11 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
     }
     admit(flow, next.pressure);
     follow(flow, dt, walls_at_rest, next);
+    const double whole = dot(ranks, next.source, next.source);
     const double last_square = dot(ranks, last.source, last.source);
     if (last_square > 0.0) add(-dot(ranks, next.source, last.source) / last_square, last, next);
     const double square = dot(ranks, next.source, next.source);
-    if (square == 0.0) break;  // nothing left to correct
+    if (square <= least_new_share * whole) break;  // nothing left to correct, or no new way to
     const double length = dot(ranks, source, next.source) / square;
     for_each(particles.owned, [&](std::size_t i) {
       source[i] -= length * next.source[i];
