@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -147,9 +148,9 @@ SweepPlan sweep_plan(const std::vector<std::string>& options) {
   for (std::size_t number = 0; number < count; ++number) {
     SweepMember member;
     std::size_t rest = number;
-    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-      member.values.insert(member.values.begin(), key->values[rest % key->values.size()]);
-      rest /= key->values.size();
+    for (const SweepKey& key : keys | std::views::reverse) {
+      member.values.insert(member.values.begin(), key.values[rest % key.values.size()]);
+      rest /= key.values.size();
     }
     member.folder = folder_name(plan.keys, member.values);
     while (!folders.insert(member.folder).second) member.folder += "_";

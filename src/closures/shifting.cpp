@@ -20,7 +20,7 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const double ratio = pairs.W[k] * inverse_W;
     const double tensile = 1.0 + 0.2 * ratio * ratio * ratio * ratio;
-    gradient += particles.volume[pairs.j[k]] * tensile * pairs.grad_W(k);
+    gradient += particles.volume[pairs.j[k]] * tensile * pairs.gradient(k);
   }
   return -law.spacing * gradient;
 }

@@ -38,7 +38,7 @@ void add_stress_divergence(const Pairs<Dim>& pairs, const Particles<Dim>& partic
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      return particles.volume[j] * pairs.dW(k) * ((stress[i] + stress[j]) * pairs.e(k));
+      return particles.volume[j] * pairs.slope(k) * ((stress[i] + stress[j]) * pairs.e(k));
     });
   });
 }

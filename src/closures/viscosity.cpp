@@ -74,8 +74,8 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      const double weight =
-          shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(k), pairs.dW(k), eta_squared);
+      const double weight = shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(k),
+                                                     pairs.slope(k), eta_squared);
       return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
     });
   });

@@ -12,10 +12,10 @@
 namespace tailwater {
 namespace {
 
-using Box = Eigen::AlignedBox<double, 3>;
+using AxisBox = Eigen::AlignedBox<double, 3>;
 
-Box box_of(const TriangleMesh& mesh, int triangle) {
-  Box box;
+AxisBox box_of(const TriangleMesh& mesh, int triangle) {
+  AxisBox box;
   for (int c = 0; c < 3; ++c) box.extend(mesh.corner(triangle, c));
   return box;
 }
@@ -25,7 +25,7 @@ WallFace<3> face_of(const TriangleMesh& mesh, int t) {
 }
 
 /// Whether a path meets a box.
-bool meets(const Box& box, const Vec<3>& from, const Vec<3>& to) {
+bool meets(const AxisBox& box, const Vec<3>& from, const Vec<3>& to) {
   double begin = 0.0;
   double end = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +51,7 @@ struct MeshSurface::Tree {
 
   explicit Tree(const TriangleMesh& mesh) {
     std::vector<int> triangles(mesh.triangles.size());
-    std::vector<Box> around(mesh.triangles.size());
+    std::vector<AxisBox> around(mesh.triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       triangles[t] = static_cast<int>(t);
       around[t] = box_of(mesh, static_cast<int>(t));
@@ -95,7 +95,7 @@ MeshSurface::MeshSurface(TriangleMesh mesh)
     }
   }
   point_normals_.assign(mesh_.points.size(), Vec<3>::Zero());
-  Box box;
+  AxisBox box;
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     const Vec<3> normal = mesh_.area_normal(t).normalized();
     for (int c = 0; c < 3; ++c) {
@@ -135,7 +135,7 @@ SurfacePlace MeshSurface::nearest(const Vec<3>& x, double search_distance) const
   double least = search_distance * search_distance;
   int triangle = -1;
   Foot foot;
-  tree_->walk([&](const Box& box) { return box.squaredExteriorDistance(x); }, [&] { return least; },
+  tree_->walk([&](const AxisBox& box) { return box.squaredExteriorDistance(x); }, [&] { return least; },
               [&](int t) {
                 const Foot here = closest_feature(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), x);
                 const double distance = (x - here.point).squaredNorm();
@@ -177,7 +177,7 @@ int MeshSurface::first_crossed(const Vec<3>& from, const Vec<3>& to, double tole
   double least = std::numeric_limits<double>::infinity();
   const Vec<3> margin = Vec<3>::Constant(tolerance);
   tree_->walk(
-      [&](const Box& box) {
+      [&](const AxisBox& box) {
         return meets({Vec<3>(box.min() - margin), Vec<3>(box.max() + margin)}, from, to) ? 0.0 : 1.0;
       },
       [] { return 0.5; },
@@ -194,8 +194,8 @@ int MeshSurface::first_crossed(const Vec<3>& from, const Vec<3>& to, double tole
 }
 
 void MeshSurface::find_in(const Vec<3>& low, const Vec<3>& high, std::vector<int>& found) const {
-  const Box wanted(low, high);
-  tree_->walk([&](const Box& box) { return box.intersects(wanted) ? 0.0 : 1.0; }, [] { return 0.5; },
+  const AxisBox wanted(low, high);
+  tree_->walk([&](const AxisBox& box) { return box.intersects(wanted) ? 0.0 : 1.0; }, [] { return 0.5; },
               [&](int t) {
                 if (box_of(mesh_, t).intersects(wanted)) found.push_back(t);
               });

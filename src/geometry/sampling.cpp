@@ -123,7 +123,7 @@ std::vector<double> planes_in(const Boundary<Dim>& boundary, const Eigen::Aligne
     }
   }
   std::ranges::sort(planes);
-  planes.erase(std::ranges::unique(planes).begin(), planes.end());
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
   return planes;
 }
 
@@ -309,31 +309,31 @@ void for_each_cell(const std::array<int, Dim>& count, Visit&& visit) {
 }  // namespace
 
 template <int Dim>
-Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary) {
-  const FluidTable& block = spec.fluid[index];
-  const std::string owner = fluid_label(spec, index);
+Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary) {
+  const FluidTable& water = spec.fluid[block];
+  const std::string owner = fluid_label(spec, block);
   const double dx = spec.particles.spacing;
   std::array<LatticeAxis, Dim> lattice;
   Eigen::AlignedBox<double, Dim> box;
-  if (block.shape == BlockShape::fill) {
+  if (water.shape == BlockShape::fill) {
     for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
-    box.extend(to_vec<Dim>(block.seed, owner, "seed"));
-    box.max()[Dim - 1] = block.level;
+    box.extend(to_vec<Dim>(water.seed, owner, "seed"));
+    box.max()[Dim - 1] = water.level;
   } else {
-    box = box_around<Dim>(block, owner);
+    box = box_around<Dim>(water, owner);
   }
-  // Walls that only touch the block's sides do not divide it.
+  // Walls that only touch the water's sides do not divide it.
   const Vec<Dim> margin = Vec<Dim>::Constant(0.25 * dx);
   const Eigen::AlignedBox<double, Dim> inside(Vec<Dim>(box.min() + margin), Vec<Dim>(box.max() - margin));
   for (int axis = 0; axis < Dim; ++axis) {
     const double low = box.min()[axis];
     const double high = box.max()[axis];
     std::vector<double> planes{low, high};
-    if (block.shape == BlockShape::polygon) {
+    if (water.shape == BlockShape::polygon) {
       // Every place of the box around it, at distances of exactly dx.
       planes = {low, low + dx * std::max(1.0, std::ceil((high - low) / dx - corner_tolerance))};
     } else if (const std::vector<double>& range = periodic_range(spec.domain, axis);
-               block.shape == BlockShape::fill && range.size() == 2) {
+               water.shape == BlockShape::fill && range.size() == 2) {
       planes = range;
     } else {
       const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(least_edge * dx, Dim - 1));

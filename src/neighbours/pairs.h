@@ -21,10 +21,10 @@ struct Pairs {
   std::vector<double> W;               ///< 1/m^Dim; kernel
   std::vector<double> F;               ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
 
-  double r(std::size_t k) const { return d[k].norm(); }          ///< m; |r_ij|
-  Vec<Dim> e(std::size_t k) const { return d[k] / r(k); }        ///< unit vector along r_ij
-  double dW(std::size_t k) const { return -F[k] * r(k); }        ///< 1/m^(Dim+1); dW/dr
-  Vec<Dim> grad_W(std::size_t k) const { return -F[k] * d[k]; }  ///< 1/m^(Dim+1); grad_i W_ij
+  double r(std::size_t k) const { return d[k].norm(); }            ///< m; |r_ij|
+  Vec<Dim> e(std::size_t k) const { return d[k] / r(k); }          ///< unit vector along r_ij
+  double slope(std::size_t k) const { return -F[k] * r(k); }       ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> gradient(std::size_t k) const { return -F[k] * d[k]; }  ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }

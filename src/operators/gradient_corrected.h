@@ -29,7 +29,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   columns.fill(Vec<Dim>::Zero());
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    const Vec<Dim> weight = volume[j] * pairs.grad_W(k);
+    const Vec<Dim> weight = volume[j] * pairs.gradient(k);
     const Vec<Dim> difference = field[j] - field[i];
     for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * difference;
   }

@@ -22,7 +22,7 @@ Vec<Dim> density_weighted_gradient(const Pairs<Dim>& pairs, std::size_t i, std::
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    sum += (volume[j] * pairs.dW(k) * (own + field[j] / (density[j] * density[j]))) * pairs.e(k);
+    sum += (volume[j] * pairs.slope(k) * (own + field[j] / (density[j] * density[j]))) * pairs.e(k);
   }
   return sum;
 }

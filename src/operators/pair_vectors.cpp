@@ -101,7 +101,7 @@ void close_faces(const Pairs<Dim>& pairs, std::span<const double> volume, std::s
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors) {
   pair_vectors.resize(pairs.j.size());
-  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.grad_W(k); });
+  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.gradient(k); });
 }
 
 template <int Dim>

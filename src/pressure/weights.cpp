@@ -51,8 +51,8 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem:
     const std::vector<double>& density = here.concentration;
     return row.set_weights([&](std::size_t k) {
       const auto j = pairs.j[k];
-      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(k), pairs.dW(k),
-                                                           flow.setup.eta_squared)
+      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(k),
+                                                           pairs.slope(k), flow.setup.eta_squared)
                                 : 0.0;
     });
   }

@@ -221,7 +221,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
         morris += morris_laplacian_weight(set.particles.volume[i], pairs.F[k], pairs.d[k].squaredNorm(), dx);
         consistent += consistent_laplacian_weight<Dim>(operators.tensors[i], set.particles.volume[i], pairs.e(k),
                                                        pairs.r(k), pairs.W[k]);
-        first_moment -= set.particles.volume[i] * pairs.dW(k) * pairs.r(k) / Dim;
+        first_moment -= set.particles.volume[i] * pairs.slope(k) * pairs.r(k) / Dim;
       }
       // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.
       const double relative = 1e4 * eps;
