@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <ranges>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -148,9 +147,11 @@ SweepPlan sweep_plan(const std::vector<std::string>& options) {
   for (std::size_t number = 0; number < count; ++number) {
     SweepMember member;
     std::size_t rest = number;
-    for (const SweepKey& key : keys | std::views::reverse) {
-      member.values.insert(member.values.begin(), key.values[rest % key.values.size()]);
-      rest /= key.values.size();
+    member.values.resize(keys.size());
+    for (std::size_t k = keys.size(); k-- > 0;) {  // the last key's values change first
+      const std::vector<std::string>& values = keys[k].values;
+      member.values[k] = values[rest % values.size()];
+      rest /= values.size();
     }
     member.folder = folder_name(plan.keys, member.values);
     while (!folders.insert(member.folder).second) member.folder += "_";
