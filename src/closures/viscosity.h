@@ -49,7 +49,8 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// where a_ij is the pair vector and c_ij the Morris weight with a_ij . e_ij for dW_ij. The first term alone is nu lap
 /// u, whose natural condition at a free surface is du/dn = 0: waves then decay by a third too slowly. The second one,
 /// the divergence of (grad u)^T, vanishes inside and makes that condition zero stress. Conserves momentum; only the
-/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts.
+/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts. A `noise_viscosity` [m^2/s] above 0
+/// adds what add_noise_viscosity does, in the same pass.
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,

@@ -155,7 +155,7 @@ struct KrylovSolver::Petsc {
     PetscBool is_ours = PETSC_FALSE;
     check_petsc(KSPGetPC(solver.get(), &preconditioner));
     check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
-    if (!is_ours) return;
+    if (!is_ours || !system.has_cells()) return;
     multigrid.emplace(system);
     check_petsc(PCShellSetContext(preconditioner, &*multigrid));
     check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
@@ -180,6 +180,11 @@ struct KrylovSolver::Petsc {
 KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep)
     : settings_(settings), rows_deep_(rows_deep), petsc_(std::make_unique<Petsc>()) {
   take_petsc_options(settings_);
+}
+
+bool KrylovSolver::needs_cells() const {
+  const SolverChoice choice = choose_solver(settings_, {.rows_deep = rows_deep_, .has_cells = true});
+  return choice.preconditioner == PreconditionerName::cell_multigrid;
 }
 
 KrylovSolver::~KrylovSolver() = default;

@@ -31,6 +31,9 @@ class KrylovSolver {
   /// overrides that of the settings. Collective.
   SolveReport solve(LinearSystem& system, std::span<double> solution, std::optional<double> tolerance = {});
 
+  /// Whether it solves by the multigrid on cells, so that systems must tell theirs.
+  bool needs_cells() const;
+
   /// Relative residual at which a solve ends.
   double tolerance() const { return settings_.tolerance; }
 

@@ -131,10 +131,12 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
-  const std::span positions(flow.state.particles.position);
-  flow.pressure_rows.set_cells(find_cells<Dim>(positions.first(flow.state.particles.owned),
-                                               cell_edge * flow.setup.spacing,
-                                               [&](std::size_t i) { return flow.has_equation(i); }));
+  if (flow.pressure_solver.needs_cells()) {
+    const std::span positions(flow.state.particles.position);
+    flow.pressure_rows.set_cells(find_cells<Dim>(positions.first(flow.state.particles.owned),
+                                                 cell_edge * flow.setup.spacing,
+                                                 [&](std::size_t i) { return flow.has_equation(i); }));
+  }
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   return count_each(flow.state.particles.owned,
                     [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, i); });

@@ -1,8 +1,6 @@
 #include "walls/near_walls.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "base/for_each.h"
 
