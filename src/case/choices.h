@@ -9,7 +9,7 @@
 namespace tailwater {
 
 enum class BlockShape { box, polygon, fill };
-enum class WallShape { polyline, polygon, box, mesh };
+enum class WallShape { polyline, polygon, box, mesh, plate };
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
 
@@ -56,7 +56,7 @@ struct Choices<BlockShape> {
 };
 template <>
 struct Choices<WallShape> {
-  static constexpr std::array<std::string_view, 4> names{"polyline", "polygon", "box", "mesh"};
+  static constexpr std::array<std::string_view, 5> names{"polyline", "polygon", "box", "mesh", "plate"};
 };
 template <>
 struct Choices<FluidSide> {

@@ -186,11 +186,12 @@ struct WallTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
-    v.choice("shape", self.shape,
-             "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
-             "from a "
-             "file (3D)");
-    v.points("points", self.points, "m", "Corners of a polyline or polygon, in order");
+    v.choice(
+        "shape", self.shape,
+        "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
+        "from a file (3D); plate: a wall without thickness that has water on both sides, an open chain of segments "
+        "(2D) or a rectangle (3D)");
+    v.points("points", self.points, "m", "Corners of a polyline, polygon or plate, in order");
     v.text("points_file", self.points_file,
            "Instead of points: CSV file of them, relative to the case file (docs/theory/geometry.md); a run keeps the "
            "points in its case");
@@ -209,7 +210,7 @@ struct WallTable {
         "fluid_side", self.fluid_side,
         "Side on which the water is: left or right of a polyline, seen in the order of its points; inside or outside a "
         "polygon, box or closed mesh; above or below an open mesh, or in front or at the back of it, where the front "
-        "sees the corners of triangles counter-clockwise (default: left; inside; needed for a mesh)");
+        "sees the corners of triangles counter-clockwise (default: left; inside; needed for a mesh; a plate has none)");
     v.choice("slip", self.slip,
              "Friction on the wall: none (free), that of a smooth wall (no-slip), or a fraction of it (partial)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),

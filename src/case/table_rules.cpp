@@ -43,6 +43,12 @@ void check_box(const Coordinates& min, const Coordinates& max, TableReader& read
   }
 }
 
+/// The number of corners that a wall of this shape has at least.
+std::size_t least_corners(WallShape shape, int dimension) {
+  if (shape == WallShape::plate && dimension == 3) return 4;
+  return shape == WallShape::polyline || shape == WallShape::plate ? 2 : 3;
+}
+
 void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader) {
   const toml::node* node = reader.given("points");
   if (node != nullptr && !reader.is_wrong("points") && points.size() < least) {
@@ -141,7 +147,7 @@ namespace {
 
 /// A chain has its points in the case or in a file.
 void check_points_given(const WallTable& wall, TableReader& reader) {
-  if (wall.shape != WallShape::polyline && wall.shape != WallShape::polygon) return;
+  if (wall.shape == WallShape::box || wall.shape == WallShape::mesh) return;
   const bool has_file = !wall.points_file.empty();
   if (has_file && reader.given("points") != nullptr) {
     reader.wrong("points_file", *reader.given("points_file"),
@@ -154,7 +160,7 @@ void check_points_given(const WallTable& wall, TableReader& reader) {
 }
 
 void check_fluid_side(const WallTable& wall, TableReader& reader) {
-  if (reader.is_wrong("shape") || reader.is_wrong("fluid_side")) return;
+  if (wall.shape == WallShape::plate || reader.is_wrong("shape") || reader.is_wrong("fluid_side")) return;
   const toml::node* node = reader.given("fluid_side");
   const FluidSide side = wall.fluid_side;
   const bool is_chain_side = side == FluidSide::left || side == FluidSide::right;
@@ -188,11 +194,12 @@ void check(const WallTable& wall, TableReader& reader) {
       check_shape_dimension(name_of(wall.shape), 3, "\"polyline\", \"polygon\" or \"box\"", reader);
       break;
     case WallShape::box:
+    case WallShape::plate:
       break;
   }
   check_points_given(wall, reader);
   check_box(wall.min, wall.max, reader);
-  check_corner_count(wall.points, wall.shape == WallShape::polyline ? 2 : 3, reader);
+  check_corner_count(wall.points, least_corners(wall.shape, reader.dimension()), reader);
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
     for (const std::string& face : wall.open) {
       if (face.ends_with('z')) {
@@ -219,7 +226,7 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
   if (!wall.points_file.empty() && wall.points.empty()) {
     read("points_file", [&] {
       wall.points = read_points_file(reader.linked(wall.points_file));
-      const std::size_t least = wall.shape == WallShape::polyline ? 2 : 3;
+      const std::size_t least = least_corners(wall.shape, reader.dimension());
       if (wall.points.size() < least) {
         throw InputError(fmt::format("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
                                      wall.points.size(), least));

@@ -3,6 +3,7 @@
 #include "flow/verbs.h"
 #include "operators/concentration.h"
 #include "operators/pair_vectors.h"
+#include "walls/hidden_pairs.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {
@@ -64,6 +65,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   const Setup<Dim>& setup = flow.setup;
   if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_lists())) return;
   flow.neighbourhood.update(flow.state.particles);
+  hide_pairs_behind_plates(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   Surroundings<Dim>& here = flow.here;

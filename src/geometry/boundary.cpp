@@ -8,6 +8,7 @@
 #include "geometry/mesh_surface.h"
 #include "geometry/mesh_walls.h"
 #include "geometry/sampling.h"
+#include "geometry/wall_particles.h"
 
 namespace tailwater {
 namespace {
@@ -155,6 +156,47 @@ void append_box(const WallTable& table, int wall, const std::string& owner, doub
   }
 }
 
+/// The two triangles of a rectangle, whose corners are in order, as seen from either side.
+std::vector<WallFace<3>> rectangle_faces(const std::vector<Vec<3>>& c, const Vec<3>& normal, int wall) {
+  return {{{c[0], c[1], c[2]}, normal, wall},
+          {{c[0], c[2], c[3]}, normal, wall},
+          {{c[0], c[2], c[1]}, -normal, wall},
+          {{c[0], c[3], c[2]}, -normal, wall}};
+}
+
+template <int Dim>
+void append_plate(const WallTable& table, int wall, const std::string& owner, double spacing, Boundary<Dim>& boundary) {
+  const int first = static_cast<int>(boundary.faces.size());
+  if constexpr (Dim == 2) {
+    WallTable side = table;
+    side.shape = WallShape::polyline;
+    for (const FluidSide water : {FluidSide::left, FluidSide::right}) {
+      side.fluid_side = water;
+      append_chain(side, wall, owner, spacing, boundary.faces);
+    }
+  } else {
+    std::vector<Vec<3>> corners;
+    for (std::size_t k = 0; k < table.points.size(); ++k) {
+      corners.push_back(to_vec<3>(table.points[k], owner, fmt::format("points[{}]", k)));
+    }
+    const double tolerance = corner_tolerance * spacing;
+    const bool is_rectangle =
+        corners.size() == 4 && (corners[0] + corners[2] - corners[1] - corners[3]).norm() <= tolerance &&
+        (corners[1] - corners[0]).norm() > tolerance && (corners[3] - corners[0]).norm() > tolerance &&
+        std::abs((corners[1] - corners[0]).normalized().dot(corners[3] - corners[0])) <= tolerance;
+    if (!is_rectangle) {
+      throw InputError(
+          fmt::format("{}: its {} points are not the corners of a rectangle, as a plate in 3D needs: give "
+                      "four, in the order in which one walks around it, with right angles",
+                      owner, corners.size()));
+    }
+    const Vec<3> normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
+    for (const WallFace<3>& face : rectangle_faces(corners, normal, wall)) boundary.faces.push_back(face);
+  }
+  boundary.walls[wall].is_plate = true;
+  boundary.plates.push_back({wall, first, (static_cast<int>(boundary.faces.size()) - first) / 2});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -281,6 +323,7 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
     const double distance = (x - point).norm();
     const double height = face.height(x);
     const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;
+    if (height < 0.0 && !plates.empty() && walls[face.wall].is_plate) return;  // its other face is as near
     if (is_tie ? std::abs(height) > std::abs(best_height) : distance <= best_distance) {
       best = {f, point, height < 0.0 ? -distance : distance};
       best_distance = distance;
@@ -319,7 +362,9 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const int wall = static_cast<int>(w);
     boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w)});
     const std::string owner = wall_label(boundary, wall);
-    if (table.shape == WallShape::box) {
+    if (table.shape == WallShape::plate) {
+      append_plate(table, wall, owner, spec.particles.spacing, boundary);
+    } else if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
     } else if constexpr (Dim == 2) {
       append_chain(table, wall, owner, spec.particles.spacing, boundary.faces);
@@ -337,6 +382,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
                       compared, boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces));
     }
   }
+  boundary.hang_screens(0.5 * spec.particles.spacing, dummy_layers(spec) * spec.particles.spacing);
   if (!boundary.meshes.empty() && !spec.fluid.empty()) boundary.lattice = make_lattice<Dim>(spec, 0, boundary);
   return boundary;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,7 @@ struct WallProperties {
   std::string name;
   double friction = 0.0;    ///< share of the no-slip wall stress: 0 free slip, 1 no slip
   int body = resting_body;  ///< walls of one body never move relative to each other
+  bool is_plate = false;    ///< without thickness, with water on both sides
 
   bool moves() const { return body != resting_body; }
 };
@@ -89,6 +91,38 @@ struct WallMesh {
   int end_face() const;
 };
 
+/// A wall without thickness. Every piece of it, a segment (2D) or a triangle (3D), has two faces back to back: first
+/// come the fronts of all pieces, then the backs in the same order.
+struct WallPlate {
+  int wall = 0;
+  int first_face = 0;
+  int pieces = 0;
+};
+
+/// What a flat piece of a plate hides: water on one side of it does not feel the water on the other.
+template <int Dim>
+struct Screen {
+  Vec<Dim> corner;
+  Vec<Dim> normal;
+  std::array<Vec<Dim>, Dim - 1> along;               ///< unit vectors in its plane, at right angles
+  std::array<std::array<double, 2>, Dim - 1> range;  ///< m; where it begins and ends along each, from the corner
+  int wall = 0;
+  int front = 0;  ///< indices into Boundary::faces, the front one on the side that the normal points to
+  int back = 0;
+
+  double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
+  /// Whether the way from one place to another passes it.
+  bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// m; of `x` from the piece
+  double distance(const Vec<Dim>& x) const;
+};
+
+/// Whether what is at one place does not feel what is at the other, because a screen is between them. If one of them is
+/// a wall particle of a plate, `plate` is its index into Boundary::walls, else -1; such a particle stands for what its
+/// own plate hides, and is felt only through it.
+template <int Dim>
+bool is_hidden(std::span<const Screen<Dim>> screens, const Vec<Dim>& from, const Vec<Dim>& to, int plate);
+
 /// The cells of the water's lattice, by axis.
 template <int Dim>
 using Lattice = std::array<LatticeAxis, Dim>;
@@ -98,16 +132,23 @@ struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
   std::vector<WallMesh> meshes;  ///< by first face; none in 2D
-  Lattice<Dim> lattice;          ///< of the first block of water, which goes on behind the meshes
+  std::vector<WallPlate> plates;
+  std::vector<Screen<Dim>> screens;  ///< of the plates at their present places
+  Lattice<Dim> lattice;              ///< of the first block of water, which goes on behind the meshes
 
   /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
   void file_faces(double reach);
   double filed_reach() const { return resting_.reach(); }
 
-  /// Nearest wall within `search_distance` (m, may be infinite) of `x`. Where several faces are equally near (a shared
-  /// corner), the sign is that of the face whose plane is farthest from `x`, which is right at convex and concave
-  /// corners. The sign of a mesh is right at saddles as well (mesh_surface.h).
+  /// Makes the screens of the plates where the faces are now. An end of a plate that is on another wall, or nearer to
+  /// it than `closed_gap` (m), leaves no opening: the screen goes on behind that wall by `reach` (m).
+  void hang_screens(double closed_gap, double reach);
+  void hang_screens() { hang_screens(closed_gap_, screen_reach_); }
+
+  /// Nearest wall within `search_distance` (m, may be infinite) of `x`. No place is behind a plate. Where several faces
+  /// are equally near (a shared corner), the sign is that of the face whose plane is farthest from `x`, which is right
+  /// at convex and concave corners. The sign of a mesh is right at saddles as well (mesh_surface.h).
   NearestWall<Dim> nearest(const Vec<Dim>& x, double search_distance) const;
 
   /// The signed distance of `x` from one mesh; infinite if there is nothing of it within `search_distance`.
@@ -127,12 +168,17 @@ struct Boundary {
     for (; f < static_cast<int>(faces.size()); ++f) visit(f);
   }
 
+  /// The wall, if it is a plate, else -1.
+  int plate_of(int wall) const { return walls[wall].is_plate ? wall : -1; }
+
   /// The mesh that a face belongs to; null if it belongs to none.
   const WallMesh* mesh_of(int face) const;
 
  private:
-  FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is filed
-  std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed
+  double closed_gap_ = 0.0;    ///< m
+  double screen_reach_ = 0.0;  ///< m
+  FaceGrid<Dim> resting_;      ///< without meshes; reach 0: nothing is filed
+  std::vector<int> moving_;    ///< faces that are not of a mesh, when others are filed
 };
 
 /// "wall 'gate'": the name of a wall in messages.

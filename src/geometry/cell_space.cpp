@@ -117,6 +117,7 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
   using Cell = typename CellSpace<Dim>::Cell;
   Spread<Dim> found;
   found.met.assign(space.faces().size(), false);
+  found.behind.assign(space.faces().size(), std::nullopt);
   std::vector<bool> visited(space.count(), false);
   const auto visit = [&](const Cell& c) {
     if (visited[space.index(c)]) return;
@@ -132,6 +133,7 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
       if (step * down[axis] < -0.5) continue;
       if (const int face = space.face_beside(c, axis, step); face >= 0) {
         found.met[face] = true;
+        if (space.faces()[face].height(space.centre(c)) < 0.0) found.behind[face] = space.centre(c);
         ++found.sides;
       } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
         visit(*target);

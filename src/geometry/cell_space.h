@@ -78,7 +78,8 @@ struct Spread {
   std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it reaches them
   std::optional<Vec<Dim>> way_out;  ///< the last place inside, if water leaves the case; the search ends there
   std::vector<bool> met;            ///< by face: whether it held the water
-  std::size_t sides = 0;            ///< sides of the cells that are at faces
+  std::vector<std::optional<Vec<Dim>>> behind;  ///< by face: a place behind it that the water reaches
+  std::size_t sides = 0;                        ///< sides of the cells that are at faces
 };
 
 /// Lets water run from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it

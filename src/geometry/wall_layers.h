@@ -78,4 +78,9 @@ void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticl
 /// 3D: meshes (wall_meshes.cpp). Throws InputError if the layers start on the wall.
 void sample_meshes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);
 
+/// Plates (plates.cpp), as many parts as they have sides. The two sides of a plate share the space on both of its
+/// sides; water feels only those of them that the plate hides from it.
+template <int Dim>
+std::vector<WallParticles<Dim>> sample_plates(const Boundary<Dim>& boundary, const WallLayers& layers);
+
 }  // namespace tailwater

@@ -106,6 +106,7 @@ void WallMotion<Dim>::place(double time, Boundary<Dim>& boundary, WallParticles<
       particles.blocked[row] = motion.linear * drawn_particles_.blocked[row] * motion.linear.transpose();
     });
   }
+  if (!moving_.empty()) boundary.hang_screens();
 }
 
 template <int Dim>

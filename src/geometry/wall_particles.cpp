@@ -31,7 +31,7 @@ void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::
   put(all.wall, part.wall);
 }
 
-/// A body with its own faces only.
+/// A body with its own faces only, without plates.
 template <int Dim>
 Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
   Boundary<Dim> alone;
@@ -47,7 +47,8 @@ Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
     mesh.first_face = first;
   }
   boundary.visit_plain_faces([&](int f) {
-    if (boundary.walls[boundary.faces[f].wall].body == body) alone.faces.push_back(boundary.faces[f]);
+    const WallProperties& wall = boundary.walls[boundary.faces[f].wall];
+    if (wall.body == body && !wall.is_plate) alone.faces.push_back(boundary.faces[f]);
   });
   return alone;
 }
@@ -61,6 +62,7 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
   for (const int body : bodies) {
     parts.push_back(sample(body_alone(boundary, body), layers));
   }
+  for (WallParticles<Dim>& side : sample_plates(boundary, layers)) parts.push_back(std::move(side));
   WallParticles<Dim> all;
   for (const WallParticles<Dim>& part : parts) append_range(all, part, 0, part.on_wall);
   all.on_wall = all.size();

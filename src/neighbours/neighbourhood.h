@@ -25,6 +25,12 @@ class Neighbourhood {
   /// number of ghosts, are new. pairs() and their order may change at every call.
   bool update(Particles<Dim>& particles);
 
+  /// Keeps those pairs of the last update for which keep(i, k) is true: k of row i.
+  template <class Keep>
+  void keep_pairs(Keep&& keep) {
+    tailwater::keep_pairs(pairs_, keep);
+  }
+
   /// Moves particles that left a periodic domain in again at its other end. Call between steps only.
   void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }
 

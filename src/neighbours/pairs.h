@@ -45,4 +45,28 @@ template <int Dim>
 void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, std::span<const std::int64_t> id,
                     double least_distance, const NeighbourList& list, Pairs<Dim>& pairs);
 
+/// Keeps the pairs k of row i for which keep(i, k) is true, in their order.
+template <int Dim, class Keep>
+void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
+  std::size_t n = 0;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: rows are put one behind the other
+    const std::size_t end = pairs.end(i);
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!keep(i, k)) continue;
+      pairs.j[n] = pairs.j[k];
+      pairs.d[n] = pairs.d[k];
+      pairs.W[n] = pairs.W[k];
+      pairs.F[n] = pairs.F[k];
+      ++n;
+    }
+    begin = end;
+    pairs.row_begin[i + 1] = n;
+  }
+  pairs.j.resize(n);
+  pairs.d.resize(n);
+  pairs.W.resize(n);
+  pairs.F.resize(n);
+}
+
 }  // namespace tailwater

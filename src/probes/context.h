@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,16 +41,27 @@ struct ProbeContext {
   double time;       ///< s
   FlowTotals totals;
   Communicator ranks = {};
+  /// By row of the table of wall particles, an index into Boundary::walls. Needed where there are plates.
+  std::span<const int> wall_of_row = {};
 };
 
-/// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x`.
+/// Whether a plate hides a particle from a place.
+template <int Dim>
+bool is_hidden_from(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
+  if (context.boundary.screens.empty()) return false;
+  const Particles<Dim>& particles = context.particles;
+  const int plate = particles.is_fluid(j) ? -1 : context.boundary.plate_of(context.wall_of_row[particles.wall_row[j]]);
+  return is_hidden<Dim>(context.boundary.screens, x, particles.position[j], plate);
+}
+
+/// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x` that no plate hides from it.
 template <int Dim, class Body>
 void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
   std::visit(
       [&](const auto& kernel) {
         context.grid.for_each_near(x, [&](std::int32_t j) {
           const double squared = (x - context.particles.position[j]).squaredNorm();
-          if (squared < kernel.radius * kernel.radius) {
+          if (squared < kernel.radius * kernel.radius && !is_hidden_from(context, x, j)) {
             body(j, context.particles.volume[j] * kernel.value(std::sqrt(squared)));
           }
         });

@@ -18,6 +18,7 @@ struct Sample {
   double pressure;
   double volume;
   ParticleKind kind;
+  std::int32_t wall_row;
 
   /// Copies of a particle on several ranks have equal keys; periodic images differ in position.
   auto key() const { return std::tie(id, position); }
@@ -43,7 +44,7 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
   std::vector<Sample<Dim>> near;
   for (const std::size_t i : indices_where(particles.size(), is_near)) {
     near.push_back({particles.id[i], to_array<Dim>(particles.position[i]), to_array<Dim>(particles.velocity[i]),
-                    particles.pressure[i], particles.volume[i], particles.kind[i]});
+                    particles.pressure[i], particles.volume[i], particles.kind[i], particles.wall_row[i]});
   }
   near = context.ranks.gather(near);
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
@@ -59,7 +60,7 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
     gathered.pressure[i] = near[i].pressure;
     gathered.volume[i] = near[i].volume;
     gathered.kind[i] = near[i].kind;
-    gathered.wall_row[i] = -1;
+    gathered.wall_row[i] = near[i].wall_row;
     gathered.id[i] = near[i].id;
   });
   return gathered;

@@ -28,8 +28,19 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
                                  label(probe), support, place(x)));
   }
   const int wall = boundary.faces[nearest.face].wall;
-  if (!boundary.walls[wall].moves()) return {nearest.point, nullptr};
-  return {nearest.point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
+  Vec<Dim> point = nearest.point;
+  if (boundary.walls[wall].is_plate) {
+    const double tolerance = corner_tolerance * spec.particles.spacing;
+    if (nearest.signed_distance <= tolerance) {
+      throw InputError(
+          fmt::format("{}: {} is on {}, a plate that has water on both sides: move it by a millimetre to "
+                      "the side that is meant",
+                      label(probe), place(x), wall_label(boundary, wall)));
+    }
+    point += tolerance * boundary.faces[nearest.face].normal;
+  }
+  if (!boundary.walls[wall].moves()) return {point, nullptr};
+  return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 
 /// The region around the points, which need not lie on one line.

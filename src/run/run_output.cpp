@@ -205,7 +205,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .density_error_mean = measures.density_error_mean,
                              .density_error_rms = measures.density_error_rms,
                              .volume_out = measures.departed.volume},
-                  .ranks = ranks_});
+                  .ranks = ranks_,
+                  .wall_of_row = flow.walls.particles.wall});
 }
 
 template <int Dim>

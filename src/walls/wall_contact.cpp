@@ -16,6 +16,26 @@ bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles
   return false;
 }
 
+/// Where the water was before a move, carried along by the wall.
+template <int Dim>
+Vec<Dim> carried_by(const WallWays<Dim>& ways, int wall, const Vec<Dim>& before) {
+  return ways.way.empty() ? before : ways.way[wall](before);
+}
+
+/// The wall that is in the way: a plate that the move has passed, else the nearest wall.
+template <int Dim>
+NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways,
+                                 const Vec<Dim>& before, const Vec<Dim>& position) {
+  for (const Screen<Dim>& screen : boundary.screens) {
+    const Vec<Dim> carried = carried_by(ways, screen.wall, before);
+    if (!screen.is_between(carried, position)) continue;
+    const double height = screen.height(position);
+    return {screen.height(carried) >= 0.0 ? screen.front : screen.back, position - height * screen.normal,
+            -std::abs(height)};
+  }
+  return boundary.nearest(position, search_distance * spacing);
+}
+
 /// Applies one cushion per adjacent wall; a corner has at most Dim of them. Returns whether the move would have ended
 /// behind a wall.
 template <int Dim>
@@ -25,11 +45,11 @@ bool cushion(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>&
   bool would_cross = false;
   int last_face = -1;
   for (int attempt = 0; attempt < Dim; ++attempt) {
-    const NearestWall<Dim> wall = boundary.nearest(position, search_distance * spacing);
+    const NearestWall<Dim> wall = wall_in_the_way(boundary, spacing, ways, before, position);
     if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
     last_face = wall.face;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    const Vec<Dim> carried = ways.way.empty() ? before : ways.way[face.wall](before);  // by the wall
+    const Vec<Dim> carried = carried_by(ways, face.wall, before);
     const double gap = std::clamp(face.height(carried), least_gap * spacing, contact);
     const double approach = gap - wall.signed_distance;
     if (approach <= 0.0) continue;
@@ -65,7 +85,8 @@ std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundar
                            const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
                            std::span<Vec<Dim>> velocity) {
   return count_each(pairs.owned(), [&](std::size_t i) {
-    return particles.is_fluid(i) && has_wall_neighbour(pairs, particles, i) &&
+    // Beside the end of a plate no wall particle need be in sight.
+    return particles.is_fluid(i) && (!boundary.screens.empty() || has_wall_neighbour(pairs, particles, i)) &&
            cushion(boundary, spacing, ways, before[i], particles.position[i],
                    velocity.empty() ? nullptr : &velocity[i]);
   });

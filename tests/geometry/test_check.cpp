@@ -369,6 +369,19 @@ TEST(Check, AnOutletIsNoLeak) {
   expect_only(check(low), Severity::error, {"would pour out"});
 }
 
+// Drawn as a line, a weir lets water through from behind.
+TEST(Check, WaterBehindALineIsAnError) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}), polyline({{1.0, 0.2}, {1.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.5, 0.4})};
+  spec.walls[1].fluid_side = FluidSide::right;
+  expect_only(check(spec), Severity::error, {"can reach the back of wall 'wall2'", "shape = \"plate\""});
+  spec.walls[1].shape = WallShape::plate;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.scheme.walls = WallTreatment::pressure_rows;
+  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"dummies\""});
+}
+
 TEST(Check, AnOutletIn3DIsNoLeak) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};

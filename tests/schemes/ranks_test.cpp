@@ -126,6 +126,23 @@ TYPED_TEST(RanksTest, PublishedFormulationsAndOtherWalls) {
   }
 }
 
+// The cut between ranks and the plate are at the same place.
+TYPED_TEST(RanksTest, WaterOnBothSidesOfAPlate) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  const double width = spec.fluid[0].max[0];
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  if constexpr (Dim == 2) {
+    plate.points = {{0.5 * width, 0.0}, {0.5 * width, 0.2}};
+  } else {
+    plate.points = {
+        {0.5 * width, 0.0, 0.0}, {0.5 * width, width, 0.0}, {0.5 * width, width, 0.2}, {0.5 * width, 0.0, 0.2}};
+  }
+  spec.walls.push_back(plate);
+  expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
 TYPED_TEST(RanksTest, ConsistentOperatorsStressAndFriction) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = jittered_tank<Dim>();

@@ -32,6 +32,10 @@ Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const F
 template <int Dim>
 Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Error: a plate where the wall particles stand on the walls, which cannot be seen from one side only.
+template <int Dim>
+Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
 /// Error: blocks of fluid that overlap.
 template <int Dim>
 Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
@@ -45,7 +49,8 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
 template <int Dim>
 Findings check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Error: a place where the water would pour out of the case. Outlets count as closed.
+/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Outlets count
+/// as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 

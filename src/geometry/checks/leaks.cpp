@@ -1,4 +1,5 @@
 #include <limits>
+#include <set>
 
 #include "geometry/cell_space.h"
 #include "geometry/checks/checks.h"
@@ -10,6 +11,23 @@ namespace {
 
 /// Largest number of cells; if cells of size dx were more, they are larger.
 constexpr double most_cells_of_flood = 4e6;
+
+/// Where water reaches the back of a wall, one finding per wall.
+template <int Dim>
+Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached) {
+  Findings findings;
+  std::set<int> reported;
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const int wall = boundary.faces[f].wall;
+    const std::optional<Vec<Dim>>& place_behind = reached.behind[f];
+    if (!place_behind || boundary.walls[wall].is_plate || !reported.insert(wall).second) continue;
+    findings.push_back(Finding::error(
+        "the water can reach the back of {}, at {}, where nothing would hold it: draw a wall that has water on both "
+        "sides with shape = \"plate\", or with two faces",
+        wall_label(boundary, wall), place(*place_behind)));
+  }
+  return findings;
+}
 
 }  // namespace
 
@@ -24,7 +42,7 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   }
   const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells_of_flood);
   const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid.position), Vec<Dim>(gravity.normalized()));
-  if (!reached.way_out) return {};
+  if (!reached.way_out) return water_behind(boundary, reached);
   const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());
   return {Finding::error("the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
                          place(*reached.way_out), wall_label(boundary, boundary.faces[wall.face].wall))};

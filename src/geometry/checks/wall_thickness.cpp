@@ -58,7 +58,8 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       const WallFace<Dim>& other = boundary.faces[g];
       const double facing = -face.normal.dot(other.normal);
       const bool is_neighbour = facing < 0.999 && shares_corner(face, other, tolerance);
-      if (&other == &face || facing <= 0.0 || is_neighbour) return;
+      const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
+      if (&other == &face || facing <= 0.0 || is_neighbour || is_plate) return;
       const std::optional<Vec<Dim>> foot = place_with_other_behind(face, other, needed, dx);
       if (!foot) return;
       const double thickness = std::max(0.0, -other.height(*foot) / facing);

@@ -1,0 +1,47 @@
+#include "walls/hidden_pairs.h"
+
+#include <vector>
+
+namespace tailwater {
+namespace {
+
+/// The plate that a particle belongs to, as an index into Boundary::walls; -1 if none.
+template <int Dim>
+int plate_of(const Walls<Dim>& walls, const Particles<Dim>& particles, std::size_t i) {
+  if (particles.is_fluid(i)) return -1;
+  return walls.boundary.plate_of(walls.particles.wall[particles.wall_row[i]]);
+}
+
+}  // namespace
+
+template <int Dim>
+void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& particles,
+                              Neighbourhood<Dim>& neighbourhood) {
+  const std::vector<Screen<Dim>>& screens = walls.boundary.screens;
+  if (screens.empty()) return;
+  const double radius = kernel_radius(neighbourhood.kernel());
+  const Pairs<Dim>& pairs = neighbourhood.pairs();
+  std::vector<Screen<Dim>> near;
+  std::size_t row = pairs.owned();
+  neighbourhood.keep_pairs([&](std::size_t i, std::size_t k) {
+    if (i != row) {  // the first pair of this row
+      row = i;
+      near.clear();
+      for (const Screen<Dim>& screen : screens) {
+        if (screen.distance(particles.position[i]) < radius) near.push_back(screen);
+      }
+    }
+    const auto j = static_cast<std::size_t>(pairs.j[k]);
+    const int plate = std::max(plate_of(walls, particles, i), plate_of(walls, particles, j));
+    // In an order that both rows of the pair agree about.
+    const bool is_forward = particles.id[i] < particles.id[j];
+    const Vec<Dim>& from = particles.position[is_forward ? i : j];
+    const Vec<Dim>& to = particles.position[is_forward ? j : i];
+    return !is_hidden<Dim>(near, from, to, plate);
+  });
+}
+
+template void hide_pairs_behind_plates(const Walls<2>&, const Particles<2>&, Neighbourhood<2>&);
+template void hide_pairs_behind_plates(const Walls<3>&, const Particles<3>&, Neighbourhood<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,18 @@
+// Plates are walls without thickness: water on one side does not feel the water on the other. Two particles make a pair
+// only if no plate is between them. The wall particles of a plate stand on both of its sides, and a particle of the
+// water feels exactly those that the plate hides from it: they take the place of the water behind the plate, so that
+// the support is filled once, also beside the end of a plate.
+#pragma once
+
+#include "neighbours/neighbourhood.h"
+#include "particles/particles.h"
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+/// Takes out the pairs that plates hide. Call after each Neighbourhood::update.
+template <int Dim>
+void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& particles,
+                              Neighbourhood<Dim>& neighbourhood);
+
+}  // namespace tailwater

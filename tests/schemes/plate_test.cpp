@@ -1,0 +1,128 @@
+// Plates: walls without thickness, with water on both sides.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = 0.05;
+constexpr double width = 0.8;
+
+/// A plate across the middle of a tank, from its bed to `height`.
+template <int Dim>
+WallTable plate_to(double height) {
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  const double middle = 0.5 * width;
+  if constexpr (Dim == 2) {
+    plate.points = {{middle, 0.0}, {middle, height}};
+  } else {
+    plate.points = {{middle, 0.0, 0.0}, {middle, width, 0.0}, {middle, width, height}, {middle, 0.0, height}};
+  }
+  return plate;
+}
+
+template <class D>
+class PlateTest : public testing::Test {};
+TYPED_TEST_SUITE(PlateTest, Dimensions);
+
+// The water of the other side is replaced by wall particles at the same places, so that not a single kernel value
+// changes, neither at the foot nor beside the end of the plate.
+TYPED_TEST(PlateTest, FillsEachSupportOnce) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double depth = 0.5;
+  CaseSpec spec = tank_case<Dim>(dx, width, depth);
+  spec.walls.push_back(plate_to<Dim>(0.3));
+  Flow<Dim> flow(spec);
+  locate(flow, false);
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const double support = kernel_radius(flow.setup.kernel);
+  std::size_t looked_at = 0;
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = particles.position[i];
+    if (x[Dim - 1] < depth - support) {
+      EXPECT_NEAR(flow.here.concentration[i], 1.0, 1e-9) << x.transpose();
+      ++looked_at;
+    }
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const Vec<Dim>& y = particles.position[pairs.j[k]];
+      if (!particles.is_fluid(pairs.j[k]) || x[Dim - 1] > 0.3 || y[Dim - 1] > 0.3) continue;
+      EXPECT_EQ(x[0] < 0.5 * width, y[0] < 0.5 * width) << x.transpose() << " to " << y.transpose();
+      ++apart;
+    }
+  }
+  EXPECT_GT(looked_at, 50u);
+  EXPECT_GT(apart, 500u);
+}
+
+// Bounds as for a tank without a plate (tank_test.cpp), with the larger depth of the two.
+TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
+  constexpr int Dim = TypeParam::value;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    constexpr double deep = 0.4;
+    constexpr double shallow = 0.2;
+    CaseSpec spec = tank_case<Dim>(dx, width, deep);
+    spec.scheme.integrator = integrator;
+    spec.walls.push_back(plate_to<Dim>(2.0 * deep));
+    spec.fluid.push_back(spec.fluid[0]);
+    spec.fluid[0].max[0] = spec.fluid[1].min[0] = 0.5 * width;
+    spec.fluid[1].max[Dim - 1] = shallow;
+    Flow<Dim> flow(spec);
+    const double settling = std::sqrt(g * dx / std::numbers::pi);
+    for (int n = 0; n < (Dim == 2 ? 30 : 8); ++n) {
+      EXPECT_EQ(step(flow).interventions.put_back, 0u);
+      ASSERT_LT(measure(flow).largest_speed, settling);
+    }
+    const double unit = flow.setup.density * g * dx;
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (!flow.state.particles.is_fluid(i)) continue;
+      const Vec<Dim>& x = flow.state.particles.position[i];
+      const double depth = x[0] < 0.5 * width ? deep : shallow;
+      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.density * g * (depth - x[Dim - 1])), unit)
+          << x.transpose();
+    }
+  }
+}
+
+// A particle that would jump through the plate in one step is put back in front of the side from which it came.
+TYPED_TEST(PlateTest, IsNotPassed) {
+  constexpr int Dim = TypeParam::value;
+  for (const double side : {-1.0, 1.0}) {
+    CaseSpec spec = tank_case<Dim>(dx, width, 0.1);
+    spec.walls.push_back(plate_to<Dim>(0.2));
+    Flow<Dim> flow(spec);
+    locate(flow, false);
+    Particles<Dim>& particles = flow.state.particles;
+    const std::vector<Vec<Dim>> before(particles.position.begin(), particles.position.begin() + particles.owned);
+    std::size_t jumping = particles.owned;
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      const double x = side * (particles.position[i][0] - 0.5 * width);
+      if (particles.is_fluid(i) && x > 0.0 && x < dx) jumping = i;
+    }
+    ASSERT_LT(jumping, particles.owned);
+    particles.position[jumping][0] -= side * 1.3 * dx;
+    EXPECT_EQ(keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, dx, {}, before, particles, {}), 1u);
+    EXPECT_GT(side * (particles.position[jumping][0] - 0.5 * width), 0.0);
+    // Above the plate the way is free.
+    particles.position[jumping] = before[jumping];
+    particles.position[jumping][Dim - 1] = 0.35;
+    const Vec<Dim> above = particles.position[jumping];
+    std::vector<Vec<Dim>> from = before;
+    from[jumping] = above;
+    particles.position[jumping][0] -= side * 1.3 * dx;
+    const Vec<Dim> over = particles.position[jumping];
+    EXPECT_EQ(keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, dx, {}, from, particles, {}), 0u);
+    EXPECT_EQ(particles.position[jumping], over);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
