@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,13 @@
 
 namespace tailwater {
 namespace {
+
+const std::map<std::string, const char*> templates_by_name{
+    {"dam-break", templates::dam_break},
+    {"tank", templates::tank},
+    {"pier", templates::pier},
+    {"sloshing", templates::sloshing},
+};
 
 struct NewOptions {
   std::string kind;
@@ -22,9 +30,7 @@ void write_new_case(const NewOptions& options) {
     throw InputError(
         fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
   }
-  write_text_file(options.file, options.kind == "tank"   ? templates::tank
-                                : options.kind == "pier" ? templates::pier
-                                                         : templates::dam_break);
+  write_text_file(options.file, templates_by_name.at(options.kind));
   const std::string file = options.file.string();
   fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
              options.file.stem().string());
@@ -38,10 +44,10 @@ void add_new_command(CLI::App& app, ExitCode&) {
   command
       ->add_option(
           "template", options->kind,
-          "dam-break (a column collapses in a tank), tank (water at rest) or pier (3D, a dam breaks against a pier "
-          "from an STL file)")
+          "dam-break (a column collapses in a tank), tank (water at rest), pier (3D, a dam breaks against a pier "
+          "from an STL file) or sloshing (a tank that rolls)")
       ->required()
-      ->check(CLI::IsMember({"dam-break", "tank", "pier"}))
+      ->check(CLI::IsMember(templates_by_name))
       ->type_name("NAME");
   command->add_option("file", options->file, "The case file to write")->required()->type_name("");
   command->add_flag("--force", options->force, "Overwrite the file if it exists");

@@ -12,6 +12,8 @@ enum class BlockShape { box, polygon, fill };
 enum class WallShape { polyline, polygon, box, mesh };
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
+enum class AxisDirection { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z };
+enum class GateMotion { speed, acceleration, falling_weight, file };
 
 enum class SchemeName { farzin2014, farmani2020 };
 enum class Formulation { robust, published };
@@ -66,6 +68,14 @@ struct Choices<FluidSide> {
 template <>
 struct Choices<Slip> {
   static constexpr std::array<std::string_view, 3> names{"free", "no-slip", "partial"};
+};
+template <>
+struct Choices<AxisDirection> {
+  static constexpr std::array<std::string_view, 6> names{"-x", "+x", "-y", "+y", "-z", "+z"};
+};
+template <>
+struct Choices<GateMotion> {
+  static constexpr std::array<std::string_view, 4> names{"speed", "acceleration", "falling-weight", "file"};
 };
 template <>
 struct Choices<SchemeName> {

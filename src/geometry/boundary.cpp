@@ -31,11 +31,13 @@ double friction_of(const WallTable& wall) {
 int body_of(const CaseSpec& spec, std::size_t w) {
   const WallTable& wall = spec.walls[w];
   const auto varies = [](const Varying& value) { return std::holds_alternative<std::string>(value); };
-  if (!varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
+  const bool is_driven = wall.drive.by != Drive::By::wall || !wall.series.empty();
+  if (!is_driven && !varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
     return resting_body;
   }
   const auto same = std::ranges::find_if(spec.walls, [&](const WallTable& other) {
-    return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot;
+    return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot &&
+           other.axis == wall.axis && other.drive == wall.drive && other.motion == wall.motion;
   });
   return 1 + static_cast<int>(same - spec.walls.begin());
 }
@@ -317,7 +319,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const WallTable& table = spec.walls[w];
     const std::size_t before = boundary.faces.size();
     const int wall = static_cast<int>(w);
-    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w)});
+    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w),
+                              table.drive.by == Drive::By::gate ? "gate" : "wall"});
     const std::string owner = wall_label(boundary, wall);
     if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);

@@ -15,15 +15,24 @@ namespace {
 /// and no path of a wall changes within it.
 constexpr double instant = 1e-6;
 
+/// Of a gate's motion; where its table gives none, against gravity.
+template <int Dim>
+Vec<Dim> unit_direction(const CaseSpec& spec, const GateTable& gate) {
+  Vec<Dim> direction =
+      gate.direction.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(gate.direction, "gate", "direction");
+  if (direction.norm() == 0.0) direction = -gravity_of<Dim>(spec);
+  return direction.norm() > 0.0 ? Vec<Dim>(direction.normalized()) : Vec<Dim>(Vec<Dim>::Unit(Dim - 1));
+}
+
 }  // namespace
 
 template <int Dim>
-double WallPath<Dim>::Component::at(double time) const {
+double WrittenMotion<Dim>::Component::at(double time) const {
   return formula.empty() ? number : formula.front().at(std::array{time});
 }
 
 template <int Dim>
-typename WallPath<Dim>::Component WallPath<Dim>::make_component(const CaseSpec& spec, const Varying& value) {
+typename WrittenMotion<Dim>::Component WrittenMotion<Dim>::make_component(const CaseSpec& spec, const Varying& value) {
   Component component;
   if (const auto* number = std::get_if<double>(&value)) {
     component.number = *number;
@@ -34,9 +43,8 @@ typename WallPath<Dim>::Component WallPath<Dim>::make_component(const CaseSpec& 
 }
 
 template <int Dim>
-WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner)
-    : rotation_(make_component(spec, table.rotation)),
-      pivot_(table.pivot.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(table.pivot, owner, "pivot")) {
+WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner)
+    : rotation_(make_component(spec, table.rotation)) {
   if (!table.displacement.empty() && table.displacement.size() != Dim) {
     throw InputError(
         fmt::format("{}: displacement has {} components but the case has {} dimensions: give one per dimension", owner,
@@ -46,14 +54,72 @@ WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std:
 }
 
 template <int Dim>
+Placement<Dim> WrittenMotion<Dim>::at(double time) const {
+  Placement<Dim> placement;
+  placement.angle = rotation_.at(time);
+  for (std::size_t axis = 0; axis < displacement_.size(); ++axis) {
+    placement.displacement[axis] = displacement_[axis].at(time);
+  }
+  return placement;
+}
+
+template <int Dim>
+MotionOfFile<Dim>::MotionOfFile(const TimeSeries& series) {
+  const auto spline = [&](std::size_t column) {
+    const std::vector<double>& values = series.columns[column];
+    return values.empty() ? std::nullopt : std::optional<Spline>(std::in_place, series.time, values);
+  };
+  for (int axis = 0; axis < Dim; ++axis) displacement_[axis] = spline(static_cast<std::size_t>(axis));
+  angle_ = spline(3);
+}
+
+template <int Dim>
+Placement<Dim> MotionOfFile<Dim>::at(double time) const {
+  Placement<Dim> placement;
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (displacement_[axis]) placement.displacement[axis] = displacement_[axis]->at(time);
+  }
+  if (angle_) placement.angle = angle_->at(time);
+  return placement;
+}
+
+template <int Dim>
+MotionOfGate<Dim>::MotionOfGate(const CaseSpec& spec, const GateTable& gate)
+    : direction_(unit_direction<Dim>(spec, gate)),
+      law_(gate, std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from"))),
+           gravity_of<Dim>(spec).norm()) {}
+
+template <int Dim>
+WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner)
+    : motion_(make_motion(spec, table, owner)),
+      pivot_(table.pivot.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(table.pivot, owner, "pivot")) {
+  if constexpr (Dim == 3) {
+    if (table.axis.empty()) return;
+    const Vec<3> axis = to_vec<3>(table.axis, owner, "axis");
+    if (axis.norm() > 0.0) axis_ = axis.normalized();
+  }
+}
+
+template <int Dim>
+typename WallPath<Dim>::Motion WallPath<Dim>::make_motion(const CaseSpec& spec, const WallTable& table,
+                                                          const std::string& owner) {
+  if (table.drive.by == Drive::By::gate) return MotionOfGate<Dim>(spec, spec.gates[table.drive.index]);
+  if (!table.series.empty()) return MotionOfFile<Dim>(table.series);
+  return WrittenMotion<Dim>(spec, table, owner);
+}
+
+template <int Dim>
 AffineMap<Dim> WallPath<Dim>::at(double time) const {
+  const Placement<Dim> placement = std::visit([time](const auto& motion) { return motion.at(time); }, motion_);
   AffineMap<Dim> map;
+  const double angle = placement.angle;
   if constexpr (Dim == 2) {
-    const double angle = rotation_.at(time);
     map.linear << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  } else if (angle != 0.0) {
+    map.linear = Eigen::AngleAxisd(angle, axis_).toRotationMatrix();
   }
   map.constant = pivot_ - map.linear * pivot_;
-  for (std::size_t axis = 0; axis < displacement_.size(); ++axis) map.constant[axis] += displacement_[axis].at(time);
+  map.constant += placement.displacement;
   return map;
 }
 
@@ -74,7 +140,8 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
                                             WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w))));
     for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, static_cast<int>(axis));
-      if (range.size() != 2 || !std::holds_alternative<std::string>(table.displacement[axis])) continue;
+      const bool is_in_file = !table.series.empty() && !table.series.columns[axis].empty();
+      if (range.size() != 2 || !(is_in_file || std::holds_alternative<std::string>(table.displacement[axis]))) continue;
       wall.period[axis] = range[1] - range[0];
       AffineMap<Dim> back;
       back.constant[axis] = -wall.period[axis];
@@ -139,6 +206,12 @@ double WallMotion<Dim>::farthest_way(double from, double to) const {
   return farthest;
 }
 
+template class WrittenMotion<2>;
+template class WrittenMotion<3>;
+template class MotionOfFile<2>;
+template class MotionOfFile<3>;
+template class MotionOfGate<2>;
+template class MotionOfGate<3>;
 template class WallPath<2>;
 template class WallPath<3>;
 template class WallMotion<2>;

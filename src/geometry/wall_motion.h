@@ -1,15 +1,20 @@
 // Walls that move as rigid bodies on a prescribed path: the place and velocity of each at a given time.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/expression.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/gate_law.h"
 #include "geometry/sampling.h"
+#include "geometry/spline.h"
 
 namespace tailwater {
 
@@ -36,6 +41,56 @@ WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
   return face;
 }
 
+/// How far a wall has moved and turned.
+template <int Dim>
+struct Placement {
+  Vec<Dim> displacement = Vec<Dim>::Zero();  ///< m
+  double angle = 0.0;                        ///< rad
+};
+
+/// A motion written in the case: numbers, or expressions of t.
+template <int Dim>
+class WrittenMotion {
+ public:
+  WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+  Placement<Dim> at(double time) const;
+
+ private:
+  struct Component {
+    double number = 0.0;
+    mutable std::vector<Formula> formula;  ///< at most one; mutable because evaluating writes the time into it
+    double at(double time) const;
+  };
+  static Component make_component(const CaseSpec& spec, const Varying& value);
+
+  std::vector<Component> displacement_;
+  Component rotation_;
+};
+
+/// A motion from a file: the spline through its samples.
+template <int Dim>
+class MotionOfFile {
+ public:
+  explicit MotionOfFile(const TimeSeries& series);
+  Placement<Dim> at(double time) const;
+
+ private:
+  std::array<std::optional<Spline>, Dim> displacement_;
+  std::optional<Spline> angle_;
+};
+
+/// A gate's motion along a straight line.
+template <int Dim>
+class MotionOfGate {
+ public:
+  MotionOfGate(const CaseSpec& spec, const GateTable& gate);
+  Placement<Dim> at(double time) const { return {law_.way(time) * direction_, 0.0}; }
+
+ private:
+  Vec<Dim> direction_;
+  GateLaw law_;
+};
+
 /// The path of one wall, from its table in the case file.
 template <int Dim>
 class WallPath {
@@ -50,17 +105,12 @@ class WallPath {
   AffineMap<Dim> mean_velocity(double from, double to) const;
 
  private:
-  /// A number, or an expression of t.
-  struct Component {
-    double number = 0.0;
-    mutable std::vector<Formula> formula;  ///< at most one; mutable because evaluating writes the time into it
-    double at(double time) const;
-  };
-  static Component make_component(const CaseSpec& spec, const Varying& value);
+  using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>>;
+  static Motion make_motion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
-  std::vector<Component> displacement_;
-  Component rotation_;
+  Motion motion_;
   Vec<Dim> pivot_;
+  Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; about which the wall turns
 };
 
 /// All walls of a case that move, as they are drawn.

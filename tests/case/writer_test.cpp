@@ -39,6 +39,8 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
       "[[wall]]\nshape = \"box\"\nmin = [0, 0]\nmax = [1, 1]\nopen = [\"+y\", \"-x\"]\n"
       "[[wall]]\npoints = [[2, 0], [2, 1]]\ndisplacement = [0, \"clamp(T*t, 0, H)\"]\nrotation = \"sin(2*t)\"\n"
       "pivot = [1, \"H\"]\n"
+      "[[gate]]\nfrom = [1, 0]\nto = [1, 1]\nspeed = \"2*H\"\n"
+      "[[gate]]\nfrom = [3, 0]\nto = [3, 1]\nmotion = \"falling-weight\"\nweight = 3\ngate_mass = 1\nstart = 0.1\n"
       "[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [\"H\", 0]\ninterval = 0.01\n"
       "[[probe]]\nname = \"b\"\ntype = \"wall-pressure\"\nat = [1, 1]\n"
       "[[probe]]\nname = \"c\"\ntype = \"wall-pressure-mean\"\nfrom = [0, 0]\nto = [0, 1]\n"
