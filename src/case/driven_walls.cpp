@@ -41,6 +41,18 @@ void append_driven_walls(CaseSpec& spec) {
     wall.drive = {Drive::By::gate, k};
     spec.walls.push_back(std::move(wall));
   }
+  for (std::size_t k = 0; k < spec.wave_makers.size(); ++k) {
+    const WaveMakerTable& maker = spec.wave_makers[k];
+    WallTable wall = box_behind(maker.from, maker.to, maker.side, default_thickness * spec.particles.spacing);
+    // Only the face on the water's side: the other side is dry.
+    const std::size_t face = static_cast<std::size_t>(maker.side) ^ 1U;
+    for (std::size_t f = 0; f < 2 * maker.from.size(); ++f) {
+      if (f != face) wall.open.emplace_back(box_face_names[f]);
+    }
+    wall.name = maker.name;
+    wall.drive = {Drive::By::wave_maker, k};
+    spec.walls.push_back(std::move(wall));
+  }
 }
 
 }  // namespace tailwater

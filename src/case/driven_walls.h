@@ -1,11 +1,12 @@
-// Gates as walls: a case file has a table for each, and the rest of the program sees the box that it is.
+// Gates and wave makers as walls: a case file has a table for each, and the rest of the program sees the box that it
+// is.
 #pragma once
 
 #include "case/spec.h"
 
 namespace tailwater {
 
-/// Appends the walls that the case's gates are to those of the file.
+/// Appends the walls that the case's gates and wave makers are to those of the file.
 void append_driven_walls(CaseSpec& spec);
 
 /// Whether a wall has a table of its own in the case file.

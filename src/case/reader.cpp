@@ -303,7 +303,7 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
   }
 }
 
-/// Messages tell walls and gates apart by name.
+/// Messages tell walls, gates and wave makers apart by name.
 void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   std::set<std::string_view> names;
   for (const WallTable& wall : spec.walls) names.insert(wall.name);
@@ -316,6 +316,7 @@ void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, 
     }
   };
   add_names("gate", spec.gates);
+  add_names("wave_maker", spec.wave_makers);
 }
 
 /// Where the tables and keys are that messages about shapes, probes and steps name.
@@ -337,6 +338,8 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   add_tables("fluid", spec.fluid);
   add_tables("wall", spec.walls);
   add_tables("gate", spec.gates);
+  add_tables("wave_maker", spec.wave_makers);
+  add_tables("damping", spec.damping);
   add_tables("outlet", spec.outlets);
   add_tables("probe", spec.probes);
   for (const auto& [name, node] : root) {

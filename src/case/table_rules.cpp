@@ -97,6 +97,11 @@ void set_defaults(GateTable& gate, TableReader& reader) {
   gate.direction.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
 }
 
+void set_defaults(WaveMakerTable& maker, TableReader& reader) {
+  reader.read_ahead(maker, {"waves", "period"});
+  maker.ramp = 2.0 * maker.period;
+}
+
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
   if (probe.type == ProbeType::front) probe.direction = along_x(reader);
@@ -266,7 +271,46 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
   }
 }
 
+/// No solitary wave is higher than this share of the depth (McCowan 1894), nor is any periodic one.
+constexpr double highest_over_depth = 0.78;
+
 }  // namespace
+
+void check(const WaveMakerTable& maker, TableReader& reader) {
+  check_plate(maker.from, maker.to, maker.side, "a wave maker", reader);
+  if (maker.waves == WaveKind::none && maker.absorption == Absorption::none && !reader.is_wrong("absorption")) {
+    reader.missing("absorption",
+                   "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
+  }
+  const bool has_period = maker.waves == WaveKind::regular || maker.waves == WaveKind::jonswap;
+  if (has_period && maker.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
+    reader.wrong("period", *reader.given("period"), "waves need a period; give a number above 0 in s");
+  }
+  if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
+    reader.wrong("type", *reader.given("type"), "a solitary wave moves the water evenly over the depth; use a piston");
+  }
+  if (const toml::node* node = reader.given("order");
+      node != nullptr && maker.type == MakerType::flap && maker.order == 2) {
+    reader.wrong("order", *node, "the theory of second order is for pistons; give 1, or type = \"piston\"");
+  }
+  if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
+      !reader.is_wrong("ramp")) {
+    reader.wrong("ramp", *reader.given("ramp"), "irregular waves do not begin at rest; give a time above 0 s");
+  }
+  if (maker.height > highest_over_depth * maker.depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
+    reader.wrong("height", *reader.given("height"),
+                 fmt::format("such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
+                             highest_over_depth, highest_over_depth * maker.depth));
+  }
+}
+
+void check(const DampingTable& damping, TableReader& reader) {
+  check_box(damping.min, damping.max, reader);
+  if (const toml::node* node = reader.given("towards");
+      node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
+    reader.wrong("towards", *node, "a case of two dimensions has no z; give a direction in x or y");
+  }
+}
 
 void check(const GateTable& gate, TableReader& reader) {
   check_plate(gate.from, gate.to, gate.side, "a gate", reader);

@@ -27,6 +27,19 @@ double friction_of(const WallTable& wall) {
   return 0.0;
 }
 
+/// The table of the case file that a wall is from.
+std::string kind_of(const WallTable& wall) {
+  switch (wall.drive.by) {
+    case Drive::By::gate:
+      return "gate";
+    case Drive::By::wave_maker:
+      return "wave_maker";
+    case Drive::By::wall:
+      break;
+  }
+  return "wall";
+}
+
 /// The body of wall `w`. Walls whose motion is written alike are one body.
 int body_of(const CaseSpec& spec, std::size_t w) {
   const WallTable& wall = spec.walls[w];
@@ -319,8 +332,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const WallTable& table = spec.walls[w];
     const std::size_t before = boundary.faces.size();
     const int wall = static_cast<int>(w);
-    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w),
-                              table.drive.by == Drive::By::gate ? "gate" : "wall"});
+    boundary.walls.push_back(
+        {name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w), kind_of(table)});
     const std::string owner = wall_label(boundary, wall);
     if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);

@@ -89,14 +89,28 @@ MotionOfGate<Dim>::MotionOfGate(const CaseSpec& spec, const GateTable& gate)
       law_(gate, std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from"))),
            gravity_of<Dim>(spec).norm()) {}
 
+// A plate that turns about its foot is displaced by the stroke where it crosses the still water's level.
+template <int Dim>
+Placement<Dim> MotionOfMaker<Dim>::at(double time, const MakerState& state) const {
+  const double stroke = plate_.stroke(time, state);
+  if (!plate_.turns) return {stroke * plate_.forward, 0.0};
+  // From `up` to `forward`; counter-clockwise is positive in 2D, and about the axis up x forward in 3D.
+  double sense = 1.0;
+  if constexpr (Dim == 2) sense = plate_.up[0] * plate_.forward[1] - plate_.up[1] * plate_.forward[0];
+  return {Vec<Dim>::Zero(), sense * std::atan(stroke / plate_.depth)};
+}
+
 template <int Dim>
 WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner)
     : motion_(make_motion(spec, table, owner)),
       pivot_(table.pivot.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(table.pivot, owner, "pivot")) {
   if constexpr (Dim == 3) {
-    if (table.axis.empty()) return;
-    const Vec<3> axis = to_vec<3>(table.axis, owner, "axis");
+    const Vec<3> axis = table.axis.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(table.axis, owner, "axis");
     if (axis.norm() > 0.0) axis_ = axis.normalized();
+  }
+  if (const auto* maker = std::get_if<MotionOfMaker<Dim>>(&motion_)) {
+    pivot_ = maker->plate().foot;
+    if constexpr (Dim == 3) axis_ = maker->plate().along;
   }
 }
 
@@ -104,13 +118,24 @@ template <int Dim>
 typename WallPath<Dim>::Motion WallPath<Dim>::make_motion(const CaseSpec& spec, const WallTable& table,
                                                           const std::string& owner) {
   if (table.drive.by == Drive::By::gate) return MotionOfGate<Dim>(spec, spec.gates[table.drive.index]);
+  if (table.drive.by == Drive::By::wave_maker) {
+    return MotionOfMaker<Dim>(spec, spec.wave_makers[table.drive.index]);
+  }
   if (!table.series.empty()) return MotionOfFile<Dim>(table.series);
   return WrittenMotion<Dim>(spec, table, owner);
 }
 
 template <int Dim>
-AffineMap<Dim> WallPath<Dim>::at(double time) const {
-  const Placement<Dim> placement = std::visit([time](const auto& motion) { return motion.at(time); }, motion_);
+AffineMap<Dim> WallPath<Dim>::at(double time, const MakerState& maker) const {
+  const Placement<Dim> placement = std::visit(
+      [&]<class M>(const M& motion) {
+        if constexpr (std::is_same_v<M, MotionOfMaker<Dim>>) {
+          return motion.at(time, maker);
+        } else {
+          return motion.at(time);
+        }
+      },
+      motion_);
   AffineMap<Dim> map;
   const double angle = placement.angle;
   if constexpr (Dim == 2) {
@@ -124,9 +149,9 @@ AffineMap<Dim> WallPath<Dim>::at(double time) const {
 }
 
 template <int Dim>
-AffineMap<Dim> WallPath<Dim>::mean_velocity(double from, double to) const {
-  const AffineMap<Dim> before = at(from);
-  const AffineMap<Dim> after = at(to);
+AffineMap<Dim> WallPath<Dim>::mean_velocity(double from, double to, const MakerState& maker) const {
+  const AffineMap<Dim> before = at(from, maker);
+  const AffineMap<Dim> after = at(to, maker);
   return {(after.linear - before.linear) / (to - from), (after.constant - before.constant) / (to - from)};
 }
 
@@ -138,6 +163,7 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
     const WallTable& table = spec.walls[w];
     MovingWall& wall = moving_.emplace_back(static_cast<int>(w),
                                             WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w))));
+    if (table.drive.by == Drive::By::wave_maker) wall.maker = static_cast<int>(table.drive.index);
     for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, static_cast<int>(axis));
       const bool is_in_file = !table.series.empty() && !table.series.columns[axis].empty();
@@ -156,9 +182,10 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
 }
 
 template <int Dim>
-void WallMotion<Dim>::place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const {
+void WallMotion<Dim>::place(double time, const MakerStates& makers, Boundary<Dim>& boundary,
+                            WallParticles<Dim>& particles) const {
   for (const MovingWall& moving : moving_) {
-    AffineMap<Dim> motion = moving.path.at(time);
+    AffineMap<Dim> motion = moving.path.at(time, moving.state(makers));
     for (int axis = 0; axis < Dim; ++axis) {
       const double period = moving.period[axis];
       if (period > 0.0) motion.constant[axis] -= period * std::floor(motion.constant[axis] / period);
@@ -176,9 +203,10 @@ void WallMotion<Dim>::place(double time, Boundary<Dim>& boundary, WallParticles<
 }
 
 template <int Dim>
-void WallMotion<Dim>::get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const {
+void WallMotion<Dim>::get_mean_velocity(double from, double to, const MakerStates& makers,
+                                        std::span<Vec<Dim>> velocity) const {
   for (const MovingWall& moving : moving_) {
-    const AffineMap<Dim> map = moving.path.mean_velocity(from, to);
+    const AffineMap<Dim> map = moving.path.mean_velocity(from, to, moving.state(makers));
     for_each(drawn_particles_.size(), [&](std::size_t row) {
       if (drawn_particles_.wall[row] == moving.wall) velocity[row] = map(drawn_particles_.position[row]);
     });
@@ -186,16 +214,16 @@ void WallMotion<Dim>::get_mean_velocity(double from, double to, std::span<Vec<Di
 }
 
 template <int Dim>
-void WallMotion<Dim>::get_velocity(double time, std::span<Vec<Dim>> velocity) const {
-  get_mean_velocity(std::max(0.0, time - instant), time + instant, velocity);
+void WallMotion<Dim>::get_velocity(double time, const MakerStates& makers, std::span<Vec<Dim>> velocity) const {
+  get_mean_velocity(std::max(0.0, time - instant), time + instant, makers, velocity);
 }
 
 template <int Dim>
-double WallMotion<Dim>::farthest_way(double from, double to) const {
+double WallMotion<Dim>::farthest_way(double from, double to, const MakerStates& makers) const {
   double farthest = 0.0;
   for (const MovingWall& moving : moving_) {
-    const AffineMap<Dim> before = moving.path.at(from);
-    const AffineMap<Dim> after = moving.path.at(to);
+    const AffineMap<Dim> before = moving.path.at(from, moving.state(makers));
+    const AffineMap<Dim> after = moving.path.at(to, moving.state(makers));
     for (const WallFace<Dim>& face : drawn_faces_) {
       if (face.wall != moving.wall) continue;
       for (const Vec<Dim>& corner : face.corners) {
@@ -212,6 +240,8 @@ template class MotionOfFile<2>;
 template class MotionOfFile<3>;
 template class MotionOfGate<2>;
 template class MotionOfGate<3>;
+template class MotionOfMaker<2>;
+template class MotionOfMaker<3>;
 template class WallPath<2>;
 template class WallPath<3>;
 template class WallMotion<2>;

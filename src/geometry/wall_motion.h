@@ -15,6 +15,7 @@
 #include "geometry/gate_law.h"
 #include "geometry/sampling.h"
 #include "geometry/spline.h"
+#include "geometry/wave_maker.h"
 
 namespace tailwater {
 
@@ -91,6 +92,18 @@ class MotionOfGate {
   GateLaw law_;
 };
 
+/// A wave maker's motion: that of its own waves, and how far it has given way to others.
+template <int Dim>
+class MotionOfMaker {
+ public:
+  MotionOfMaker(const CaseSpec& spec, const WaveMakerTable& maker) : plate_(spec, maker) {}
+  Placement<Dim> at(double time, const MakerState& state) const;
+  const WavePlate<Dim>& plate() const { return plate_; }
+
+ private:
+  WavePlate<Dim> plate_;
+};
+
 /// The path of one wall, from its table in the case file.
 template <int Dim>
 class WallPath {
@@ -99,19 +112,23 @@ class WallPath {
   WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
   /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
-  AffineMap<Dim> at(double time) const;
+  /// `maker` is the state of a wave maker.
+  AffineMap<Dim> at(double time, const MakerState& maker = {}) const;
 
   /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
-  AffineMap<Dim> mean_velocity(double from, double to) const;
+  AffineMap<Dim> mean_velocity(double from, double to, const MakerState& maker = {}) const;
 
  private:
-  using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>>;
+  using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>>;
   static Motion make_motion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
   Motion motion_;
   Vec<Dim> pivot_;
   Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; about which the wall turns
 };
+
+/// The states of all wave makers of a case, in the order of their tables.
+using MakerStates = std::vector<MakerState>;
 
 /// All walls of a case that move, as they are drawn.
 template <int Dim>
@@ -125,19 +142,23 @@ class WallMotion {
     int wall;  ///< index into Boundary::walls
     WallPath<Dim> path;
     Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that do not repeat, or in which it does not move
+    int maker = -1;                      ///< index into CaseSpec::wave_makers; -1: it is none
+
+    /// Its own among the states of all wave makers.
+    MakerState state(const MakerStates& makers) const { return maker < 0 ? MakerState{} : makers[maker]; }
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
   /// Moves the faces and the particles of moving walls to their places at `time`.
-  void place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
+  void place(double time, const MakerStates& makers, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
 
   /// Sets the entries of the particles of moving walls to their mean velocity [m/s] between two times [s].
-  void get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const;
+  void get_mean_velocity(double from, double to, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
   /// The same at an instant.
-  void get_velocity(double time, std::span<Vec<Dim>> velocity) const;
+  void get_velocity(double time, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
 
   /// The largest distance [m] that a corner of a wall moves from one time to the other.
-  double farthest_way(double from, double to) const;
+  double farthest_way(double from, double to, const MakerStates& makers) const;
 
  private:
   std::vector<MovingWall> moving_;

@@ -29,6 +29,13 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   }
   const int wall = boundary.faces[nearest.face].wall;
   if (!boundary.walls[wall].moves()) return {nearest.point, nullptr};
+  const Drive& drive = spec.walls[wall].drive;
+  if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {
+    throw InputError(
+        fmt::format("{}: {} gives way to waves, and a probe cannot follow it: move the probe, or give "
+                    "absorption = \"none\"",
+                    label(probe), wall_label(boundary, wall)));
+  }
   return {nearest.point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 

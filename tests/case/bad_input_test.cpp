@@ -82,7 +82,7 @@ const std::vector<BadInput> table{
      required_keys + water + "[[wall]]\npoints = [[0, 0], [1, 0]]\naxis = [0, 1]\n",
      "8:8",
      {"wall[0].axis", "about their pivot only"}},
-    // Gates
+    // Gates and wave makers
     {"gate_without_an_extent",
      required_keys + water + "[[gate]]\nfrom = [1, 0]\nto = [1, 0]\nspeed = 1\n",
      "8:6",
@@ -115,6 +115,43 @@ const std::vector<BadInput> table{
          "= 1\n",
      "9:1",
      {"gate[0].name = \"a\"", "a wall has this name too"}},
+    {"waves_of_no_height",
+     required_keys + water + "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nperiod = 1\n",
+     "6:1",
+     {"wave_maker[0].height"}},
+    {"wave_that_breaks_at_once",
+     required_keys + water + "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nperiod = 1\nheight = 0.9\n",
+     "11:10",
+     {"wave_maker[0].height", "breaks at the maker", "0.78 m"}},
+    {"flap_of_second_order",
+     required_keys + water +
+         "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nperiod = 1\nheight = 0.1\ntype = \"flap\"\norder = "
+         "2\n",
+     "13:9",
+     {"wave_maker[0].order", "is for pistons"}},
+    {"flap_for_a_solitary_wave",
+     required_keys + water +
+         "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nwaves = \"solitary\"\nheight = 0.1\ntype = \"flap\"\n",
+     "12:8",
+     {"wave_maker[0].type", "use a piston"}},
+    {"plate_that_neither_makes_nor_absorbs",
+     required_keys + water + "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nwaves = \"none\"\n",
+     "6:1",
+     {"wave_maker[0].absorption", "would rest"}},
+    {"irregular_waves_that_jump",
+     required_keys + water +
+         "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nwaves = \"jonswap\"\nheight = 0.1\nperiod = 1\nramp = "
+         "0\n",
+     "13:8",
+     {"wave_maker[0].ramp", "do not begin at rest"}},
+    {"damping_inside_out",
+     required_keys + water + "[[damping]]\nmin = [1, 0]\nmax = [0, 1]\nstrength = 1\n",
+     "8:7",
+     {"damping[0].max", "max above min"}},
+    {"damping_towards_the_third_dimension",
+     required_keys + water + "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nstrength = 1\ntowards = \"+z\"\n",
+     "10:11",
+     {"damping[0].towards", "has no z"}},
     {"time_as_a_parameter", "parameters.t = 1\n" + required_keys + water, "1:16", {"parameters.t", "not x, y, z, t"}},
     {"position_as_a_parameter", "parameters.x = 1\n" + required_keys + water, "1:16", {"parameters.x", "not x, y, z"}},
     // Numbers

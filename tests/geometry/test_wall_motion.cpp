@@ -41,7 +41,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
   const WallParticles<2> at_start = particles;
   const WallMotion<2> motion(spec, boundary, particles);
   ASSERT_EQ(motion.moving().size(), 1u);
-  motion.place(1.0, boundary, particles);
+  motion.place(1.0, {}, boundary, particles);
   const Mat<2> turn{{0.0, 1.0}, {-1.0, 0.0}};
   for (std::size_t f = 0; f < drawn.faces.size(); ++f) {
     const bool moves = drawn.faces[f].wall == 1;
@@ -52,7 +52,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
     }
   }
   std::vector<Vec<2>> velocity(particles.size(), Vec<2>(9.0, 9.0));
-  motion.get_velocity(0.5, velocity);
+  motion.get_velocity(0.5, {}, velocity);
   for (std::size_t row = 0; row < particles.size(); ++row) {
     if (particles.wall[row] == 0) {
       EXPECT_EQ(particles.position[row], at_start.position[row]);
@@ -68,7 +68,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
     const Vec<2> expected(1.0 + std::numbers::pi / 2.0 * arm[1], -std::numbers::pi / 2.0 * arm[0]);
     EXPECT_LT((velocity[row] - expected).norm(), 1e-8);
   }
-  EXPECT_NEAR(motion.farthest_way(0.0, 0.0), 0.0, 0.0);
+  EXPECT_NEAR(motion.farthest_way(0.0, 0.0, {}), 0.0, 0.0);
 }
 
 // A gate that stands on the bed: the bed's rows go on under it, and nothing of the gate is in the bed.
@@ -100,7 +100,7 @@ TEST(WallMotion, WhatSlidesAlongAPeriodicDomainAlwaysCoversIt) {
   WallParticles<2> particles = make_dummy_particles<2>(boundary, 0.1, 3);
   const WallMotion<2> motion(spec, boundary, particles);
   for (const double time : {0.0, 0.4, 1.0, 30.0}) {
-    motion.place(time, boundary, particles);
+    motion.place(time, {}, boundary, particles);
     for (double x = 0.05; x < 1.0; x += 0.1) {
       EXPECT_NEAR(boundary.nearest(Vec<2>(x, 0.02), 1.0).signed_distance, 0.02, 4.0 * eps) << x << ", t = " << time;
     }

@@ -86,7 +86,8 @@ class RunFolder:
     def moving_walls(self):
         """The same of those that move, where they start."""
         walls = [wall_chain(wall) for wall in self.case.get("wall", []) if is_moving(wall)]
-        return walls + [[tuple(gate["from"]), tuple(gate["to"])] for gate in self.case.get("gate", [])]
+        plates = self.case.get("gate", []) + self.case.get("wave_maker", [])
+        return walls + [[tuple(plate["from"]), tuple(plate["to"])] for plate in plates]
 
 
 def is_moving(wall):
