@@ -16,6 +16,8 @@ const std::map<std::string, const char*> templates_by_name{
     {"dam-break", templates::dam_break},
     {"tank", templates::tank},
     {"pier", templates::pier},
+    {"wave-flume", templates::wave_flume},
+    {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
 };
 
@@ -45,7 +47,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
       ->add_option(
           "template", options->kind,
           "dam-break (a column collapses in a tank), tank (water at rest), pier (3D, a dam breaks against a pier "
-          "from an STL file) or sloshing (a tank that rolls)")
+          "from an STL file), wave-flume (regular waves, gauges and a damping zone), solitary-wave or sloshing (a tank "
+          "that rolls)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))
       ->type_name("NAME");

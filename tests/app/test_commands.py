@@ -11,7 +11,7 @@ from program import SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "run", "resume", "info", "bench")
 # With a coarse spacing (m) for a short run.
-TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "sloshing": 0.025}
+TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "wave-flume": 0.05, "solitary-wave": 0.05, "sloshing": 0.025}
 
 
 class CommandLine(ProgramTest):
@@ -55,6 +55,10 @@ class CommandLine(ProgramTest):
                 for part in parts:
                     self.assertIn(part, result.stderr)
         self.assertEqual(list(self.listing()), ["small.toml"])
+
+    def test_waves_is_the_python_package_beside_the_sources(self):
+        self.assertIn("tailwater waves", self.call("waves", "--help").stdout)
+        self.assertIn("is not the folder of a run", self.call("waves", "nowhere", expect=2).stderr)
 
     def test_bench_is_the_python_package_beside_the_sources(self):
         self.assertIn("tailwater bench robustness", self.call("bench", "robustness", "--help").stdout)
