@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "case/driven_walls.h"
 #include "case/expression.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
@@ -260,6 +261,29 @@ toml::table parse(std::string_view text, const std::string& file) {
   }
 }
 
+/// A series must last to the end of the run; `start` [s] is the time of the run at which it begins.
+void check_end_of_series(const TimeSeries& series, double start, double end, std::string_view key,
+                         const toml::node* node, Problems& problems) {
+  const double last = series.empty() ? end : start + series.time.back();
+  if (node == nullptr || last >= end) return;
+  problems.add(
+      &node->source(),
+      fmt::format("{} = {}: {}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines "
+                  "(the last values again, if it then rests), or end the run before",
+                  key, value_text(*node), series.file, series.line.back(), last, end));
+}
+
+void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  for (std::size_t k = 0; k < spec.walls.size(); ++k) {
+    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, fmt::format("wall[{}].motion", k),
+                        root["wall"][k]["motion"].node(), problems);
+  }
+  for (std::size_t k = 0; k < spec.gates.size(); ++k) {
+    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, fmt::format("gate[{}].file", k),
+                        root["gate"][k]["file"].node(), problems);
+  }
+}
+
 /// A mistyped interval would fill the disk, or make the run crawl.
 void check_interval(double interval, double end, double most, std::string_view key, const toml::node* node,
                     std::string_view what, std::string_view remedy, Problems& problems) {
@@ -277,6 +301,22 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
     check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
                    root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
   }
+}
+
+/// Messages tell walls, gates and wave makers apart by name.
+void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  std::set<std::string_view> names;
+  for (const WallTable& wall : spec.walls) names.insert(wall.name);
+  const auto add_names = [&](std::string_view table, const auto& tables) {
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      if (names.insert(tables[k].name).second) continue;
+      problems.add(&root[table][k].node()->source(),
+                   fmt::format("{}[{}].name = \"{}\": a wall has this name too; give each a name of its own", table, k,
+                               tables[k].name));
+    }
+  };
+  add_names("gate", spec.gates);
+  add_names("wave_maker", spec.wave_makers);
 }
 
 /// Where the tables and keys are that messages about shapes, probes and steps name.
@@ -297,6 +337,9 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   };
   add_tables("fluid", spec.fluid);
   add_tables("wall", spec.walls);
+  add_tables("gate", spec.gates);
+  add_tables("wave_maker", spec.wave_makers);
+  add_tables("damping", spec.damping);
   add_tables("outlet", spec.outlets);
   add_tables("probe", spec.probes);
   for (const auto& [name, node] : root) {
@@ -321,11 +364,16 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   if (root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty())) {
     context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]]");
   }
-  if (context.problems.none()) check_amount_of_output(spec, root, context.problems);
+  if (context.problems.none()) {
+    check_amount_of_output(spec, root, context.problems);
+    check_ends_of_series(spec, root, context.problems);
+    check_names_of_driven_walls(spec, root, context.problems);
+  }
   if (!context.problems.none()) {
     throw InputError(context.problems.text());
   }
   spec.sources = find_sources(spec, root, origin);
+  append_driven_walls(spec);
   return spec;
 }
 

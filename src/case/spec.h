@@ -17,6 +17,7 @@
 
 #include "case/choices.h"
 #include "case/sources.h"
+#include "case/time_series.h"
 
 namespace tailwater {
 
@@ -161,6 +162,15 @@ struct FluidTable {
   }
 };
 
+/// Which table says how a wall moves: its own, or that of a gate or a wave maker.
+struct Drive {
+  enum class By { wall, gate, wave_maker };
+  By by = By::wall;
+  std::size_t index = 0;  ///< of the gate or wave maker
+
+  bool operator==(const Drive&) const = default;
+};
+
 struct WallTable {
   std::string name;
   WallShape shape = WallShape::polyline;
@@ -179,7 +189,13 @@ struct WallTable {
   double friction = 0.5;
   VectorField displacement;
   Varying rotation = 0.0;
+  std::string motion;
+  std::string motion_checksum;
   Coordinates pivot;
+  Coordinates axis;
+
+  TimeSeries series;  ///< what the file `motion` holds: t, x, y, z, angle
+  Drive drive;
 
   bool operator==(const WallTable&) const = default;
 
@@ -217,10 +233,152 @@ struct WallTable {
              "With slip = \"partial\": fraction of the no-slip wall stress");
     v.field("displacement", self.displacement, Variables::time, "m",
             "Displacement of the wall from its drawn position (default: none); expressions may use the time t");
-    v.varying(
-        "rotation", self.rotation, Variables::time, "rad",
-        "Angle by which the wall has turned about its pivot, counter-clockwise (2D); the displacement is added to it");
+    v.varying("rotation", self.rotation, Variables::time, "rad",
+              "Angle by which the wall has turned about its pivot, counter-clockwise as seen against the axis; the "
+              "displacement is added to it");
+    v.text("motion", self.motion,
+           "Instead of displacement and rotation: CSV file of them over time, relative to the case file, with a line "
+           "that names the columns, as in \"t [s], x [mm], angle [deg]\" (docs/theory/moving_walls.md)");
+    v.text("motion_checksum", self.motion_checksum,
+           "CRC-32 of the motion's file, which a run writes into its case; a file with another one is refused");
     v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
+    v.coordinates("axis", self.axis, "", "Direction of the axis through the pivot about which a box turns (3D)");
+  }
+};
+
+/// A flat plate that is pulled out of the water: after the case has been read it is one of the walls.
+struct GateTable {
+  std::string name;
+  Coordinates from;
+  Coordinates to;
+  AxisDirection side = AxisDirection::plus_x;
+  double thickness = 0.0;
+  double start = 0.0;
+  GateMotion motion = GateMotion::speed;
+  double speed = 0.0;
+  double acceleration = 0.0;
+  double weight = 0.0;
+  double gate_mass = 0.0;
+  std::string file;
+  std::string checksum;
+  Coordinates direction;
+  double travel = 0.0;
+
+  TimeSeries series;  ///< what the file holds: t, way
+
+  bool operator==(const GateTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages and by probes (default: gate1, gate2, ...)");
+    v.coordinates(
+        "from", self.from, "m",
+        "Foot of the gate's face on the water's side: one end of an axis-parallel segment (2D), a corner of a "
+        "flat axis-parallel rectangle (3D)",
+        Presence::required);
+    v.coordinates("to", self.to, "m", "Top of that face, above the water: the other end (2D), the opposite corner (3D)",
+                  Presence::required);
+    v.choice("side", self.side, "Side of that face on which the gate's thickness lies: away from the deep water");
+    v.number("thickness", self.thickness, "m", Range::at_least(0.0), "Thickness of the gate; 0: 4 dx");
+    v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
+    v.choice("motion", self.motion,
+             "How it moves: at a constant speed, with a constant acceleration, pulled over a pulley by a weight that "
+             "falls, or as a file says; its seal has no friction");
+    v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
+    v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
+    v.number("weight", self.weight, "kg", Range::above(0.0),
+             "Mass of the falling weight; the acceleration is g (weight - gate_mass)/(weight + gate_mass)");
+    v.number("gate_mass", self.gate_mass, "kg", Range::at_least(0.0), "Mass of the gate that the weight lifts");
+    v.text("file", self.file,
+           "CSV file of the gate's way over the time since `start`, relative to the case file, with a line that names "
+           "the columns, as in \"t [s], way [mm]\"");
+    v.text("checksum", self.checksum,
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+    v.coordinates("direction", self.direction, "", "Direction in which the gate moves (default: up, against gravity)");
+    v.number("travel", self.travel, "m", Range::at_least(0.0),
+             "Way after which the gate stops; 0: its own length in the direction of its motion");
+  }
+};
+
+/// A flat upright plate that makes or absorbs waves: after the case has been read it is one of the walls.
+struct WaveMakerTable {
+  std::string name;
+  MakerType type = MakerType::piston;
+  Coordinates from;
+  Coordinates to;
+  AxisDirection side = AxisDirection::minus_x;
+  double depth = 0.0;
+  WaveKind waves = WaveKind::regular;
+  double height = 0.0;
+  double period = 0.0;
+  int order = 2;
+  double peak_enhancement = 3.3;
+  int components = 200;
+  int seed = 1;
+  double start = 0.0;
+  double ramp = 0.0;
+  Absorption absorption = Absorption::none;
+
+  bool operator==(const WaveMakerTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages (default: wave_maker1, wave_maker2, ...)");
+    v.choice("type", self.type, "A piston, which keeps upright, or a flap, which turns about its foot on the bed");
+    v.coordinates("from", self.from, "m",
+                  "Foot of the plate on the bed: one end of an upright segment (2D), a corner of a flat axis-parallel "
+                  "rectangle (3D)",
+                  Presence::required);
+    v.coordinates("to", self.to, "m", "Top of the plate, above the waves: the other end (2D), the opposite corner (3D)",
+                  Presence::required);
+    v.choice("side", self.side, "Side of the plate that has no water");
+    v.number("depth", self.depth, "m", Range::above(0.0), "Depth of the still water at the plate", Presence::required);
+    v.choice("waves", self.waves,
+             "regular: of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular, of the JONSWAP "
+             "spectrum; none: the plate only absorbs");
+    v.number("height", self.height, "m", Range::above(0.0),
+             "Height of a regular or solitary wave; significant height Hm0 of irregular ones");
+    v.number("period", self.period, "s", Range::at_least(0.0),
+             "Period of regular waves, of the peak of irregular ones; with waves = \"none\" that of the waves to be "
+             "absorbed best (0: long waves)");
+    v.integer("order", self.order, "", Range::between(1, 2),
+              "Order of the maker's theory for regular waves: 2 has no free second harmonic (Madsen 1971; a flap has "
+              "order 1)");
+    v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
+             "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
+    v.integer("components", self.components, "", Range::between(1, 2000), "Number of sines that irregular waves have");
+    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
+    v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the motion begins");
+    v.number("ramp", self.ramp, "s", Range::at_least(0.0),
+             "Time in which regular and irregular waves grow to their full height (default: two periods)");
+    v.choice("absorption", self.absorption,
+             "active: the plate gives way to waves that come, as the elevation in front of it says "
+             "(docs/theory/waves.md)");
+  }
+};
+
+/// A stretch of water in which waves die out.
+struct DampingTable {
+  std::string name;
+  Coordinates min;
+  Coordinates max;
+  AxisDirection towards = AxisDirection::plus_x;
+  double strength = 0.0;
+
+  bool operator==(const DampingTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages (default: damping1, damping2, ...)");
+    v.coordinates("min", self.min, "m", "Lowest corner of the zone, an axis-parallel box", Presence::required);
+    v.coordinates("max", self.max, "m", "Highest corner of the zone", Presence::required);
+    v.choice("towards", self.towards,
+             "Side of the zone at which it damps most; the damping grows from 0 at the opposite side, as the square of "
+             "the distance");
+    v.number("strength", self.strength, "1/s", Range::above(0.0),
+             "Rate at that side at which the water loses its velocity; about the waves' angular frequency "
+             "(docs/theory/waves.md)",
+             Presence::required);
   }
 };
 
@@ -525,7 +683,10 @@ struct CaseSpec {
   ParticlesTable particles;
   DomainTable domain;
   std::vector<FluidTable> fluid;
-  std::vector<WallTable> walls;
+  std::vector<WallTable> walls;  ///< and, behind those of the file, what gates and wave makers are
+  std::vector<GateTable> gates;
+  std::vector<WaveMakerTable> wave_makers;
+  std::vector<DampingTable> damping;
   std::vector<OutletTable> outlets;
   TimeTable time;
   SchemeTable scheme;
@@ -546,6 +707,9 @@ struct CaseSpec {
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");
     v.tables("wall", self.walls, "A solid wall; one table each");
+    v.tables("gate", self.gates, "A plate that is pulled out of the water; one table each");
+    v.tables("wave_maker", self.wave_makers, "A plate that makes waves, or absorbs them; one table each");
+    v.tables("damping", self.damping, "A zone in which waves die out; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves for good; one table each");
     v.table("time", self.time, "Duration of the run");
     v.table("scheme", self.scheme, "Numerical scheme");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -95,7 +96,16 @@ void set_defaults(WallTable& wall, TableReader& reader) {
   wall.fluid_side = wall.shape == WallShape::polyline ? FluidSide::left : FluidSide::inside;
   wall.displacement.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
   wall.pivot.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
-  wall.rotate = wall.translate = wall.pivot;
+  wall.rotate = wall.translate = wall.axis = wall.pivot;
+}
+
+void set_defaults(GateTable& gate, TableReader& reader) {
+  gate.direction.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+}
+
+void set_defaults(WaveMakerTable& maker, TableReader& reader) {
+  reader.read_ahead(maker, {"waves", "period"});
+  maker.ramp = 2.0 * maker.period;
 }
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
@@ -182,6 +192,34 @@ void check_fluid_side(const WallTable& wall, TableReader& reader) {
                            is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
 }
 
+/// In 3D only boxes turn, about an axis; `key` says that the wall does.
+void check_turning_in_3d(const WallTable& wall, std::string_view key, TableReader& reader) {
+  const bool has_axis = std::ranges::any_of(wall.axis, [](double c) { return c != 0.0; });
+  if (wall.shape != WallShape::box && !reader.is_wrong("shape")) {
+    reader.wrong(key, *reader.given(key),
+                 "in three dimensions only walls of shape = \"box\" turn; draw boxes, or let the wall keep its angle");
+  } else if (!has_axis && !reader.is_wrong("axis")) {
+    reader.wrong(key, *reader.given(key),
+                 "needs the axis about which the wall turns; give axis, such as [0, 1, 0], and pivot, a point of it");
+  }
+}
+
+/// How a wall moves is said by expressions or by a file, and in 3D it turns about an axis.
+void check_wall_motion(const WallTable& wall, TableReader& reader) {
+  const auto is_zero = [](const Varying& value) { return value == Varying(0.0); };
+  const auto refuse = [&](std::string_view key) {
+    reader.wrong(key, *reader.given(key), "the wall has a motion from a file as well; remove one of the two keys");
+  };
+  if (!wall.motion.empty() && !std::ranges::all_of(wall.displacement, is_zero)) refuse("displacement");
+  if (!wall.motion.empty() && !is_zero(wall.rotation)) refuse("rotation");
+  const bool has_axis = std::ranges::any_of(wall.axis, [](double c) { return c != 0.0; });
+  if (reader.dimension() == 2 && has_axis) {
+    reader.wrong("axis", *reader.given("axis"), "in two dimensions walls turn about their pivot only; remove the key");
+  }
+  if (reader.dimension() != 3 || wall.rotation == Varying(0.0)) return;
+  check_turning_in_3d(wall, "rotation", reader);
+}
+
 }  // namespace
 
 void check(const WallTable& wall, TableReader& reader) {
@@ -208,23 +246,128 @@ void check(const WallTable& wall, TableReader& reader) {
     }
   }
   check_fluid_side(wall, reader);
-  if (reader.dimension() == 3 && wall.rotation != Varying(0.0)) {
-    reader.wrong("rotation", *reader.given("rotation"), "walls turn in two dimensions only; remove the key");
+  check_wall_motion(wall, reader);
+}
+
+namespace {
+
+/// Checks that `from` and `to` span a flat axis-parallel plate with that side; `what` is its name in messages.
+void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection side, std::string_view what,
+                 TableReader& reader) {
+  if (from.size() != to.size() || reader.is_wrong("from") || reader.is_wrong("to") || from.empty()) return;
+  const auto axis = static_cast<std::size_t>(side) / 2;
+  std::string flat;
+  for (std::size_t d = 0; d < from.size(); ++d) {
+    if (from[d] == to[d]) flat += "xyz"[d];
+  }
+  if (flat.size() != 1) {
+    reader.wrong("to", *reader.given("to"),
+                 fmt::format("differs from `from` in {} coordinates, but {} is a flat {}: give two points that have "
+                             "exactly one coordinate in common",
+                             from.size() - flat.size(), what,
+                             from.size() == 2 ? "upright or level segment" : "axis-parallel rectangle"));
+  } else if (axis >= from.size() || flat[0] != "xyz"[axis]) {
+    const std::string message = fmt::format(
+        "the plane through from and to is at one {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
+        flat, flat);
+    if (const toml::node* node = reader.given("side")) {
+      reader.wrong("side", *node, message);
+    } else {
+      reader.missing("side", message);
+    }
   }
 }
 
+/// No solitary wave is higher than this share of the depth (McCowan 1894), nor is any periodic one.
+constexpr double highest_over_depth = 0.78;
+
+}  // namespace
+
+void check(const WaveMakerTable& maker, TableReader& reader) {
+  check_plate(maker.from, maker.to, maker.side, "a wave maker", reader);
+  if (maker.waves == WaveKind::none && maker.absorption == Absorption::none && !reader.is_wrong("absorption")) {
+    reader.missing("absorption",
+                   "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
+  }
+  const bool has_period = maker.waves == WaveKind::regular || maker.waves == WaveKind::jonswap;
+  if (has_period && maker.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
+    reader.wrong("period", *reader.given("period"), "waves need a period; give a number above 0 in s");
+  }
+  if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
+    reader.wrong("type", *reader.given("type"), "a solitary wave moves the water evenly over the depth; use a piston");
+  }
+  if (const toml::node* node = reader.given("order");
+      node != nullptr && maker.type == MakerType::flap && maker.order == 2) {
+    reader.wrong("order", *node, "the theory of second order is for pistons; give 1, or type = \"piston\"");
+  }
+  if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
+      !reader.is_wrong("ramp")) {
+    reader.wrong("ramp", *reader.given("ramp"), "irregular waves do not begin at rest; give a time above 0 s");
+  }
+  if (maker.height > highest_over_depth * maker.depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
+    reader.wrong("height", *reader.given("height"),
+                 fmt::format("such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
+                             highest_over_depth, highest_over_depth * maker.depth));
+  }
+}
+
+void check(const DampingTable& damping, TableReader& reader) {
+  check_box(damping.min, damping.max, reader);
+  if (const toml::node* node = reader.given("towards");
+      node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
+    reader.wrong("towards", *node, "a case of two dimensions has no z; give a direction in x or y");
+  }
+}
+
+void check(const GateTable& gate, TableReader& reader) {
+  check_plate(gate.from, gate.to, gate.side, "a gate", reader);
+  if (gate.motion == GateMotion::falling_weight && gate.weight > 0.0 && gate.weight <= gate.gate_mass &&
+      !reader.is_wrong("weight") && !reader.is_wrong("gate_mass")) {
+    reader.wrong("weight", *reader.given("weight"),
+                 fmt::format("does not lift a gate of {} kg; give a weight above gate_mass", gate.gate_mass));
+  }
+}
+
+namespace {
+
+/// Calls body, which reads the file that `key` names, and reports what is wrong with it at that key.
+template <class Body>
+void read_linked(std::string_view key, TableReader& reader, Body&& body) {
+  const toml::node* node = reader.given(key);
+  if (node == nullptr || reader.is_wrong(key)) return;
+  try {
+    body();
+  } catch (const UserError& error) {
+    reader.wrong(key, *node, error.what());
+  }
+}
+
+/// Makes the name of a file absolute and takes its checksum; a file that is not the one of the checksum is refused.
+void keep_linked(std::string& file, std::string& checksum, std::string_view checksum_key, TableReader& reader) {
+  const std::filesystem::path path = reader.linked(file);
+  const std::string found = checksum_of_file(path);
+  if (!checksum.empty() && checksum != found) {
+    throw InputError(
+        fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
+                    "was made for, or start a new run without {}",
+                    path.string(), found, checksum, checksum_key));
+  }
+  file = path.string();
+  checksum = found;
+}
+
+/// A run begins at t = 0. That the series lasts to its end is checked when the end has been read.
+void require_start(const TimeSeries& series) {
+  if (series.time.front() <= 0.0) return;
+  throw InputError(fmt::format("{}:{}: begins at t = {:.9g} s, but the motion begins at 0; add a line for t = 0",
+                               series.file, series.line.front(), series.time.front()));
+}
+
+}  // namespace
+
 void read_linked_files(WallTable& wall, TableReader& reader) {
-  const auto read = [&](std::string_view key, auto&& body) {
-    const toml::node* node = reader.given(key);
-    if (node == nullptr || reader.is_wrong(key) || reader.is_wrong("shape")) return;
-    try {
-      body();
-    } catch (const UserError& error) {
-      reader.wrong(key, *node, error.what());
-    }
-  };
-  if (!wall.points_file.empty() && wall.points.empty()) {
-    read("points_file", [&] {
+  if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
+    read_linked("points_file", reader, [&] {
       wall.points = read_points_file(reader.linked(wall.points_file));
       const std::size_t least = least_corners(wall.shape, reader.dimension());
       if (wall.points.size() < least) {
@@ -234,20 +377,32 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
       wall.points_file.clear();
     });
   }
-  if (wall.shape == WallShape::mesh) {
-    read("file", [&] {
-      const std::filesystem::path path = reader.linked(wall.file);
-      const std::string found = checksum_of_file(path);
-      if (!wall.checksum.empty() && wall.checksum != found) {
-        throw InputError(
-            fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
-                        "was made for, or start a new run without checksum",
-                        path.string(), found, wall.checksum));
-      }
-      wall.file = path.string();
-      wall.checksum = found;
-    });
+  if (wall.shape == WallShape::mesh && !reader.is_wrong("shape")) {
+    read_linked("file", reader, [&] { keep_linked(wall.file, wall.checksum, "checksum", reader); });
   }
+  if (wall.motion.empty()) return;
+  read_linked("motion", reader, [&] {
+    constexpr std::array<SeriesColumn, 4> columns{{{"x"}, {"y"}, {"z"}, {"angle", Measure::angle}}};
+    keep_linked(wall.motion, wall.motion_checksum, "motion_checksum", reader);
+    wall.series = read_time_series(wall.motion, columns);
+    require_start(wall.series);
+    if (reader.dimension() == 2 && !wall.series.columns[2].empty()) {
+      throw InputError(fmt::format("{} has a column z, but case.dimension = 2; remove it", wall.motion));
+    }
+  });
+  if (reader.dimension() == 3 && !reader.is_wrong("motion") && !wall.series.columns[3].empty()) {
+    check_turning_in_3d(wall, "motion", reader);
+  }
+}
+
+void read_linked_files(GateTable& gate, TableReader& reader) {
+  if (gate.motion != GateMotion::file || gate.file.empty()) return;
+  read_linked("file", reader, [&] {
+    constexpr std::array<SeriesColumn, 1> columns{{{"way"}}};
+    keep_linked(gate.file, gate.checksum, "checksum", reader);
+    gate.series = read_time_series(gate.file, columns);
+    require_start(gate.series);
+  });
 }
 
 void check(const OutletTable& outlet, TableReader& reader) {

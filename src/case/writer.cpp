@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
+#include "case/driven_walls.h"
 #include "case/key_info.h"
 #include "case/key_use.h"
 
@@ -23,6 +26,9 @@ class CaseWriter {
   template <class Table>
   void tables(std::string_view name, const std::vector<Table>& tables, std::string_view doc) {
     for (const Table& table : tables) {
+      if constexpr (std::is_same_v<Table, WallTable>) {
+        if (!is_own_table(table)) continue;  // the table that drives it is written
+      }
       text_ += fmt::format("\n# {}\n[[{}]]\n", doc, name);
       write(name, keys_of(table));
     }

@@ -78,7 +78,8 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   decomposition.share_out(particles, neighbourhood.work(particles));
   end_of.assign(particles.owned, -1);
   state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
-  setup.wall_motion.get_velocity(0.0, state.wall_velocity);
+  state.wave_makers.resize(setup.wave_plates.size());
+  setup.wall_motion.get_velocity(0.0, state.wave_makers, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);

@@ -56,6 +56,20 @@ void add_friction(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
   add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
 }
 
+/// Takes velocity out of the water in damping zones: with the rate s the step ends with (u + dt a)/(1 + s dt), which is
+/// stable for any s.
+template <int Dim>
+void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& acceleration) {
+  if (flow.setup.damping.empty()) return;
+  const Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    double rate = 0.0;
+    for (const DampingZone<Dim>& zone : flow.setup.damping) rate += zone.rate_at(start.position[i]);
+    if (rate > 0.0) acceleration[i] = (acceleration[i] - rate * start.velocity[i]) / (1.0 + rate * dt);
+  });
+}
+
 /// grad u of fluid particles, ghosts too.
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
@@ -96,6 +110,8 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
   add_friction(flow, acceleration);
   if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
+
+  damp(flow, start, dt, acceleration);
 
   const bool with_gravity = setup.wall_traits.gravity_in_prediction;
   const Vec<Dim> gravity = with_gravity ? setup.gravity : Vec<Dim>(Vec<Dim>::Zero());

@@ -66,6 +66,20 @@ std::vector<OpenEnd<Dim>> make_open_ends(const CaseSpec& spec, const Vec<Dim>& g
   return ends;
 }
 
+template <int Dim>
+std::vector<WavePlate<Dim>> make_wave_plates(const CaseSpec& spec) {
+  std::vector<WavePlate<Dim>> plates;
+  for (const WaveMakerTable& maker : spec.wave_makers) plates.emplace_back(spec, maker);
+  return plates;
+}
+
+template <int Dim>
+std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
+  std::vector<DampingZone<Dim>> zones;
+  for (const DampingTable& table : spec.damping) zones.emplace_back(table);
+  return zones;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -91,6 +105,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       wall_traits(wall_model->traits()),
       wall_motion(std::move(drawing.wall_motion)),
       open_ends(make_open_ends(spec, gravity)),
+      wave_plates(make_wave_plates<Dim>(spec)),
+      damping(make_damping<Dim>(spec)),
       kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),
       lattice(lattice_sums(kernel, spacing)),
       W_0(kernel_value(kernel, 0.0)),

@@ -8,6 +8,7 @@
 #include "closures/shifting.h"
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
+#include "flow/damping.h"
 #include "flow/open_end.h"
 #include "geometry/sampling.h"
 #include "geometry/wall_motion.h"
@@ -48,7 +49,9 @@ struct Setup {
   std::shared_ptr<const WallModel<Dim>> wall_model;
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
-  std::vector<OpenEnd<Dim>> open_ends;  ///< one per outlet
+  std::vector<OpenEnd<Dim>> open_ends;      ///< one per outlet
+  std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
+  std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;
   LatticeSums lattice;
   double W_0;          ///< 1/m^Dim; W(0)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flow/open_end.h"
+#include "geometry/wall_motion.h"
 #include "particles/particles.h"
 
 namespace tailwater {
@@ -19,6 +20,7 @@ struct State {
   std::vector<Vec<Dim>>
       wall_velocity;  ///< m/s; of each row of the table of wall particles, at the end of the last step
   std::vector<OpenEndState> open_ends;  ///< one per outlet
+  MakerStates wave_makers;              ///< one per wave maker
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
 };

@@ -57,6 +57,12 @@ void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);
 
+/// Finds the speed with which absorbing wave makers give way in this step to the waves that are not their own: the
+/// difference between the elevation in front of them and that of their own waves, times a gain (docs/theory/waves.md).
+/// Call once per step, at the positions where it starts.
+template <int Dim>
+void steer_wave_makers(Flow<Dim>& flow);
+
 /// Removes and books the particles that have passed an outlet. Returns whether this rank had any; if so, its indices
 /// have changed and its lists are gone. Call between steps only.
 template <int Dim>

@@ -28,15 +28,30 @@ double friction_of(const WallTable& wall) {
   return 0.0;
 }
 
+/// The table of the case file that a wall is from.
+std::string kind_of(const WallTable& wall) {
+  switch (wall.drive.by) {
+    case Drive::By::gate:
+      return "gate";
+    case Drive::By::wave_maker:
+      return "wave_maker";
+    case Drive::By::wall:
+      break;
+  }
+  return "wall";
+}
+
 /// The body of wall `w`. Walls whose motion is written alike are one body.
 int body_of(const CaseSpec& spec, std::size_t w) {
   const WallTable& wall = spec.walls[w];
   const auto varies = [](const Varying& value) { return std::holds_alternative<std::string>(value); };
-  if (!varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
+  const bool is_driven = wall.drive.by != Drive::By::wall || !wall.series.empty();
+  if (!is_driven && !varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
     return resting_body;
   }
   const auto same = std::ranges::find_if(spec.walls, [&](const WallTable& other) {
-    return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot;
+    return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot &&
+           other.axis == wall.axis && other.drive == wall.drive && other.motion == wall.motion;
   });
   return 1 + static_cast<int>(same - spec.walls.begin());
 }
@@ -360,7 +375,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const WallTable& table = spec.walls[w];
     const std::size_t before = boundary.faces.size();
     const int wall = static_cast<int>(w);
-    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w)});
+    boundary.walls.push_back(
+        {name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w), kind_of(table)});
     const std::string owner = wall_label(boundary, wall);
     if (table.shape == WallShape::plate) {
       append_plate(table, wall, owner, spec.particles.spacing, boundary);

@@ -65,9 +65,10 @@ inline constexpr int resting_body = 0;
 /// What a wall does to the fluid that touches it.
 struct WallProperties {
   std::string name;
-  double friction = 0.0;    ///< share of the no-slip wall stress: 0 free slip, 1 no slip
-  int body = resting_body;  ///< walls of one body never move relative to each other
-  bool is_plate = false;    ///< without thickness, with water on both sides
+  double friction = 0.0;      ///< share of the no-slip wall stress: 0 free slip, 1 no slip
+  int body = resting_body;    ///< walls of one body never move relative to each other
+  std::string kind = "wall";  ///< the table of the case file that it is from
+  bool is_plate = false;      ///< without thickness, with water on both sides
 
   bool moves() const { return body != resting_body; }
 };
@@ -181,10 +182,10 @@ struct Boundary {
   std::vector<int> moving_;    ///< faces that are not of a mesh, when others are filed
 };
 
-/// "wall 'gate'": the name of a wall in messages.
+/// "wall 'bed'", "gate 'lock'": the name of a wall in messages.
 template <int Dim>
 std::string wall_label(const Boundary<Dim>& boundary, int wall) {
-  return "wall '" + boundary.walls[wall].name + "'";
+  return boundary.walls[wall].kind + " '" + boundary.walls[wall].name + "'";
 }
 
 /// Two points nearer than this share of dx are the same corner.

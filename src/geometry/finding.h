@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,10 @@ struct Finding {
 };
 
 using Findings = std::vector<Finding>;
+
+inline bool has_error(const Findings& findings) {
+  return std::ranges::any_of(findings, [](const Finding& finding) { return finding.severity == Severity::error; });
+}
 
 inline void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <variant>
 
+#include "base/random.h"
 #include "case/named_numbers.h"
 #include "geometry/fill.h"
 #include "geometry/from_spec.h"
@@ -23,19 +24,6 @@ constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 template <int Dim>
 bool is_axis_parallel(const WallFace<Dim>& face) {
   return face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
-}
-
-/// Number in [-1, 1) that depends only on the arguments (SplitMix64, Steele, Lea & Flood 2014). The standard library's
-/// distributions differ between machines.
-double random_number(std::uint64_t seed, std::uint64_t particle, int axis) {
-  std::uint64_t z = (seed * 0x9e3779b97f4a7c15) ^ (particle * 3 + static_cast<std::uint64_t>(axis));
-  for (int round = 0; round < 2; ++round) {
-    z += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    z ^= z >> 31;
-  }
-  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
 }
 
 enum class Where { outside, on_outline, inside };

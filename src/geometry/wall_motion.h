@@ -1,15 +1,21 @@
 // Walls that move as rigid bodies on a prescribed path: the place and velocity of each at a given time.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/expression.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/gate_law.h"
 #include "geometry/sampling.h"
+#include "geometry/spline.h"
+#include "geometry/wave_maker.h"
 
 namespace tailwater {
 
@@ -36,21 +42,21 @@ WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
   return face;
 }
 
-/// The path of one wall, from its table in the case file.
+/// How far a wall has moved and turned.
 template <int Dim>
-class WallPath {
+struct Placement {
+  Vec<Dim> displacement = Vec<Dim>::Zero();  ///< m
+  double angle = 0.0;                        ///< rad
+};
+
+/// A motion written in the case: numbers, or expressions of t.
+template <int Dim>
+class WrittenMotion {
  public:
-  /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
-  WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
-
-  /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
-  AffineMap<Dim> at(double time) const;
-
-  /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
-  AffineMap<Dim> mean_velocity(double from, double to) const;
+  WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+  Placement<Dim> at(double time) const;
 
  private:
-  /// A number, or an expression of t.
   struct Component {
     double number = 0.0;
     mutable std::vector<Formula> formula;  ///< at most one; mutable because evaluating writes the time into it
@@ -60,8 +66,69 @@ class WallPath {
 
   std::vector<Component> displacement_;
   Component rotation_;
-  Vec<Dim> pivot_;
 };
+
+/// A motion from a file: the spline through its samples.
+template <int Dim>
+class MotionOfFile {
+ public:
+  explicit MotionOfFile(const TimeSeries& series);
+  Placement<Dim> at(double time) const;
+
+ private:
+  std::array<std::optional<Spline>, Dim> displacement_;
+  std::optional<Spline> angle_;
+};
+
+/// A gate's motion along a straight line.
+template <int Dim>
+class MotionOfGate {
+ public:
+  MotionOfGate(const CaseSpec& spec, const GateTable& gate);
+  Placement<Dim> at(double time) const { return {law_.way(time) * direction_, 0.0}; }
+
+ private:
+  Vec<Dim> direction_;
+  GateLaw law_;
+};
+
+/// A wave maker's motion: that of its own waves, and how far it has given way to others.
+template <int Dim>
+class MotionOfMaker {
+ public:
+  MotionOfMaker(const CaseSpec& spec, const WaveMakerTable& maker) : plate_(spec, maker) {}
+  Placement<Dim> at(double time, const MakerState& state) const;
+  const WavePlate<Dim>& plate() const { return plate_; }
+
+ private:
+  WavePlate<Dim> plate_;
+};
+
+/// The path of one wall, from its table in the case file.
+template <int Dim>
+class WallPath {
+ public:
+  /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
+  WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+
+  /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
+  /// `maker` is the state of a wave maker.
+  AffineMap<Dim> at(double time, const MakerState& maker = {}) const;
+
+  /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
+  AffineMap<Dim> mean_velocity(double from, double to, const MakerState& maker = {}) const;
+
+ private:
+  using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>>;
+  static Motion make_motion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+
+  Motion motion_;
+  Vec<Dim> pivot_;
+  Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; about which the wall turns
+};
+
+/// The states of all wave makers of a case, in the order of their tables.
+using MakerStates = std::vector<MakerState>;
 
 /// All walls of a case that move, as they are drawn.
 template <int Dim>
@@ -75,19 +142,23 @@ class WallMotion {
     int wall;  ///< index into Boundary::walls
     WallPath<Dim> path;
     Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that do not repeat, or in which it does not move
+    int maker = -1;                      ///< index into CaseSpec::wave_makers; -1: it is none
+
+    /// Its own among the states of all wave makers.
+    MakerState state(const MakerStates& makers) const { return maker < 0 ? MakerState{} : makers[maker]; }
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
   /// Moves the faces and the particles of moving walls to their places at `time`.
-  void place(double time, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
+  void place(double time, const MakerStates& makers, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
 
   /// Sets the entries of the particles of moving walls to their mean velocity [m/s] between two times [s].
-  void get_mean_velocity(double from, double to, std::span<Vec<Dim>> velocity) const;
+  void get_mean_velocity(double from, double to, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
   /// The same at an instant.
-  void get_velocity(double time, std::span<Vec<Dim>> velocity) const;
+  void get_velocity(double time, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
 
   /// The largest distance [m] that a corner of a wall moves from one time to the other.
-  double farthest_way(double from, double to) const;
+  double farthest_way(double from, double to, const MakerStates& makers) const;
 
  private:
   std::vector<MovingWall> moving_;

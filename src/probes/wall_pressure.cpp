@@ -40,6 +40,13 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
     point += tolerance * boundary.faces[nearest.face].normal;
   }
   if (!boundary.walls[wall].moves()) return {point, nullptr};
+  const Drive& drive = spec.walls[wall].drive;
+  if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {
+    throw InputError(
+        fmt::format("{}: {} gives way to waves, and a probe cannot follow it: move the probe, or give "
+                    "absorption = \"none\"",
+                    label(probe), wall_label(boundary, wall)));
+  }
   return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 

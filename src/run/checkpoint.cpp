@@ -78,19 +78,29 @@ OpenEndState open_end_of(const nlohmann::json& json) {
           json.at("speed_beyond"), json.at("invariant"), {json.at("particles"), json.at("volume"), json.at("energy")}};
 }
 
+nlohmann::json json_of(const MakerState& maker) {
+  const auto& [correction, rate, time] = maker;
+  return {{"correction", correction}, {"rate", rate}, {"time", time}};
+}
+
+MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"), json.at("rate"), json.at("time")}; }
+
 /// Everything that is the same on all ranks and not an array of numbers.
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, energy_rise, density_share] = checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, wave_makers, energy_rise, density_share] =
+      checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
                       {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
+                      {"wave_makers", nlohmann::json::array()},
                       {"output", checkpoint.output}};
   for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
+  for (const MakerState& maker : wave_makers) json["wave_makers"].push_back(json_of(maker));
   return json.dump(1);
 }
 
@@ -104,6 +114,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.density_share = json.at("density_share");
   checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
+  for (const nlohmann::json& maker : json.at("wave_makers")) state.wave_makers.push_back(maker_of(maker));
   checkpoint.output = json.at("output");
 }
 

@@ -22,6 +22,7 @@ template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   hold_open_ends(flow, dt);
+  steer_wave_makers(flow);
   const StepStart<Dim> start = remember(flow);
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;

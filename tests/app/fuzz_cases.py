@@ -39,8 +39,9 @@ OTHERS = ("true", "[]", "{}", '"text"', "1979-05-27", "[[]]", "[[[1]]]", "{a = 1
           '"published"', '"farmani2020"', '"no-slip"')
 NAMES = ("spacing", "points", "min", "max", "displacement", "rotation", "pivot", "at", "from", "to", "times", "interval",
          "velocity", "shape", "fluid_side", "open", "end", "dimension", "gravity", "walls", "support", "formulation",
-         "periodic_x", "periodic_y", "name", "type", "a.b.c", "jitter", "slip", "direction", "integrator", "scheme")
-TABLES = ("[[wall]]", "[[fluid]]", "[[probe]]", "[[outlet]]", "[scheme]", "[physics]", "[domain]", "[output]", "[time]",
+         "periodic_x", "periodic_y", "name", "type", "a.b.c", "jitter", "slip", "direction", "integrator", "scheme",
+         "motion", "speed", "side", "waves", "height", "period", "depth", "strength", "axis")
+TABLES = ("[[wall]]", "[[fluid]]", "[[probe]]", "[[outlet]]", "[[gate]]", "[[wave_maker]]", "[[damping]]", "[scheme]", "[physics]", "[domain]", "[output]", "[time]",
           "[parameters]", "[pressure_solver]", "[nothing]", "[case]")
 KEY = re.compile(r"^(\s*)([\w.]+)(\s*=\s*)(.*)$")
 NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:[eE][-+]?\d+)?")

@@ -69,6 +69,11 @@ TABLE = (
              (FLOOR, "points = [[0, 2], [0, 0], [1.5, 0], [2, 2.5], [2.5, 0], [3, 0], [3, 2]]")),
     BadInput("gate through the floor", ("wall 'gate' crosses wall 'tank'", "at t = ", "(1"),
              ("[time]", GATE + 'displacement = [0, "-t"]\n[time]')),
+    BadInput("gate table through the floor", ("case.toml:", "gate 'lock' crosses wall 'tank'", "at t = ", "(1"),
+             ("[time]", '[[gate]]\nname = "lock"\nfrom = [1, 0]\nto = [1, 1]\nspeed = 1\ndirection = [0, -1]\n[time]')),
+    BadInput("wave maker too low", ("case.toml:", "wave_maker 'plate'", "its top is 0.4 m above its foot", "higher `to`"),
+             ("[time]", '[[wave_maker]]\nname = "plate"\nfrom = [0.5, 0]\nto = [0.5, 0.4]\ndepth = 0.5\nheight = 0.1\n'
+              'period = 1\n[time]')),
     BadInput("gate that closes on the water", ("wall 'gate' comes nearer than a spacing", "at t = ", "crushed"),
              ("[time]", GATE + 'displacement = [0, "10*min(t, max(0.06 - t, 0))"]\n[time]')),
     BadInput("lid that crushes the water", ("wall 'lid' crushes the water at t = ", "0.5 m^2 of water"),

@@ -10,7 +10,9 @@ from pathlib import Path
 from program import SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "run", "resume", "info", "bench")
-TEMPLATES = ("dam-break", "tank", "weir")
+# With a coarse spacing (m) for a short run.
+TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "weir": 0.05, "wave-flume": 0.05, "solitary-wave": 0.05,
+             "sloshing": 0.025}
 
 
 class CommandLine(ProgramTest):
@@ -55,6 +57,10 @@ class CommandLine(ProgramTest):
                     self.assertIn(part, result.stderr)
         self.assertEqual(list(self.listing()), ["small.toml"])
 
+    def test_waves_is_the_python_package_beside_the_sources(self):
+        self.assertIn("tailwater waves", self.call("waves", "--help").stdout)
+        self.assertIn("is not the folder of a run", self.call("waves", "nowhere", expect=2).stderr)
+
     def test_bench_is_the_python_package_beside_the_sources(self):
         self.assertIn("tailwater bench robustness", self.call("bench", "robustness", "--help").stdout)
         self.assertIn("dam-break", self.call("bench", "robustness", "--list").stdout)
@@ -75,13 +81,13 @@ class CommandLine(ProgramTest):
 
 class New(ProgramTest):
     def test_templates_can_be_checked_and_run(self):
-        for template in TEMPLATES:
+        for template, spacing in TEMPLATES.items():
             with self.subTest(template):
                 wrote = self.call("new", template, f"{template}.toml")
                 self.assertIn(f"tailwater check {template}.toml", wrote.stdout)
                 check = self.call("check", f"{template}.toml")
                 self.assertEqual(check.stderr, "", "a template must not provoke a warning")
-                coarse = ("--set", "particles.spacing=0.1", "--set", "time.end=0.05")
+                coarse = ("--set", f"particles.spacing={spacing}", "--set", "time.end=0.05")
                 self.call("run", f"{template}.toml", "--out", template, "--quiet", *coarse)
                 self.assertEqual(self.summary(template)["status"], "done")
 

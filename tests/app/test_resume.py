@@ -20,6 +20,10 @@ GATE = ("--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
         '{points=[[1, 0], [1, 2]], displacement=["0", "1.5*t"]}]')
 OUTLET = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.3, 0]]", "--set",
           "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2]}]", "--set", "fluid[0].velocity=[3, 0]")
+WAVES = ("--set", "wall[0].points=[[-0.5, 2], [-0.5, 0], [3, 0], [3, 2]]", "--set",
+         "wave_maker=[{from=[0, 0], to=[0, 1.5], depth=0.5, waves='regular', height=0.1, period=0.2, absorption='active'}]",
+         "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5}]")
+ROLL = ("--set", "wall[0].motion='roll.csv'")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -28,6 +32,8 @@ CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "
 # Every feature whose memory a run carries from step to step; all runs have warned before their first checkpoint.
 FEATURES = {
     "implicit integrator and a gate": ("--set", "scheme.integrator=implicit", *GATE),
+    "a wave maker that absorbs, and a damping zone": WAVES,
+    "a tank that a file rolls": ROLL,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "three dimensions, multigrid and the published shifting": (*CUBE, "--set", "pressure_solver.preconditioner=gamg",
                                                                "--set", "scheme.shifting=farzin"),
@@ -39,6 +45,8 @@ class Resumed(ProgramTest):
     def setUp(self):
         super().setUp()
         case = self.folder / "small.toml"
+        (self.folder / "roll.csv").write_text("t [s], x [mm], angle [deg]\n" + "".join(
+            f"{0.02 * k}, {0.1 * k * k}, {0.05 * k * k}\n" for k in range(20)))
         # Probes with an interval of their own and with times, beside those of every step.
         case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n')
 

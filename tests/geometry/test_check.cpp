@@ -432,5 +432,46 @@ TEST(Check, AnOutletInAPeriodicDirectionIsAnError) {
   expect_among(check(spec), Severity::error, {"'outlet1'", "lets water out in x", "periodic_x"});
 }
 
+/// A tank that a file moves to and fro, with 20 lines per period of 1 s.
+CaseSpec shaken_tank() {
+  CaseSpec spec = tank();
+  spec.time.end = 2.0;
+  TimeSeries& series = spec.walls[0].series;
+  series.file = "shake.csv";
+  series.columns.resize(4);
+  for (int k = 0; k <= 40; ++k) {
+    series.line.push_back(k + 2);
+    series.time.push_back(0.05 * k);
+    series.columns[0].push_back(0.3 * std::pow(std::sin(0.05 * k * 3.14159265), 2));
+  }
+  spec.walls[0].motion = series.file;
+  return spec;
+}
+
+TEST(Check, ASmoothMotionOfAFileHasNoFindings) {
+  EXPECT_TRUE(check(shaken_tank()).empty()) << listed(check(shaken_tank()));
+}
+
+TEST(Check, AFileThatJumpsIsRefusedWithItsLines) {
+  CaseSpec spec = shaken_tank();
+  for (std::size_t k = 13; k <= 40; ++k) spec.walls[0].series.columns[0][k] += 2.0;  // 40 m/s; sqrt(2 g L) is 2.8 m/s
+  expect_only(check(spec), Severity::error,
+              {"wall 'wall1' jumps between lines 14 and 15 of shake.csv", "0.05 s", "units"});
+}
+
+TEST(Check, AFileTooCoarseForItsMotionIsToldWithItsLines) {
+  CaseSpec spec = shaken_tank();
+  spec.walls[0].series.columns[0].assign(41, 0.0);
+  for (std::size_t k = 20; k <= 40; ++k) spec.walls[0].series.columns[0][k] = 0.5;
+  expect_only(check(spec), Severity::warning,
+              {"wall 'wall1'", "beyond what lines 2", "of shake.csv", "more lines there"});
+}
+
+TEST(Check, AFileThatDoesNotBeginWhereItsWallIsDrawnIsRefused) {
+  CaseSpec spec = shaken_tank();
+  for (double& x : spec.walls[0].series.columns[0]) x += 0.2;
+  expect_only(check(spec), Severity::error, {"wall 'wall1' is not where it is drawn", "shake.csv", "(0.2, 0)"});
+}
+
 }  // namespace
 }  // namespace tailwater

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "case/driven_walls.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 
@@ -270,6 +271,60 @@ INSTANTIATE_TEST_SUITE_P(Integrators, MovingWall,
                          testing::Values(Way{"explicit", Integrator::explicit_projection},
                                          Way{"implicit", Integrator::implicit_projection}),
                          [](const auto& test) { return std::string(test.param.name); });
+
+/// Still water 0.44 m deep in front of a plate that absorbs waves over a still depth of 0.4 m.
+CaseSpec absorber_case(double at) {
+  CaseSpec spec;
+  spec.particles.spacing = 0.02;
+  spec.fluid = {water_box({at, 0.0}, {at + 2.0, 0.44})};
+  spec.walls = {chain({{-1.0, 1.0}, {-1.0, 0.0}, {at + 2.0, 0.0}, {at + 2.0, 1.0}})};
+  WaveMakerTable maker;
+  maker.name = "absorber";
+  maker.from = {at, 0.0};
+  maker.to = {at, 0.8};
+  maker.depth = 0.4;
+  maker.waves = WaveKind::none;
+  maker.absorption = Absorption::active;
+  spec.wave_makers = {maker};
+  append_driven_walls(spec);
+  return spec;
+}
+
+TEST(WaveMaker, GivesWayByTheElevationInFrontOfIt) {
+  // The tent counts the lattice exactly, wherever the plate stands. In long waves the gain is sqrt(g/h).
+  for (const double at : {0.0, 0.013}) {
+    Flow<2> flow(absorber_case(at));
+    steer_wave_makers(flow);
+    EXPECT_NEAR(flow.state.wave_makers[0].rate, -0.04 * std::sqrt(g / 0.4), 1e-12);
+    EXPECT_EQ(flow.state.wave_makers[0].correction, 0.0);
+  }
+}
+
+TEST(WaveMaker, MovesAsItWasSteered) {
+  Flow<2> flow(absorber_case(0.0));
+  double expected = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    advance(flow, 2e-3);
+    expected += 2e-3 * flow.state.wave_makers[0].rate;
+    for (const WallFace<2>& face : flow.walls.boundary.faces) {
+      if (face.wall == 1) EXPECT_NEAR(face.corners[0][0], expected, 1e-12);
+    }
+  }
+  EXPECT_LT(expected, -1e-3);
+  expect_all_in_front(flow);
+}
+
+TEST(DampingZone, GrowsAsTheSquareTowardsItsSide) {
+  DampingTable table;
+  table.min = {1.0, 0.0};
+  table.max = {3.0, 1.0};
+  table.strength = 8.0;
+  EXPECT_NEAR(DampingZone<2>(table).rate_at({2.0, 0.5}), 2.0, 1e-12);
+  EXPECT_EQ(DampingZone<2>(table).rate_at({0.9, 0.5}), 0.0);
+  EXPECT_EQ(DampingZone<2>(table).rate_at({2.0, 1.1}), 0.0);
+  table.towards = AxisDirection::minus_x;
+  EXPECT_NEAR(DampingZone<2>(table).rate_at({1.5, 0.5}), 8.0 * 9.0 / 16.0, 1e-12);
+}
 
 }  // namespace
 }  // namespace tailwater

@@ -55,9 +55,14 @@ template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not where it is drawn
-/// at t = 0. Walls without that error then go through the three checks below.
+/// at t = 0. Walls without that error then go through the checks below.
 template <int Dim>
 Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+/// Error: a motion from a file that jumps between two of its lines. Warning: one that overshoots what its lines say.
+/// Messages name file and lines.
+template <int Dim>
+Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
 /// Warning: a resting wall that ends where a moving one begins, with nothing behind its end once the other has moved.
 Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);

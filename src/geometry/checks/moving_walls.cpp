@@ -8,6 +8,12 @@
 namespace tailwater {
 namespace {
 
+/// ", in its file motion.csv," for a wall that moves as a file says.
+std::string file_of(const CaseSpec& spec, int wall) {
+  const std::string& file = spec.walls[wall].series.file;
+  return file.empty() ? "" : fmt::format(", in its file {},", file);
+}
+
 /// Adds an error if the wall is not where it is drawn at t = 0; returns whether it is.
 template <int Dim>
 bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall, Findings& findings) {
@@ -17,9 +23,9 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
     const Vec<Dim> way = start(face.corners[0]) - face.corners[0];
     if (way.norm() <= corner_tolerance * spec.particles.spacing) continue;
     findings.push_back(Finding::error(
-        "{} is not where it is drawn at t = 0: its point {} has moved by {} m; displacement and rotation must begin "
+        "{} is not where it is drawn at t = 0: its point {} has moved by {} m; displacement and rotation{} must begin "
         "with 0, so subtract their start or draw the wall elsewhere",
-        wall_label(drawn, wall), place(face.corners[0]), place(way)));
+        wall_label(drawn, wall), place(face.corners[0]), place(way), file_of(spec, wall)));
     return false;
   }
   return true;
@@ -36,6 +42,8 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
     if (starts_where_it_is_drawn(spec, drawn, wall, findings) && drawn.walls[wall].moves()) moving.push_back(wall);
   }
   if (moving.empty()) return findings;
+  append(findings, check_motion_files(spec, drawn, fluid));
+  if (has_error(findings)) return findings;  // a path that jumps is not worth following
   if constexpr (Dim == 2) append(findings, check_free_ends(spec, drawn));
   append(findings, check_touching_rows(spec, drawn));
   append(findings, check_paths(spec, drawn, fluid, moving));

@@ -90,6 +90,10 @@ def integrators(plan):
         {"explicit": explicit, "implicit": implicit}, claims)
 
 
+ACCELERATED_GATE = ('gate=[{name="gate", from=["lock", 0], to=["lock", "h0+6*dx"], thickness="3*dx", '
+                    'motion="acceleration", acceleration=30, travel="2*h0"}]')
+
+
 def wet_bed(plan):
     """The pair on the paper's case for it, and what the gate does."""
     plan = replace(plan, scheme="")
@@ -101,9 +105,9 @@ def wet_bed(plan):
         "removed at once, and as evenly accelerated so that it is clear of the water after the same 0.1 s. A gate does work on the water.",
         {"explicit": run(integrator="explicit"), "implicit": run(integrator="implicit"),
          "explicit, no gate": run(integrator="explicit", variant="no-gate", settings=(
-             'wall.gate.min=["lock", "3*h0"]', 'wall.gate.max=["lock+3*dx", "4*h0"]')),  # drawn above the water
+             'gate.gate.from=["lock", "3*h0"]', 'gate.gate.to=["lock", "4*h0"]')),  # drawn above the water
          "explicit, gate accelerated": run(integrator="explicit", variant="accelerated",
-                                           settings=('wall.gate.displacement=[0, "min(15*t^2, 2*h0)"]',))},
+                                           settings=(ACCELERATED_GATE,))},
         JANOSI)
 
 

@@ -1,0 +1,111 @@
+// Plates that make or absorb waves: how they move, and what elevation their own waves have in front of them
+// (docs/theory/waves.md).
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+#include "case/spec.h"
+
+namespace tailwater {
+
+/// A solitary wave of Rayleigh's shape, and the plate that moves with its water: D.G. Goring (1979); K. Guizien,
+/// E. Barthelemy (2002).
+class SolitaryWave {
+ public:
+  SolitaryWave(double height, double depth, double gravity);
+
+  double stroke(double since) const;
+  double elevation(double since, double ahead) const;
+
+ private:
+  /// beta (c t - X), with t = 0 at the crest: the plate's place in the wave.
+  double phase(double since) const;
+  double displacement(double phase) const;
+
+  double height_, depth_;
+  double celerity_;  ///< m/s
+  double beta_;      ///< 1/m
+};
+
+/// A sum of sines, which grow from rest.
+class PeriodicWaves {
+ public:
+  /// `gauge` [m] is the distance at which its elevation is asked for.
+  PeriodicWaves(const WaveMakerTable& maker, double gravity, double gauge);
+
+  double stroke(double since) const;
+  double elevation(double since, double ahead) const;
+
+ private:
+  struct Sine {
+    double omega;
+    double wave_number;
+    double phase;
+    double stroke;      ///< m; amplitude of the plate at the still water's level
+    double elevation;   ///< m; amplitude of the wave
+    double near_field;  ///< elevation that stays near the plate, over the plate's displacement
+  };
+  double share(double since) const;
+
+  double ramp_;
+  std::vector<Sine> sines_;
+};
+
+/// The motion of one plate along itself, in the theory of its waves alone.
+class MakerLaw {
+ public:
+  /// `gauge` [m] is the distance in front of the plate at which the elevation is asked for.
+  MakerLaw(const WaveMakerTable& maker, double gravity, double gauge);
+
+  /// The displacement [m] of the plate at the still water's level, towards the water.
+  double stroke(double time) const;
+  /// The elevation [m] of its own waves at the gauge.
+  double elevation(double time) const;
+
+  /// The speed [m/s] at the still water's level with which the plate gives way per metre of elevation that is not its
+  /// own [1/s].
+  double gain() const { return gain_; }
+  /// How fast it forgets how far it gave way [1/s].
+  double forgetting() const { return forgetting_; }
+
+ private:
+  double start_;
+  double gauge_;
+  double gain_;
+  double forgetting_;
+  std::variant<std::monostate, SolitaryWave, PeriodicWaves> waves_;
+};
+
+/// How far an absorbing plate has given way, and how fast it does.
+struct MakerState {
+  double correction = 0.0;  ///< m; at `time`
+  double rate = 0.0;        ///< m/s
+  double time = 0.0;        ///< s
+
+  double at(double t) const { return correction + rate * (t - time); }
+};
+
+/// The plate of a table.
+template <int Dim>
+struct WavePlate {
+  /// Throws InputError for a plate that does not reach from the bed above the still water.
+  WavePlate(const CaseSpec& spec, const WaveMakerTable& maker);
+
+  Vec<Dim> foot;     ///< m; on the bed, halfway along the plate
+  Vec<Dim> forward;  ///< towards the water
+  Vec<Dim> up;
+  Vec<Dim> along;  ///< 3D; across both
+  double width;    ///< m; along `along`; 1 in 2D
+  double depth;    ///< m; of the still water
+  double gauge;    ///< m; where the elevation is read, in front of the plate
+  bool turns;      ///< about its foot
+  bool absorbs;
+  MakerLaw law;
+
+  /// The displacement [m] at the still water's level.
+  double stroke(double time, const MakerState& state) const { return law.stroke(time) + state.at(time); }
+};
+
+}  // namespace tailwater
