@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; as thick as the water on one side must not feel the water on the other (docs/theory/moving_walls.md).
+/// [dx]; thick enough that the water on one side does not feel what is on the other (docs/theory/moving_walls.md).
 constexpr double default_thickness = 4.0;
 
 /// The box between the face from `from` to `to` and the parallel plane `thickness` behind it, on the given side.
@@ -30,13 +30,36 @@ WallTable box_behind(const Coordinates& from, const Coordinates& to, AxisDirecti
   return wall;
 }
 
+/// The face from `from` to `to` as a wall without thickness.
+WallTable plate_at(const Coordinates& from, const Coordinates& to, AxisDirection side) {
+  WallTable wall;
+  wall.shape = WallShape::plate;
+  wall.displacement.assign(from.size(), 0.0);
+  wall.pivot = Coordinates(from.size(), 0.0);
+  wall.rotate = wall.translate = wall.axis = wall.pivot;
+  if (from.size() == 2) {
+    wall.points = {from, to};
+    return wall;
+  }
+  // Around the rectangle: first along one axis of its plane, then along the other.
+  const auto axis = (static_cast<std::size_t>(side) / 2 + 1) % 3;
+  Coordinates beside = from;
+  beside[axis] = to[axis];
+  Coordinates opposite = to;
+  opposite[axis] = from[axis];
+  wall.points = {from, beside, to, opposite};
+  return wall;
+}
+
 }  // namespace
 
 void append_driven_walls(CaseSpec& spec) {
   for (std::size_t k = 0; k < spec.gates.size(); ++k) {
     const GateTable& gate = spec.gates[k];
+    const bool is_thin = gate.thickness == 0.0 && spec.scheme.walls == WallTreatment::dummies;
     const double thickness = gate.thickness > 0.0 ? gate.thickness : default_thickness * spec.particles.spacing;
-    WallTable wall = box_behind(gate.from, gate.to, gate.side, thickness);
+    WallTable wall =
+        is_thin ? plate_at(gate.from, gate.to, gate.side) : box_behind(gate.from, gate.to, gate.side, thickness);
     wall.name = gate.name;
     wall.drive = {Drive::By::gate, k};
     spec.walls.push_back(std::move(wall));

@@ -279,7 +279,8 @@ struct GateTable {
     v.coordinates("to", self.to, "m", "Top of that face, above the water: the other end (2D), the opposite corner (3D)",
                   Presence::required);
     v.choice("side", self.side, "Side of that face on which the gate's thickness lies: away from the deep water");
-    v.number("thickness", self.thickness, "m", Range::at_least(0.0), "Thickness of the gate; 0: 4 dx");
+    v.number("thickness", self.thickness, "m", Range::at_least(0.0),
+             "Thickness of the gate; 0: none, as a plate (4 dx if scheme.walls is not \"dummies\")");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
     v.choice("motion", self.motion,
              "How it moves: at a constant speed, with a constant acceleration, pulled over a pulley by a weight that "
