@@ -126,6 +126,7 @@ FILES = {
     "zeros": (bytes(1000), 2, ("not valid TOML",)),
     "cut off": (SMALL_CASE[:-2].encode(), 2, ("not valid TOML",)),
     "another format": (b'{"spacing": 0.1}\n', 2, ("case.toml:1:1", "not valid TOML")),
+    "end of a line where a number is read": ((SMALL_CASE + "[a]\nb = i\n").encode(), 2, ("case.toml:28:6", "saw 'i '")),
     "keys too deep": ((SMALL_CASE + "a." * 50000 + "a = 1\n").encode(), 2, ("case.toml:27", "too many dots")),
     "quoted keys too deep": ((SMALL_CASE + "'#'." * 50000 + "a = 1\n").encode(), 2, ("case.toml:27", "too many dots")),
     "lists too deep": ((SMALL_CASE + "a = " + "[" * 50000).encode(), 2, ("case.toml:27", "nested")),
@@ -188,6 +189,16 @@ class BadCases(ProgramTest):
         for name in ("pipe", "/dev/zero"):
             for command in (("check", name), ("run", name, "--out", "out")):
                 self.assertIn("a device or a pipe", self.call(*command, expect=4).stderr)
+
+    def test_linked_files_that_are_no_files(self):
+        os.mkfifo(self.folder / "pipe")
+        bed = SMALL_CASE.replace(FLOOR, 'points_file = "LINK"')
+        mesh = SMALL_CASE.replace(FLOOR, 'shape = "mesh"\nfluid_side = "inside"\nfile = "LINK"')
+        mesh = mesh.replace("[case]", "[case]\ndimension = 3")
+        for text, key in ((bed, "case.toml:11:15: wall[0].points_file"), (mesh, "case.toml:14:8: wall[0].file")):
+            for name in ("pipe", "/dev/zero"):
+                (self.folder / "case.toml").write_text(text.replace("LINK", name))
+                self.refuse(BadInput("", (key, "a device or a pipe")), ())
 
     def test_folder_as_case_file(self):
         (self.folder / "case.toml").mkdir()
