@@ -22,5 +22,6 @@ for target in "${all[@]}"; do
   mkdir -p "$own"
   echo "fuzz.sh: $target"
   build/fuzz/bin/fuzz_"$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 \
-    -print_final_stats=1 -verbosity=0 -artifact_prefix="build/fuzz/findings/$target-" "$own" "tests/fuzz/corpus/$target"
+    -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$target-" "$own" "tests/fuzz/corpus/$target" 2>&1 |
+    grep -vE '^(#[0-9]+[[:space:]]+(NEW|REDUCE|RELOAD)|###|")'  # the first and the last line say what is covered
 done

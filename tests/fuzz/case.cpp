@@ -20,6 +20,16 @@ class Folder : public TemporaryFolder {
   }
 };
 
+std::vector<std::string> quoted_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = text.find('"'), end = 0; begin != std::string::npos; begin = text.find('"', end + 1)) {
+    end = text.find('"', begin + 1);
+    if (end == std::string::npos) break;
+    words.push_back(text.substr(begin, end + 1 - begin));
+  }
+  return words;
+}
+
 /// The keys with their defaults, and what they may be set to.
 Vocabulary make_vocabulary() {
   Vocabulary vocabulary;
@@ -32,17 +42,9 @@ Vocabulary make_vocabulary() {
     for (const KeyInfo& key : table.keys) {
       vocabulary.lines.push_back(std::string(key.key) + " = " + key.value);
       vocabulary.words.emplace_back(key.key);
-      const std::vector<std::string> allowed = [&] {
-        std::vector<std::string> found;
-        for (std::size_t begin = key.allowed.find('"'); begin != std::string::npos;) {
-          const std::size_t end = key.allowed.find('"', begin + 1);
-          if (end == std::string::npos) break;
-          found.push_back(key.allowed.substr(begin, end + 1 - begin));
-          begin = key.allowed.find('"', end + 1);
-        }
-        return found;
-      }();
-      for (const std::string& choice : allowed) vocabulary.lines.push_back(std::string(key.key) + " = " + choice);
+      for (const std::string& choice : quoted_words(key.allowed)) {
+        vocabulary.lines.push_back(std::string(key.key) + " = " + choice);
+      }
     }
   }
   return vocabulary;
