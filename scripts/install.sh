@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks]   default: all four
+# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [fuzz]   default: all but fuzz
 set -euo pipefail
 
 build=(
@@ -10,6 +10,7 @@ build=(
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
+fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}")
 
 (($# > 0)) || set -- build tests pictures benchmarks
@@ -20,7 +21,8 @@ for group in "$@"; do
     tests) wanted+=("${tests[@]}") ;;
     pictures) wanted+=("${pictures[@]}") ;;
     benchmarks) wanted+=("${benchmarks[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks" >&2; exit 2 ;;
+    fuzz) wanted+=("${fuzz[@]}") ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, fuzz" >&2; exit 2 ;;
   esac
 done
 missing=()

@@ -25,6 +25,13 @@ constexpr std::size_t most_points = 10000;  // as many as a list of points in th
 
 constexpr std::size_t most_samples = 1000000;
 
+/// bytes; 1600 for each of the points that a file may have, and read in a moment
+constexpr std::uintmax_t largest_points_file = std::uintmax_t{1} << 24;
+/// bytes; five million triangles of binary STL, which is far more than walls can be sampled from
+constexpr std::uintmax_t largest_mesh_file = std::uintmax_t{1} << 28;
+/// bytes; 64 for each of the samples
+constexpr std::uintmax_t largest_series_file = std::uintmax_t{1} << 26;
+
 struct Unit {
   std::string_view name;
   double factor;  ///< in SI units
@@ -35,10 +42,19 @@ constexpr std::array<Unit, 2> angle_units{{{"rad", 1.0}, {"deg", std::numbers::p
 constexpr std::array<std::string_view, 4> names_along{"x", "station", "chainage", "distance"};
 constexpr std::array<std::string_view, 5> names_up{"y", "z", "elevation", "height", "level"};
 
-std::ifstream open_file(const std::filesystem::path& path) {
+std::ifstream open_file(const std::filesystem::path& path, std::uintmax_t largest) {
   std::error_code error;  // what does not exist is told below
-  if (std::filesystem::is_directory(path, error)) {
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) {
     throw IoError(fmt::format("{}: is a folder; give a file in it", path.string()));
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw IoError(fmt::format("{}: is a device or a pipe; give a file", path.string()));
+  }
+  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
+    throw InputError(
+        fmt::format("{}: has {} bytes; such a file has at most {}: give fewer points, samples or triangles",
+                    path.string(), size, largest));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -358,17 +374,17 @@ class SeriesFile : ColumnFile {
 }  // namespace
 
 std::vector<Coordinates> read_points_file(const std::filesystem::path& path) {
-  std::ifstream file = open_file(path);
+  std::ifstream file = open_file(path, largest_points_file);
   return PointsFile(path).read(file);
 }
 
 TimeSeries read_time_series(const std::filesystem::path& path, std::span<const SeriesColumn> columns) {
-  std::ifstream file = open_file(path);
+  std::ifstream file = open_file(path, largest_series_file);
   return SeriesFile(path, columns).read(file);
 }
 
 std::string checksum_of_file(const std::filesystem::path& path) {
-  std::ifstream file = open_file(path);
+  std::ifstream file = open_file(path, largest_mesh_file);
   std::vector<char> block(1 << 20);
   uLong sum = crc32(0, nullptr, 0);
   do {

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -255,9 +256,12 @@ toml::table parse(std::string_view text, const std::string& file) {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     const toml::source_position where = error.source().begin;
+    std::string description(error.description());  // it quotes letters as they are, ends of lines too
+    std::ranges::replace_if(
+        description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     throw InputError(
         fmt::format("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
-                    where.line, where.column, error.description()));
+                    where.line, where.column, description));
   }
 }
 

@@ -227,6 +227,10 @@ TriangleMesh read_ply(Source& source) {
   }
   TriangleMesh mesh;
   for (const PlyElement& element : elements) {
+    if (element.count > static_cast<std::int64_t>(source.rest().size())) {
+      source.refuse("has {} of element \"{}\" in its header and {} bytes left: it is cut off; export the mesh again",
+                    element.count, element.name, source.rest().size());
+    }
     for (std::int64_t k = 0; k < element.count; ++k) {
       std::vector<std::string_view> words;
       if (is_text && (words = source.words()).empty()) source.refuse_line("the file ends too early");

@@ -12,9 +12,6 @@
 #include "base/error.h"
 #include "base/for_each.h"
 #include "flow/verbs.h"
-#include "geometry/boundary.h"
-#include "geometry/from_spec.h"
-#include "geometry/wall_particles.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -71,34 +68,6 @@ CaseSpec tank_instead_of(const CaseSpec& spec) {
 }
 
 }  // namespace
-
-template <int Dim>
-ParticleCount expected_particle_count(const CaseSpec& spec) {
-  const double dx = spec.particles.spacing;
-  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
-  ParticleCount count;
-  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
-    const FluidTable& block = spec.fluid[b];
-    const std::string label = fluid_label(spec, b);
-    if (block.shape == BlockShape::polygon) {
-      count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
-    } else if (block.shape == BlockShape::fill) {
-      // At most: the box around the walls up to the level.
-      Eigen::AlignedBox<double, Dim> box;
-      for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
-      if (!box.isEmpty()) box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
-      if (!box.isEmpty()) count.fluid += box.volume() / power<Dim>(dx);
-    } else {
-      const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - to_vec<Dim>(block.min, label, "min");
-      count.fluid += (extent / dx).array().round().max(1.0).prod();
-    }
-  }
-  const int layers = placement_of(spec.scheme.walls).behind ? dummy_layers(spec) : 1;
-  for (const WallFace<Dim>& face : boundary.faces) {
-    count.wall += layers * face.measure() * dx / power<Dim>(dx);
-  }
-  return count;
-}
 
 template <int Dim>
 double neighbours_in_support(double support) {
@@ -181,11 +150,10 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   return estimate;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                      \
-  template ParticleCount expected_particle_count<Dim>(const CaseSpec&); \
-  template double neighbours_in_support<Dim>(double);                   \
-  template double memory_estimate<Dim>(const ParticleCount&, double);   \
-  template Findings check_memory<Dim>(const CaseSpec&, double);         \
+#define TAILWATER_INSTANTIATE(Dim)                                    \
+  template double neighbours_in_support<Dim>(double);                 \
+  template double memory_estimate<Dim>(const ParticleCount&, double); \
+  template Findings check_memory<Dim>(const CaseSpec&, double);       \
   template RunEstimate estimate_run<Dim>(const CaseSpec&, Flow<Dim>&, double);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -4,19 +4,9 @@
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "geometry/finding.h"
+#include "geometry/particle_count.h"
 
 namespace tailwater {
-
-/// Expected particles, from the lengths, areas and volumes of the shapes. Doubles, because a mistyped spacing may give
-/// more than an integer can hold.
-struct ParticleCount {
-  double fluid = 0.0;
-  double wall = 0.0;
-};
-
-/// Throws InputError as make_boundary and make_fluid_particles do, but makes no particles.
-template <int Dim>
-ParticleCount expected_particle_count(const CaseSpec& spec);
 
 /// Particles within the kernel's support (in dx) of a particle on a regular lattice.
 template <int Dim>

@@ -17,33 +17,10 @@
 
 #include "io/hdf5_image.h"
 #include "io/sealed_file.h"
+#include "support/checkpoint_sets.h"
 
 namespace tailwater {
 namespace {
-
-enum class Type { real, whole64, whole32, byte, text };
-
-struct Dataset {
-  const char* name;
-  Type type;
-  std::size_t columns;
-};
-
-/// Of a run in 2D.
-constexpr std::array<Dataset, 14> datasets{{{"position", Type::real, 2},
-                                            {"velocity", Type::real, 2},
-                                            {"pressure", Type::real, 1},
-                                            {"volume", Type::real, 1},
-                                            {"kind", Type::byte, 1},
-                                            {"wall_row", Type::whole32, 1},
-                                            {"id", Type::whole64, 1},
-                                            {"wall_velocity", Type::real, 2},
-                                            {"owned", Type::whole64, 1},
-                                            {"rank_log", Type::real, 1},
-                                            {"cuts", Type::text, 1},
-                                            {"cuts_size", Type::whole64, 1},
-                                            {"case", Type::text, 1},
-                                            {"run", Type::text, 1}}};
 
 constexpr std::array strange_numbers{0.0,
                                      -0.0,

@@ -11,8 +11,10 @@ import unittest
 
 PROGRAM = os.environ["TAILWATER"]
 
+SLOWDOWN = int(os.environ.get("TAILWATER_SLOWDOWN", 1))  # of a program with sanitizers
+
 # s; far more than anything here takes, also on a machine that is busy with other work.
-PATIENCE = 200 * int(os.environ.get("TAILWATER_SLOWDOWN", 1))
+PATIENCE = 200 * SLOWDOWN
 
 # A dam break of 50 fluid particles: a run of a few steps takes milliseconds.
 SMALL_CASE = """\

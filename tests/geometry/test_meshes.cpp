@@ -148,6 +148,11 @@ TEST(MeshFile, ThatIsDamagedIsRefused) {
                {"noise.stl", "export the mesh again"});
   expect_words(refusal("pier.step", "ISO-10303-21;"), {"\".step\" is no kind of mesh", ".stl, .obj or .ply"});
   expect_words(refusal("none.ply", ply({})), {"none.ply", "export the mesh again"});
+  for (const char* format : {"ascii", "binary_little_endian"}) {  // without properties elements take no room
+    const std::string endless =
+        fmt::format("ply\nformat {} 1.0\nelement vertex 9000000000000000000\nend_header\n1 2 3\n", format);
+    expect_words(refusal("endless.ply", endless), {"endless.ply", "9000000000000000000", "6 bytes left", "cut off"});
+  }
   TriangleMesh broken = unit_box();
   broken.points[7][1] = std::numeric_limits<double>::quiet_NaN();
   expect_words(refusal("nan.stl", binary_stl(broken)), {"nan.stl", "triangle 3 has a corner that is not a number"});

@@ -1,0 +1,66 @@
+// Case files: reader, linked files and checks of the shapes.
+#include <fstream>
+
+#include "case/key_info.h"
+#include "examine_case.h"
+#include "harness.h"
+#include "io/temporary_folder.h"
+#include "text_mutator.h"
+
+namespace {
+
+using namespace tailwater;
+
+/// With files that a case may name.
+class Folder : public TemporaryFolder {
+ public:
+  Folder() {
+    std::ofstream(path() / "bed.csv") << "x, z\n0, 2\n0, 0\n1, 0.2\n2, 0\n3, 0\n";
+    std::ofstream(path() / "body.obj") << "v 1 1 0\nv 2 1 0\nv 1 2 0\nv 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  }
+};
+
+std::vector<std::string> quoted_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = text.find('"'), end = 0; begin != std::string::npos; begin = text.find('"', end + 1)) {
+    end = text.find('"', begin + 1);
+    if (end == std::string::npos) break;
+    words.push_back(text.substr(begin, end + 1 - begin));
+  }
+  return words;
+}
+
+/// The keys with their defaults, and what they may be set to.
+Vocabulary make_vocabulary() {
+  Vocabulary vocabulary;
+  vocabulary.words = {
+      "0",   "-1",      "1e308", "-1e308", "1e15", "1e-15", "nan",  "inf",    "-inf",    "0.05",
+      "1e9", "1e400",   "2",     "3",      "dx",   "g",     "2*dx", "t",      "sin(t)",  "1/0",
+      "x",   "sqrt(x)", "true",  "[]",     "[[]]", "{}",    "\"\"", "[0, 0]", "[0,0,0]", "9223372036854775807"};
+  for (const TableInfo& table : case_tables()) {
+    vocabulary.lines.push_back(table.heading());
+    for (const KeyInfo& key : table.keys) {
+      vocabulary.lines.push_back(std::string(key.key) + " = " + key.value);
+      vocabulary.words.emplace_back(key.key);
+      for (const std::string& choice : quoted_words(key.allowed)) {
+        vocabulary.lines.push_back(std::string(key.key) + " = " + choice);
+      }
+    }
+  }
+  return vocabulary;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Folder folder;
+  const std::filesystem::path file = folder.path() / "case.toml";
+  std::ofstream(file, std::ios::binary) << text_of_input(data, size);
+  examine_case(file);
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t room, unsigned seed) {
+  static const Vocabulary vocabulary = make_vocabulary();
+  return mutate_text(data, size, room, seed, vocabulary);
+}

@@ -1,0 +1,49 @@
+#include "examine_case.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "case/reader.h"
+#include "geometry/check.h"
+#include "geometry/particle_count.h"
+#include "harness.h"
+#include "run/run_case.h"
+
+namespace tailwater {
+namespace {
+
+/// What takes a fraction of a second under sanitizers.
+constexpr double most_particles = 2000.0;
+
+template <int Dim>
+Findings check_shapes(const CaseSpec& spec) {
+  const ParticleCount count = expected_particle_count<Dim>(spec);
+  if (count.fluid + count.wall > most_particles) return {};
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  return check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
+}
+
+void require_places(std::string_view message, std::string_view file) {
+  for (std::size_t begin = 0; begin <= message.size();) {
+    const std::size_t end = std::min(message.find('\n', begin), message.size());
+    if (!message.substr(begin, end - begin).starts_with(file)) finding("a message without a place", message);
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+void examine_case(const std::filesystem::path& file) {
+  try {
+    const CaseSpec spec = read_case(file);
+    const Findings findings =
+        with_places(spec, [&] { return spec.general.dimension == 2 ? check_shapes<2>(spec) : check_shapes<3>(spec); });
+    for (const Finding& found : findings) require_places(spec.sources.placed(found.message), file.string());
+  } catch (const UserError& error) {
+    require_places(error.what(), file.string());
+  }
+}
+
+}  // namespace tailwater

@@ -1,0 +1,33 @@
+// What a checkpoint is made of, for those who make wrong ones.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace tailwater {
+
+enum class Type { real, whole64, whole32, byte, text };
+
+struct Dataset {
+  const char* name;
+  Type type;
+  std::size_t columns;
+};
+
+/// Of a run in 2D.
+inline constexpr std::array<Dataset, 14> datasets{{{"position", Type::real, 2},
+                                                   {"velocity", Type::real, 2},
+                                                   {"pressure", Type::real, 1},
+                                                   {"volume", Type::real, 1},
+                                                   {"kind", Type::byte, 1},
+                                                   {"wall_row", Type::whole32, 1},
+                                                   {"id", Type::whole64, 1},
+                                                   {"wall_velocity", Type::real, 2},
+                                                   {"owned", Type::whole64, 1},
+                                                   {"rank_log", Type::real, 1},
+                                                   {"cuts", Type::text, 1},
+                                                   {"cuts_size", Type::whole64, 1},
+                                                   {"case", Type::text, 1},
+                                                   {"run", Type::text, 1}}};
+
+}  // namespace tailwater
