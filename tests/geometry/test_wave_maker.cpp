@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "cases.h"
 #include "geometry/wave_maker.h"
 #include "geometry/wave_theory.h"
