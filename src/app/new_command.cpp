@@ -22,9 +22,10 @@ void write_new_case(const NewOptions& options) {
     throw InputError(
         fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
   }
-  write_text_file(options.file, options.kind == "tank"   ? templates::tank
-                                : options.kind == "pier" ? templates::pier
-                                                         : templates::dam_break);
+  write_text_file(options.file, options.kind == "tank"      ? templates::tank
+                                : options.kind == "pier"    ? templates::pier
+                                : options.kind == "channel" ? templates::channel
+                                                            : templates::dam_break);
   const std::string file = options.file.string();
   fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
              options.file.stem().string());
@@ -38,10 +39,10 @@ void add_new_command(CLI::App& app, ExitCode&) {
   command
       ->add_option(
           "template", options->kind,
-          "dam-break (a column collapses in a tank), tank (water at rest) or pier (3D, a dam breaks against a pier "
-          "from an STL file)")
+          "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
+          "discharge probe) or pier (3D, a dam breaks against a pier from an STL file)")
       ->required()
-      ->check(CLI::IsMember({"dam-break", "tank", "pier"}))
+      ->check(CLI::IsMember({"dam-break", "tank", "channel", "pier"}))
       ->type_name("NAME");
   command->add_option("file", options->file, "The case file to write")->required()->type_name("");
   command->add_flag("--force", options->force, "Overwrite the file if it exists");

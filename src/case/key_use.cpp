@@ -56,6 +56,7 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "velocity", {"at"}, {"interval"}},
       {"probe", "type", "energy", {}, {"interval"}},
       {"probe", "type", "volume", {}, {"interval"}},
+      {"probe", "type", "discharge", {"from", "to"}, {"direction", "interval"}},
   };
   return uses;
 }

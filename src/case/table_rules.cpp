@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -94,8 +95,10 @@ void set_defaults(WallTable& wall, TableReader& reader) {
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
-  if (probe.type == ProbeType::front) probe.direction = along_x(reader);
+  if (probe.type == ProbeType::front || probe.type == ProbeType::discharge) probe.direction = along_x(reader);
 }
+
+void set_defaults(InletTable& inlet, TableReader& reader) { inlet.direction = along_x(reader); }
 
 void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction = along_x(reader); }
 
@@ -206,18 +209,70 @@ void check(const WallTable& wall, TableReader& reader) {
   }
 }
 
+namespace {
+
+/// Calls body, which reads the file that `key` names, and reports what is wrong with it at that key.
+template <class Body>
+void read_linked(std::string_view key, TableReader& reader, Body&& body) {
+  const toml::node* node = reader.given(key);
+  if (node == nullptr || reader.is_wrong(key)) return;
+  try {
+    body();
+  } catch (const UserError& error) {
+    reader.wrong(key, *node, error.what());
+  }
+}
+
+/// Makes the name of a file absolute and takes its checksum; a file that is not the one of the checksum is refused.
+void keep_linked(std::string& file, std::string& checksum, std::string_view checksum_key, TableReader& reader) {
+  const std::filesystem::path path = reader.linked(file);
+  const std::string found = checksum_of_file(path);
+  if (!checksum.empty() && checksum != found) {
+    throw InputError(
+        fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
+                    "was made for, or start a new run without {}",
+                    path.string(), found, checksum, checksum_key));
+  }
+  file = path.string();
+  checksum = found;
+}
+
+/// A series that is too short for the run is found by geometry/checks, when the end of the run is known.
+void read_series(std::string& file, std::string& checksum, std::span<const SeriesColumn> columns, TimeSeries& series,
+                 TableReader& reader) {
+  if (file.empty()) return;
+  read_linked("file", reader, [&] {
+    keep_linked(file, checksum, "checksum", reader);
+    series = read_time_series(file, columns);
+  });
+}
+
+/// The keys of those that have a value, in the case or in a file.
+struct Given {
+  std::string_view key;
+  bool in_case;
+  bool in_file;
+  bool anywhere() const { return in_case || in_file; }
+};
+
+/// No quantity may come from the case and from a file.
+void check_given_once(std::span<const Given> quantities, TableReader& reader) {
+  for (const Given& quantity : quantities) {
+    if (!quantity.in_case || !quantity.in_file) continue;
+    reader.wrong(quantity.key, *reader.given(quantity.key),
+                 fmt::format("the file has a column {} as well; remove one of the two", quantity.key));
+  }
+}
+
+Given given(std::string_view key, const std::optional<Varying>& value, const TimeSeries& series, std::size_t column) {
+  return {key, value.has_value(), column < series.columns.size() && !series.columns[column].empty()};
+}
+
+}  // namespace
+
 void read_linked_files(WallTable& wall, TableReader& reader) {
-  const auto read = [&](std::string_view key, auto&& body) {
-    const toml::node* node = reader.given(key);
-    if (node == nullptr || reader.is_wrong(key) || reader.is_wrong("shape")) return;
-    try {
-      body();
-    } catch (const UserError& error) {
-      reader.wrong(key, *node, error.what());
-    }
-  };
-  if (!wall.points_file.empty() && wall.points.empty()) {
-    read("points_file", [&] {
+  if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
+    read_linked("points_file", reader, [&] {
       wall.points = read_points_file(reader.linked(wall.points_file));
       const std::size_t least = wall.shape == WallShape::polyline ? 2 : 3;
       if (wall.points.size() < least) {
@@ -227,20 +282,43 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
       wall.points_file.clear();
     });
   }
-  if (wall.shape == WallShape::mesh) {
-    read("file", [&] {
-      const std::filesystem::path path = reader.linked(wall.file);
-      const std::string found = checksum_of_file(path);
-      if (!wall.checksum.empty() && wall.checksum != found) {
-        throw InputError(
-            fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
-                        "was made for, or start a new run without checksum",
-                        path.string(), found, wall.checksum));
-      }
-      wall.file = path.string();
-      wall.checksum = found;
-    });
+  if (wall.shape == WallShape::mesh && !reader.is_wrong("shape")) {
+    read_linked("file", reader, [&] { keep_linked(wall.file, wall.checksum, "checksum", reader); });
   }
+}
+
+void read_linked_files(InletTable& inlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 3> columns{
+      {{"discharge", Measure::discharge}, {"velocity", Measure::speed}, {"level"}}};
+  read_series(inlet.file, inlet.checksum, columns, inlet.series, reader);
+  if (reader.is_wrong("file")) return;
+  const Given discharge = given("discharge", inlet.discharge, inlet.series, 0);
+  const Given velocity = given("velocity", inlet.velocity, inlet.series, 1);
+  const Given level = given("level", inlet.level, inlet.series, 2);
+  check_given_once(std::array{discharge, velocity, level}, reader);
+  const bool has_wrong_key = reader.is_wrong("discharge") || reader.is_wrong("velocity") || reader.is_wrong("level");
+  if (!has_wrong_key && !discharge.anywhere() && !velocity.anywhere() && !level.anywhere()) {
+    reader.missing("discharge", "say what enters: give a discharge, a velocity or a level, or a file with one of them");
+  }
+  if (discharge.anywhere() && velocity.anywhere()) {
+    const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
+    reader.wrong(key, *reader.given(key), "an inlet has a discharge or a velocity; remove one of the two");
+  }
+  if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
+    reader.wrong("profile", *reader.given("profile"),
+                 "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
+  }
+}
+
+void read_linked_files(OutletTable& outlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 1> columns{{{"level"}}};
+  read_series(outlet.file, outlet.checksum, columns, outlet.series, reader);
+  if (!reader.is_wrong("file")) check_given_once(std::array{given("level", outlet.level, outlet.series, 0)}, reader);
+}
+
+void check(const InletTable& inlet, TableReader& reader) {
+  check_direction(inlet.direction, reader);
+  check_ends(inlet.from, inlet.to, reader);
 }
 
 void check(const OutletTable& outlet, TableReader& reader) {

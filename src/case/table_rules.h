@@ -17,6 +17,7 @@ template <class Table>
 void set_defaults(Table&, TableReader&) {}
 void set_defaults(FluidTable& fluid, TableReader& reader);
 void set_defaults(WallTable& wall, TableReader& reader);
+void set_defaults(InletTable& inlet, TableReader& reader);
 void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
@@ -26,6 +27,8 @@ void set_defaults(ProbeTable& probe, TableReader& reader);
 template <class Table>
 void read_linked_files(Table&, TableReader&) {}
 void read_linked_files(WallTable& wall, TableReader& reader);
+void read_linked_files(InletTable& inlet, TableReader& reader);
+void read_linked_files(OutletTable& outlet, TableReader& reader);
 
 /// Checks a table that has been read.
 template <class Table>
@@ -34,6 +37,7 @@ void check(const DomainTable& domain, TableReader& reader);
 void check(const PhysicsTable& physics, TableReader& reader);
 void check(const FluidTable& fluid, TableReader& reader);
 void check(const WallTable& wall, TableReader& reader);
+void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
 void check(const SchemeTable& scheme, TableReader& reader);

@@ -80,6 +80,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
   setup.wall_motion.get_velocity(0.0, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
+  state.section_volumes.assign(setup.sections.size(), 0.0);
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);
 }

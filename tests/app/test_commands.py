@@ -10,7 +10,7 @@ from pathlib import Path
 from program import SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "run", "resume", "info", "bench")
-TEMPLATES = ("dam-break", "tank")
+TEMPLATES = ("dam-break", "tank", "channel")
 
 
 class CommandLine(ProgramTest):

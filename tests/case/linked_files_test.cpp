@@ -132,5 +132,71 @@ TEST(MeshFile, NeedsASideAndThreeDimensions) {
   EXPECT_NE(message_of(mesh_case).find("cannot read it"), std::string::npos);
 }
 
+const std::string inlet_case =
+    required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\nfile = \"hydrograph.csv\"\n";
+
+class Hydrograph : public testing::Test {
+ protected:
+  explicit Hydrograph(const std::string& text = inlet_case) : file_(text) {}
+
+  void write(const std::string& text) const { std::ofstream(path()) << text; }
+  std::filesystem::path path() const { return file_.path().parent_path() / "hydrograph.csv"; }
+
+  std::string message(const std::string& text) const {
+    write(text);
+    try {
+      read_case(file_.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no InputError for\n" << text;
+    return {};
+  }
+
+  CaseFile file_;
+};
+
+TEST_F(Hydrograph, IsReadWithUnits) {
+  write("# gauging station\nlevel [cm]; Time (min); Discharge_l/s\n50; 0; 20\n40; 0.5; 35\n");
+  const TimeSeries series = read_case(file_.path()).inlets[0].series;
+  EXPECT_EQ(series.time, (std::vector<double>{0.0, 30.0}));
+  ASSERT_EQ(series.columns.size(), 3u);
+  EXPECT_DOUBLE_EQ(series.columns[0].at(1), 0.035);
+  EXPECT_TRUE(series.columns[1].empty()) << "no velocity";
+  EXPECT_DOUBLE_EQ(series.columns[2].at(0), 0.5);
+}
+
+TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
+  struct Bad {
+    std::string text, line;
+    std::vector<std::string> words;
+  };
+  const std::string head = "t [s], discharge [m^3/s]\n";
+  for (const Bad& bad : {
+           Bad{"0, 1\n1, 2\n", "hydrograph.csv:1", {"columns must be named", "t [s], discharge [m^3/s]"}},
+           Bad{"t [s], discharge\n0, 1\n", "hydrograph.csv:1", {"has no unit", "discharge [m^3/s]"}},
+           Bad{"t [s], discharge [gal/s]\n0, 1\n", "hydrograph.csv:1", {"unknown unit \"gal/s\"", "l/s"}},
+           Bad{head + "0, 1\n", "hydrograph.csv:2", {"at least two"}},
+           Bad{head + "0, 1\n2, 1\n1, 1\n", "hydrograph.csv:4", {"is not after that of line 3", "order of time"}},
+           Bad{head + "0, 1\n0, 2\n", "hydrograph.csv:3", {"is not after that of line 2", "keep one of two"}},
+           Bad{head + "0, nan\n1, 2\n", "hydrograph.csv:2", {"nan is no finite value"}},
+           Bad{head + "0, 1\n1\n", "hydrograph.csv:3", {"complete the line"}},
+       }) {
+    const std::string message = this->message(bad.text);
+    EXPECT_NE(message.find("inlet[0].file = \"hydrograph.csv\": "), std::string::npos) << message;
+    EXPECT_NE(message.find(bad.line), std::string::npos) << message;
+    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+}
+
+/// The case that a run leaves names the file with its folder and checksum.
+TEST_F(Hydrograph, OfTheEffectiveCaseMustNotChange) {
+  write("t [s], discharge [l/s]\n0, 20\n1, 30\n");
+  const CaseSpec spec = read_case(file_.path());
+  EXPECT_EQ(read_case_text(effective_case(spec), "effective"), spec);
+  write("t [s], discharge [l/s]\n0, 20\n1, 31\n");
+  EXPECT_THROW(read_case_text(effective_case(spec), "effective"), InputError);
+}
+
 }  // namespace
 }  // namespace tailwater
