@@ -50,6 +50,7 @@ enum class ProbeType {
   velocity,
   energy,
   volume,
+  discharge,
 };
 
 template <class Enumeration>
@@ -167,8 +168,9 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 9> names{
-      "depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume"};
+  static constexpr std::array<std::string_view, 10> names{"depth",   "wall-pressure", "wall-pressure-mean", "front",
+                                                          "profile", "pressure",      "velocity",           "energy",
+                                                          "volume",  "discharge"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

@@ -154,7 +154,8 @@ std::string case_reference_markdown() {
       "d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
       "`particles.spacing`, `g` = the magnitude of `physics.gravity`; in `fluid.velocity` also `x`, `y`, `z`, the "
-      "particle's position, and in `wall.displacement` and `wall.rotation` the time `t`; none of these can name a "
+      "particle's position, and in what varies with time (such as `wall.displacement` and `inlet.discharge`) the time "
+      "`t`; none of these can name a "
       "parameter\n"
       "- functions: " +
       functions_text() +

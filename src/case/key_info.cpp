@@ -19,7 +19,10 @@ std::string array_text(const std::vector<double>& values) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-std::string_view names_of(Variables variables) { return variables == Variables::time ? "t" : "x, y, z"; }
+std::string_view names_of(Variables variables) {
+  if (variables == Variables::height) return height_name[0];
+  return variables == Variables::time ? time_name[0] : "x, y, z";
+}
 
 std::string varying_text(const Varying& value) {
   const auto* number = std::get_if<double>(&value);
@@ -81,6 +84,11 @@ void KeyCollector::varying(std::string_view key, const Varying& value, Variables
                            std::string_view doc) {
   const std::string type = fmt::format("number or expression of {}", names_of(variables));
   rows_.push_back({key, type, varying_text(value), unit, "", doc, Presence::optional});
+}
+
+void KeyCollector::varying(std::string_view key, const std::optional<Varying>& value, Variables variables,
+                           std::string_view unit, std::string_view doc) {
+  varying(key, value.value_or(Varying(std::string())), variables, unit, doc);
 }
 
 void KeyCollector::field(std::string_view key, const VectorField& value, Variables variables, std::string_view unit,

@@ -41,6 +41,8 @@ class KeyCollector {
                    Presence presence = Presence::optional);
   void varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,
                std::string_view doc);
+  void varying(std::string_view key, const std::optional<Varying>& value, Variables variables, std::string_view unit,
+               std::string_view doc);
   void field(std::string_view key, const VectorField& value, Variables variables, std::string_view unit,
              std::string_view doc);
   void points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);

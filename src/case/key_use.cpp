@@ -65,6 +65,7 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "velocity", {"at"}, {"interval"}},
       {"probe", "type", "energy", {}, {"interval"}},
       {"probe", "type", "volume", {}, {"interval"}},
+      {"probe", "type", "discharge", {"from", "to"}, {"direction", "interval"}},
   };
   return uses;
 }

@@ -39,6 +39,9 @@ struct Unit {
 constexpr std::array<Unit, 5> length_units{{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}}};
 constexpr std::array<Unit, 4> time_units{{{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}}};
 constexpr std::array<Unit, 2> angle_units{{{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}}};
+constexpr std::array<Unit, 3> speed_units{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}}};
+constexpr std::array<Unit, 6> discharge_units{
+    {{"m^3/s", 1.0}, {"m3/s", 1.0}, {"m^2/s", 1.0}, {"m2/s", 1.0}, {"l/s", 1e-3}, {"m^3/h", 1.0 / 3600.0}}};
 constexpr std::array<std::string_view, 4> names_along{"x", "station", "chainage", "distance"};
 constexpr std::array<std::string_view, 5> names_up{"y", "z", "elevation", "height", "level"};
 
@@ -292,14 +295,26 @@ class SeriesFile : ColumnFile {
     double unit;
   };
 
-  static std::string_view default_unit(const SeriesColumn& column) {
-    return column.measure == Measure::angle ? "deg" : "m";
+  /// The first is the SI unit.
+  static std::span<const Unit> units_of(const SeriesColumn& column) {
+    switch (column.measure) {
+      case Measure::angle:
+        return angle_units;
+      case Measure::speed:
+        return speed_units;
+      case Measure::discharge:
+        return discharge_units;
+      case Measure::length:
+        break;
+    }
+    return length_units;
   }
 
   /// A header as it could be.
   std::string example() const {
     std::string text = "t [s]";
-    for (const SeriesColumn& column : wanted_) text += fmt::format(", {} [{}]", column.name, default_unit(column));
+    for (const SeriesColumn& column : wanted_)
+      text += fmt::format(", {} [{}]", column.name, units_of(column).front().name);
     return text;
   }
 
@@ -360,10 +375,13 @@ class SeriesFile : ColumnFile {
                       field, example()));
     }
     const auto wanted = static_cast<std::size_t>(known - wanted_.begin());
-    if (known->measure == Measure::length) return {wanted, unit_of(heading, field, length_units).value_or(1.0)};
-    const std::optional<double> unit = unit_of(heading, field, angle_units);
-    if (!unit) wrong(fmt::format("column \"{}\" has no unit; write angle [rad] or angle [deg]", field));
-    return {wanted, *unit};
+    const std::span<const Unit> units = units_of(*known);
+    const std::optional<double> unit = unit_of(heading, field, units);
+    const bool needs_unit = known->measure == Measure::angle || known->measure == Measure::discharge;
+    if (!unit && needs_unit) {
+      wrong(fmt::format("column \"{}\" has no unit; write {} [{}]", field, known->name, units.front().name));
+    }
+    return {wanted, unit.value_or(1.0)};
   }
 
   std::span<const SeriesColumn> wanted_;

@@ -19,9 +19,9 @@ namespace tailwater {
 std::vector<Coordinates> read_points_file(const std::filesystem::path& path);
 
 /// The named columns of a CSV file over time, in SI units. Its first line that is neither empty nor a comment names the
-/// columns: t, or time, in s, ms, min or h, and any of `columns`, each with its unit (lengths as above, angles in rad
-/// or deg) as in "t [s], x [mm], angle [deg]". Without a unit t is in s and a length in m; an angle needs its unit.
-/// Throws IoError if the file cannot be read, else InputError, which names file and line and gives the remedy.
+/// columns: t, or time, in s, ms, min or h, and any of `columns`, each with its unit as in "t [s], x [mm], angle
+/// [deg]". Without a unit t is in s, a length in m and a speed in m/s; an angle and a discharge need theirs. Throws
+/// IoError if the file cannot be read, else InputError, which names file and line and gives the remedy.
 TimeSeries read_time_series(const std::filesystem::path& path, std::span<const SeriesColumn> columns);
 
 /// CRC-32 of the file's bytes, as 8 hexadecimal digits. Throws IoError if it cannot be read.

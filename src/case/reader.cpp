@@ -344,6 +344,7 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   add_tables("gate", spec.gates);
   add_tables("wave_maker", spec.wave_makers);
   add_tables("damping", spec.damping);
+  add_tables("inlet", spec.inlets);
   add_tables("outlet", spec.outlets);
   add_tables("probe", spec.probes);
   for (const auto& [name, node] : root) {
@@ -365,8 +366,9 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   read_foundations(spec, context, reader, root);
   CaseSpec::describe(spec, reader);
   reader.report_unknown_tables();
-  if (root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty())) {
-    context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]]");
+  const bool has_no_fluid = root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty());
+  if (has_no_fluid && root.get("inlet") == nullptr) {
+    context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]], or an [[inlet]]");
   }
   if (context.problems.none()) {
     check_amount_of_output(spec, root, context.problems);

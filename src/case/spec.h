@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,8 +22,8 @@
 
 namespace tailwater {
 
-/// Name of a block of fluid, a wall or an outlet that was not given one: fluid1, fluid2, ..., wall1, ...; `index`
-/// counts from 0.
+/// Name of a block of fluid, a wall, an inlet or an outlet that was not given one: fluid1, fluid2, ..., wall1, ...;
+/// `index` counts from 0.
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
@@ -36,8 +37,11 @@ inline constexpr std::array<std::string_view, 3> position_names{"x", "y", "z"};
 /// Name of the time in expressions that are evaluated at each step.
 inline constexpr std::array<std::string_view, 1> time_name{"t"};
 
+/// Name of the height above an open end's lowest point, over the depth of the water, in profiles of velocity.
+inline constexpr std::array<std::string_view, 1> height_name{"s"};
+
 /// What an expression may depend on besides the named numbers.
-enum class Variables { position, time };
+enum class Variables { position, time, height };
 
 /// A number, or an expression that varies in space or time.
 using Varying = std::variant<double, std::string>;
@@ -383,26 +387,85 @@ struct DampingTable {
   }
 };
 
+/// Keys that the open ends of both kinds have, and a discharge probe in part.
+template <class Self, class Visitor>
+void describe_opening(Self& self, Visitor& v) {
+  v.coordinates("from", self.from, "m",
+                "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
+                "rectangle (3D)",
+                Presence::required);
+  v.coordinates("to", self.to, "m",
+                "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)",
+                Presence::required);
+}
+
+struct InletTable {
+  std::string name;
+  Coordinates from;
+  Coordinates to;
+  Coordinates direction;
+  std::optional<Varying> discharge;
+  std::optional<Varying> velocity;
+  std::optional<Varying> level;
+  std::optional<Varying> profile;
+  std::string file;
+  std::string checksum;
+
+  TimeSeries series;  ///< what the file holds: t, discharge, velocity, level
+
+  bool operator==(const InletTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages and in summary.json (default: inlet1, inlet2, ...)");
+    describe_opening(self, v);
+    v.coordinates("direction", self.direction, "",
+                  "Rough direction in which the water enters; it tells the two sides apart (default: +x)");
+    v.varying("discharge", self.discharge, Variables::time, "m^3/s",
+              "Discharge that enters; in 2D m^3/s per metre of width; below 0 it is taken out");
+    v.varying("velocity", self.velocity, Variables::time, "m/s",
+              "Mean velocity with which water enters, instead of a discharge");
+    v.varying("level", self.level, Variables::time, "m",
+              "Height of the water's surface at the inlet, as a coordinate; without a discharge and a velocity these "
+              "follow from the flow; with one of them the flow must be supercritical, otherwise leave the level out");
+    v.varying("profile", self.profile, Variables::height, "",
+              "Shape of the velocity over the depth, of any size: an expression of s, which is 0 at the bed and 1 at "
+              "the surface (default: uniform)");
+    v.text("file", self.file,
+           "Instead of discharge, velocity and level, or of some of them: CSV file of them over time, relative to the "
+           "case file, with a line that names the columns, as in \"t [s], discharge [l/s]\"; in between it is smooth");
+    v.text("checksum", self.checksum,
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+  }
+};
+
 struct OutletTable {
   std::string name;
   Coordinates from;
   Coordinates to;
   Coordinates direction;
+  std::optional<Varying> level;
+  std::string file;
+  std::string checksum;
+
+  TimeSeries series;  ///< what the file holds: t, level
 
   bool operator==(const OutletTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: outlet1, outlet2, ...)");
-    v.coordinates("from", self.from, "m",
-                  "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
-                  "rectangle (3D)",
-                  Presence::required);
-    v.coordinates("to", self.to, "m",
-                  "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)",
-                  Presence::required);
+    describe_opening(self, v);
     v.coordinates("direction", self.direction, "",
                   "Rough direction in which the water leaves; it tells the two sides apart (default: +x)");
+    v.varying("level", self.level, Variables::time, "m",
+              "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: the "
+              "channel goes on)");
+    v.text("file", self.file,
+           "Instead of level: CSV file of it over time, relative to the case file, with a line that names the columns, "
+           "as in \"t [s], level [m]\"; in between it is smooth");
+    v.text("checksum", self.checksum,
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
   }
 };
 
@@ -660,9 +723,12 @@ struct ProbeTable {
     v.coordinates(
         "at", self.at, "m",
         "Position of a depth probe (its height is ignored) or of a wall-pressure, pressure or velocity probe");
-    v.coordinates("from", self.from, "m", "Start of a stretch of wall or of a profile");
-    v.coordinates("to", self.to, "m", "End of a stretch of wall or of a profile");
-    v.coordinates("direction", self.direction, "", "Direction in which a front probe looks (default: +x)");
+    v.coordinates("from", self.from, "m", "Start of a stretch of wall, of a profile or of a section");
+    v.coordinates("to", self.to, "m",
+                  "End of a stretch of wall, of a profile or of a section: a segment (2D), or the opposite corner of a "
+                  "flat axis-parallel rectangle (3D)");
+    v.coordinates("direction", self.direction, "",
+                  "Direction in which a front probe looks, or in which a discharge counts as positive (default: +x)");
     v.numbers("times", self.times, "s", "Times at which a profile is taken");
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two lines of the file; 0: every step");
   }
@@ -688,6 +754,7 @@ struct CaseSpec {
   std::vector<GateTable> gates;
   std::vector<WaveMakerTable> wave_makers;
   std::vector<DampingTable> damping;
+  std::vector<InletTable> inlets;
   std::vector<OutletTable> outlets;
   TimeTable time;
   SchemeTable scheme;
@@ -711,7 +778,8 @@ struct CaseSpec {
     v.tables("gate", self.gates, "A plate that is pulled out of the water; one table each");
     v.tables("wave_maker", self.wave_makers, "A plate that makes waves, or absorbs them; one table each");
     v.tables("damping", self.damping, "A zone in which waves die out; one table each");
-    v.tables("outlet", self.outlets, "An open end through which water leaves for good; one table each");
+    v.tables("inlet", self.inlets, "An open end through which water enters; one table each");
+    v.tables("outlet", self.outlets, "An open end through which water leaves; one table each");
     v.table("time", self.time, "Duration of the run");
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");

@@ -102,6 +102,13 @@ void TableReader::varying(std::string_view key, Varying& value, Variables variab
   }
 }
 
+void TableReader::varying(std::string_view key, std::optional<Varying>& value, Variables variables,
+                          std::string_view unit, std::string_view doc) {
+  const toml::node* node = find(key, doc, unit, "", Presence::optional);
+  if (node == nullptr || node->value_or(std::string_view("-")).empty()) return;
+  if (auto given = read_varying(key, std::string(key), *node, variables, unit)) value = std::move(*given);
+}
+
 void TableReader::field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
                         std::string_view doc) {
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
@@ -286,10 +293,14 @@ std::optional<Varying> TableReader::read_varying(std::string_view key, const std
                                                  Variables variables, std::string_view unit) {
   // In 2D there is no z; 0: the file gives no valid dimension, which is reported.
   const auto position = std::span(position_names).first(context_.dimension == 2 ? 2 : 3);
-  const auto names = variables == Variables::time ? std::span<const std::string_view>(time_name) : position;
+  const auto names = variables == Variables::time     ? std::span<const std::string_view>(time_name)
+                     : variables == Variables::height ? std::span<const std::string_view>(height_name)
+                                                      : position;
   const auto* text = node.as_string();
+  NamedNumbers numbers = context_.numbers;
+  if (variables == Variables::height) numbers.erase(std::string(height_name[0]));  // a parameter may have the name
   try {
-    if (text != nullptr && Formula(text->get(), context_.numbers, names).uses_variables()) {
+    if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) {
       return text->get();
     }
   } catch (const ExpressionError& error) {

@@ -51,6 +51,9 @@ class TableReader {
   void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc,
                    Presence presence = Presence::optional);
   void varying(std::string_view key, Varying& value, Variables variables, std::string_view unit, std::string_view doc);
+  /// "" is no value, as in the effective case.
+  void varying(std::string_view key, std::optional<Varying>& value, Variables variables, std::string_view unit,
+               std::string_view doc);
   void field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
              std::string_view doc);
   void points(std::string_view key, std::vector<Coordinates>& value, std::string_view unit, std::string_view doc);

@@ -110,8 +110,10 @@ void set_defaults(WaveMakerTable& maker, TableReader& reader) {
 
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
-  if (probe.type == ProbeType::front) probe.direction = along_x(reader);
+  if (probe.type == ProbeType::front || probe.type == ProbeType::discharge) probe.direction = along_x(reader);
 }
+
+void set_defaults(InletTable& inlet, TableReader& reader) { inlet.direction = along_x(reader); }
 
 void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction = along_x(reader); }
 
@@ -363,6 +365,37 @@ void require_start(const TimeSeries& series) {
                                series.file, series.line.front(), series.time.front()));
 }
 
+/// A series that is too short for the run is found by geometry/checks, when the end of the run is known.
+void read_series(std::string& file, std::string& checksum, std::span<const SeriesColumn> columns, TimeSeries& series,
+                 TableReader& reader) {
+  if (file.empty()) return;
+  read_linked("file", reader, [&] {
+    keep_linked(file, checksum, "checksum", reader);
+    series = read_time_series(file, columns);
+  });
+}
+
+/// The keys of those that have a value, in the case or in a file.
+struct Given {
+  std::string_view key;
+  bool in_case;
+  bool in_file;
+  bool anywhere() const { return in_case || in_file; }
+};
+
+/// No quantity may come from the case and from a file.
+void check_given_once(std::span<const Given> quantities, TableReader& reader) {
+  for (const Given& quantity : quantities) {
+    if (!quantity.in_case || !quantity.in_file) continue;
+    reader.wrong(quantity.key, *reader.given(quantity.key),
+                 fmt::format("the file has a column {} as well; remove one of the two", quantity.key));
+  }
+}
+
+Given given(std::string_view key, const std::optional<Varying>& value, const TimeSeries& series, std::size_t column) {
+  return {key, value.has_value(), column < series.columns.size() && !series.columns[column].empty()};
+}
+
 }  // namespace
 
 void read_linked_files(WallTable& wall, TableReader& reader) {
@@ -403,6 +436,40 @@ void read_linked_files(GateTable& gate, TableReader& reader) {
     gate.series = read_time_series(gate.file, columns);
     require_start(gate.series);
   });
+}
+
+void read_linked_files(InletTable& inlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 3> columns{
+      {{"discharge", Measure::discharge}, {"velocity", Measure::speed}, {"level"}}};
+  read_series(inlet.file, inlet.checksum, columns, inlet.series, reader);
+  if (reader.is_wrong("file")) return;
+  const Given discharge = given("discharge", inlet.discharge, inlet.series, 0);
+  const Given velocity = given("velocity", inlet.velocity, inlet.series, 1);
+  const Given level = given("level", inlet.level, inlet.series, 2);
+  check_given_once(std::array{discharge, velocity, level}, reader);
+  const bool has_wrong_key = reader.is_wrong("discharge") || reader.is_wrong("velocity") || reader.is_wrong("level");
+  if (!has_wrong_key && !discharge.anywhere() && !velocity.anywhere() && !level.anywhere()) {
+    reader.missing("discharge", "say what enters: give a discharge, a velocity or a level, or a file with one of them");
+  }
+  if (discharge.anywhere() && velocity.anywhere()) {
+    const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
+    reader.wrong(key, *reader.given(key), "an inlet has a discharge or a velocity; remove one of the two");
+  }
+  if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
+    reader.wrong("profile", *reader.given("profile"),
+                 "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
+  }
+}
+
+void read_linked_files(OutletTable& outlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 1> columns{{{"level"}}};
+  read_series(outlet.file, outlet.checksum, columns, outlet.series, reader);
+  if (!reader.is_wrong("file")) check_given_once(std::array{given("level", outlet.level, outlet.series, 0)}, reader);
+}
+
+void check(const InletTable& inlet, TableReader& reader) {
+  check_direction(inlet.direction, reader);
+  check_ends(inlet.from, inlet.to, reader);
 }
 
 void check(const OutletTable& outlet, TableReader& reader) {

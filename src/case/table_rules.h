@@ -19,6 +19,7 @@ void set_defaults(FluidTable& fluid, TableReader& reader);
 void set_defaults(WallTable& wall, TableReader& reader);
 void set_defaults(GateTable& gate, TableReader& reader);
 void set_defaults(WaveMakerTable& maker, TableReader& reader);
+void set_defaults(InletTable& inlet, TableReader& reader);
 void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
@@ -29,6 +30,8 @@ template <class Table>
 void read_linked_files(Table&, TableReader&) {}
 void read_linked_files(WallTable& wall, TableReader& reader);
 void read_linked_files(GateTable& gate, TableReader& reader);
+void read_linked_files(InletTable& inlet, TableReader& reader);
+void read_linked_files(OutletTable& outlet, TableReader& reader);
 
 /// Checks a table that has been read.
 template <class Table>
@@ -40,6 +43,7 @@ void check(const WallTable& wall, TableReader& reader);
 void check(const GateTable& gate, TableReader& reader);
 void check(const WaveMakerTable& maker, TableReader& reader);
 void check(const DampingTable& damping, TableReader& reader);
+void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
 void check(const SchemeTable& scheme, TableReader& reader);

@@ -81,6 +81,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   state.wave_makers.resize(setup.wave_plates.size());
   setup.wall_motion.get_velocity(0.0, state.wave_makers, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
+  state.section_volumes.assign(setup.sections.size(), 0.0);
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);
 }

@@ -38,6 +38,7 @@ struct Flow {
   Surroundings<Dim> here;            ///< as `locate` found them
   bool is_located = false;           ///< whether no particle has moved since
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
+  double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
@@ -53,9 +54,12 @@ struct Flow {
     return {setup.density, setup.gravity, acceleration};
   }
 
-  /// Whether owned particle i is in the end stretch of an outlet, where nothing is solved for.
-  bool is_leaving(std::size_t i) const { return end_of[i] >= 0; }
-  bool is_solved_for(std::size_t i) const { return state.particles.is_fluid(i) && !is_leaving(i); }
+  /// Whether owned particle i is in the end stretch of an inlet or outlet, where nothing is solved for.
+  bool is_in_end_stretch(std::size_t i) const { return end_of[i] >= 0; }
+  /// Whether it is in one where something is prescribed, or in one whose discharge or velocity is.
+  bool is_driven(std::size_t i) const { return end_of[i] >= 0 && setup.open_ends[end_of[i]].is_driven(); }
+  bool is_fed(std::size_t i) const { return end_of[i] >= 0 && setup.open_ends[end_of[i]].flow.feeds(); }
+  bool is_solved_for(std::size_t i) const { return state.particles.is_fluid(i) && !is_in_end_stretch(i); }
   /// Whether statistics of the bulk count particle i.
   bool is_inside(std::size_t i) const { return is_solved_for(i) && here.interior[i] > 0.5; }
   /// Whether the row of particle i is the fluid's pressure equation.

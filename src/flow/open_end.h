@@ -1,53 +1,65 @@
-// What happens at an outlet (geometry/outlet.h): docs/theory/outlets.md.
+// What happens at inlets and outlets (geometry/channel_end.h): docs/theory/open_ends.md.
 //
-// The last stretch before it, one dx longer than the kernel's support, is the end stretch. For their neighbours its
-// particles are part of the flow, but they are not solved for: they move along the outlet's normal, and their pressure
-// is that of a channel that continues. So water upstream has full support and sees no brink and no wall. Particles that
-// have passed the outlet are removed and booked.
+// The stretch of the channel at the end, one dx longer than the kernel's support, is the end stretch. For their
+// neighbours its particles are part of the flow, but they are not solved for: how they move, and their pressure, follow
+// from what is prescribed, or are those of a channel that continues. So water inside has full support and sees no brink
+// and no wall. Particles that have passed the opening outwards are removed; where the end stretch moves inwards, new
+// ones stand in the rows of a lattice at the opening. Both are booked.
 #pragma once
 
 #include <cstdint>
 
-#include "geometry/outlet.h"
+#include "geometry/channel_end.h"
 
 namespace tailwater {
 
-/// What left through one outlet since the start.
-struct Departed {
+/// What passed one opening, in one direction, since the start.
+struct Passed {
   std::int64_t particles = 0;
   double volume = 0.0;  ///< m^Dim
-  double energy = 0.0;  ///< J; kinetic and potential, on leaving
+  double energy = 0.0;  ///< J; kinetic and potential, on passing
 
-  Departed& operator+=(const Departed& other);
+  Passed& operator+=(const Passed& other);
 };
 
-/// The flow before the end stretch, and what is assumed to come from beyond.
+/// The flow before the end stretch, and what is assumed or prescribed beyond.
 struct OpenEndState {
   bool is_wet = false;
   double wet_time = 0.0;      ///< s; time since it became wet
   double speed = 0.0;         ///< m/s; mean along the normal
   double speed_beyond = 0.0;  ///< m/s; `speed` with the delay of its way to the middle of the end stretch
   double invariant = 0.0;     ///< m/s; u - 2 sqrt(g h), which comes from beyond where flow is subcritical
-  Departed departed;
+  double mean_speed = 0.0;    ///< m/s; `speed`, its long waves only; where a level is prescribed
+  // Where something is prescribed.
+  double depth = 0.0;           ///< m; of the water in the end stretch
+  double depth_at_gauge = 0.0;  ///< m; where a level is prescribed
+  double depth_rate = 0.0;      ///< m/s; of `depth`; where a discharge or a velocity is prescribed
+  double entry_speed = 0.0;     ///< m/s; mean over the opening, into the case
+  std::int64_t rows = 0;        ///< of the lattice on which particles enter
+  Passed departed;
+  Passed arrived;
 };
 
-/// The place of an open end, which does not change.
+/// An open end as the steps need it.
 template <int Dim>
-struct OpenEnd {
+struct OpenEnd : ChannelEnd<Dim> {
   /// `support` [m] is the kernel's radius.
-  OpenEnd(const Outlet<Dim>& place, const Vec<Dim>& full_gravity, double spacing, double support);
+  OpenEnd(ChannelEnd<Dim> end, double spacing, double support);
 
-  Outlet<Dim> outlet;
   double stretch;  ///< m; length of the end stretch
   double gauge;    ///< m; half the length of the gauge, the stretch before it where the flow is measured
-  double gravity;  ///< m/s^2; the part of gravity along the outlet's plane
-  Vec<Dim> up;     ///< opposite to that part; 0 if there is none
-  double floor;    ///< m; height of the outlet's lowest point along `up`
-  double width;    ///< m; of the outlet across `up`; 1 in 2D
+  int columns;     ///< of the lattice on which particles enter, across the opening
 
-  bool holds(const Vec<Dim>& x) const { return outlet.beyond(x) > -stretch && outlet.spans(x); }
-  /// Pressure [Pa] of a channel that continues, at a place in the end stretch.
+  bool holds(const Vec<Dim>& x) const { return this->opening.beyond(x) > -stretch && this->opening.spans(x); }
+  /// Distance [m] from the gauge to the middle of the end stretch.
+  double distance() const { return 0.5 * stretch + gauge; }
+  /// Hydrostatic pressure [Pa] of the water assumed or prescribed, at a place in the end stretch.
   double pressure_at(const OpenEndState& state, const Vec<Dim>& x, double density) const;
+  /// Velocity [m/s] at a place in the end stretch, where a discharge or a velocity is prescribed.
+  Vec<Dim> inflow_at(const OpenEndState& state, const Vec<Dim>& x) const;
 };
+
+template <int Dim>
+std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec);
 
 }  // namespace tailwater

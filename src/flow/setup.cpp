@@ -57,13 +57,23 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return lowest - highest + spacing;
 }
 
+/// Depth of the water [m] that there may be: at the start, and what open ends bring.
 template <int Dim>
-std::vector<OpenEnd<Dim>> make_open_ends(const CaseSpec& spec, const Vec<Dim>& gravity) {
-  std::vector<OpenEnd<Dim>> ends;
-  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
-    ends.emplace_back(outlet, gravity, spec.particles.spacing, spec.scheme.support * spec.particles.spacing);
+double depth_scale(const CaseSpec& spec, double fluid_height) {
+  double depth = fluid_height;
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    depth = std::max(depth, end.largest_depth(spec.time.end));
   }
-  return ends;
+  return depth;
+}
+
+template <int Dim>
+std::vector<Opening<Dim>> make_sections(const CaseSpec& spec) {
+  std::vector<Opening<Dim>> sections;
+  for (const ProbeTable& probe : spec.probes) {
+    if (probe.type == ProbeType::discharge) sections.push_back(make_section<Dim>(probe, spec.particles.spacing));
+  }
+  return sections;
 }
 
 template <int Dim>
@@ -97,14 +107,16 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       spacing(spec.particles.spacing),
       first_wall_id(static_cast<std::int64_t>(drawing.fluid.position.size())),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      length(scheme.length > 0.0 ? scheme.length : fluid_height(drawing.fluid, gravity, spacing)),
-      rows_deep(fluid_height(drawing.fluid, gravity, spacing) / spacing),
+      length(scheme.length > 0.0 ? scheme.length
+                                 : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
+      rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_model(drawing.wall_model),
       wall_traits(wall_model->traits()),
       wall_motion(std::move(drawing.wall_motion)),
-      open_ends(make_open_ends(spec, gravity)),
+      open_ends(make_ends<Dim>(spec)),
+      sections(make_sections<Dim>(spec)),
       wave_plates(make_wave_plates<Dim>(spec)),
       damping(make_damping<Dim>(spec)),
       kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),

@@ -42,14 +42,15 @@ struct Setup {
   double spacing;              ///< m
   std::int64_t first_wall_id;  ///< of the first row of the table of wall particles
   Vec<Dim> gravity;            ///< m/s^2
-  double length;               ///< m; L of (F41): from the case, or the fluid's height along gravity at the start
-  double rows_deep;            ///< the fluid's height along gravity at the start, in particles
+  double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
+  double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
   bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
-  std::vector<OpenEnd<Dim>> open_ends;      ///< one per outlet
+  std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet
+  std::vector<Opening<Dim>> sections;       ///< one per discharge probe
   std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
   std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;

@@ -40,7 +40,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   interventions.capped_shifts = compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
                                                    flow.here.interior, flow.here.concentration_gradient, shift);
   for_each(particles.owned, [&](std::size_t i) {
-    if (flow.is_leaving(i)) shift[i].setZero();
+    if (flow.is_in_end_stretch(i)) shift[i].setZero();
   });
   if (setup.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow, shift);
   const std::vector<Vec<Dim>> before(particles.position.begin(),

@@ -51,10 +51,11 @@ struct PressureReport {
 };
 
 /// Works [J] of one step on the water: of the pressure on what the density source expands, of the pressure of moving
-/// walls, and of viscosity and friction.
+/// walls, of what is prescribed at open ends, and of viscosity and friction.
 struct Works {
   double density = 0.0;
   double walls = 0.0;
+  double ends = 0.0;
   double viscous = 0.0;
 };
 
@@ -77,6 +78,8 @@ struct StepReport {
   double dragged() const { return std::max(0.0, work.viscous); }
   /// J; what moving walls gave the water.
   double brought_by_walls() const { return work.walls + dragged(); }
+  /// J; what moving walls and open ends gave it.
+  double brought() const { return brought_by_walls() + work.ends; }
 };
 
 }  // namespace tailwater

@@ -13,7 +13,10 @@ constexpr double longest_step_of_walls = 0.01;
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
-  const double speed = largest_speed(flow);
+  double speed = largest_speed(flow);
+  for (const OpenEnd<Dim>& end : setup.open_ends) {
+    if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time));
+  }
   double dt = setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed));
   if (setup.wall_motion.moving().empty()) return dt;
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a

@@ -63,10 +63,19 @@ void hold_open_ends(Flow<Dim>& flow, double dt);
 template <int Dim>
 void steer_wave_makers(Flow<Dim>& flow);
 
-/// Removes and books the particles that have passed an outlet. Returns whether this rank had any; if so, its indices
-/// have changed and its lists are gone. Call between steps only.
+/// Removes and books the particles that have passed an open end outwards. Returns whether this rank had any; if so, its
+/// indices have changed and its lists are gone. Call between steps only.
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
+
+/// Adds and books the particles that have room to enter at the open ends. Returns whether there were any, on any rank;
+/// if so, lists are gone. Call between steps only, after `let_go`. Collective.
+template <int Dim>
+bool let_in(Flow<Dim>& flow);
+
+/// Counts the particles that have passed the sections of discharge probes since `start`. Collective.
+template <int Dim>
+void count_passing(Flow<Dim>& flow, const StepStart<Dim>& start);
 
 /// Hands particles to the ranks that own their places and sorts those of each rank for the cache. Cuts space again when
 /// work is shared too unevenly. Indices change; call between steps only.

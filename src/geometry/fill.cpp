@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "geometry/from_spec.h"
-#include "geometry/outlet.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -24,8 +24,11 @@ class Fill {
         level_(block.level),
         near_(2.0 * dx_) {
     boundary.visit_plain_faces([&](int f) { file(boundary.faces[f]); });
-    for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
-      for (const WallFace<Dim>& face : outlet.as_faces()) file(face);
+    for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+      for (const WallFace<Dim>& face : end.as_faces()) {
+        file(face);
+        box_.extend(face.box());
+      }
     }
     for (const WallFace<Dim>& face : boundary.faces) box_.extend(face.box());
     for (int axis = 0; axis < Dim; ++axis) {
@@ -139,7 +142,7 @@ class Fill {
   double dx_, tolerance_;
   Vec<Dim> seed_;
   double level_;
-  std::vector<WallFace<Dim>> plain_;  ///< faces of walls that are no meshes, and of outlets
+  std::vector<WallFace<Dim>> plain_;  ///< faces of walls that are no meshes, and of open ends
   FaceGrid<Dim> near_;
   Eigen::AlignedBox<double, Dim> box_;
   std::array<int, Dim> period_{};  ///< cells after which an axis repeats; 0: never

@@ -9,7 +9,7 @@
 
 namespace tailwater {
 
-/// The cells of a `fill` that the water reaches from its seed without passing a wall or an outlet, up to the cells
+/// The cells of a `fill` that the water reaches from its seed without passing a wall or an open end, up to the cells
 /// below its level, along x first. Throws InputError, which begins with the block's `owner`, if the seed is in a wall,
 /// above the level or too near to a wall, or if the water runs out of the case.
 template <int Dim>

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "geometry/from_spec.h"
-#include "geometry/outlet.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -25,7 +25,7 @@ constexpr const char* fluid_colour = "#3b7dd8";
 constexpr const char* wall_colour = "#222222";
 constexpr const char* dummy_colour = "#b9b2a7";
 constexpr const char* probe_colour = "#c0392b";
-constexpr const char* outlet_colour = "#1e8449";
+constexpr const char* opening_colour = "#1e8449";
 
 double text_width(std::string_view text) { return letter_width * font_size * static_cast<double>(text.size()); }
 
@@ -188,35 +188,34 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
   return rows;
 }
 
-/// Outlets, each with its name and an arrow in the direction in which the water leaves.
+/// Inlets and outlets, each with its name and an arrow in the direction in which the water goes.
 template <int Dim>
-void draw_outlets(Svg& svg, const std::vector<Outlet<Dim>>& outlets, const View& view) {
+void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View& view) {
   constexpr double arrow = 20.0;  // px
-  for (const Outlet<Dim>& outlet : outlets) {
-    Vec<Dim> far_corner = outlet.corner;
-    for (const Vec<Dim>& edge : outlet.edges) far_corner += edge;
-    for (const WallFace<Dim>& face : outlet.as_faces()) {
+  for (const Opening<Dim>& end : ends) {
+    Vec<Dim> far_corner = end.corner;
+    for (const Vec<Dim>& edge : end.edges) far_corner += edge;
+    for (const WallFace<Dim>& face : end.as_faces()) {
       for (int c = 0; c < Dim; ++c) {
-        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), outlet_colour, 3.0);
+        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), opening_colour, 3.0);
       }
     }
-    const Vec<2> middle = view(project(Vec<Dim>(0.5 * (outlet.corner + far_corner))));
-    const Vec<2> out(project(outlet.normal)[0], -project(outlet.normal)[1]);
+    const Vec<2> middle = view(project(Vec<Dim>(0.5 * (end.corner + far_corner))));
+    const Vec<2> out(project(end.way())[0], -project(end.way())[1]);
     const Vec<2> aside(-out[1], out[0]);
     const Vec<2> tip = middle + arrow * out;
-    svg.line(middle, tip, outlet_colour, 2.0);
-    svg.line(tip, tip - 0.4 * arrow * (out + 0.6 * aside), outlet_colour, 2.0);
-    svg.line(tip, tip - 0.4 * arrow * (out - 0.6 * aside), outlet_colour, 2.0);
+    svg.line(middle, tip, opening_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out + 0.6 * aside), opening_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out - 0.6 * aside), opening_colour, 2.0);
     const bool is_on_the_right = middle[0] > 0.5 * (view.left + view.right());
-    svg.text(middle[0] + (is_on_the_right ? -6.0 : 6.0), middle[1] - 6.0, is_on_the_right ? "end" : "start",
-             outlet.name);
+    svg.text(middle[0] + (is_on_the_right ? -6.0 : 6.0), middle[1] - 6.0, is_on_the_right ? "end" : "start", end.name);
   }
 }
 
 /// The extent of all that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
-                 const std::vector<Outlet<Dim>>& outlets, const std::vector<Marker>& markers) {
+                 const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers) {
   Extent extent;
   const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
     for (const WallFace<Dim>& face : faces) {
@@ -226,7 +225,7 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
   for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
   for (const Vec<Dim>& x : walls.position) extent.include(project(x));
   include_faces(boundary.faces);
-  for (const Outlet<Dim>& outlet : outlets) include_faces(outlet.as_faces());
+  for (const Opening<Dim>& end : ends) include_faces(end.as_faces());
   for (const Marker& marker : markers) {
     for (const Vec<2>& x : marker.points) {
       if (!marker.is_vertical) extent.include(x);
@@ -317,8 +316,8 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
                         const WallParticles<Dim>& walls) {
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
-  const std::vector<Outlet<Dim>> outlets = make_outlets<Dim>(spec);
-  View view = fitted_view(extent_of(boundary, fluid, walls, outlets, markers), dx);
+  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
+  View view = fitted_view(extent_of(boundary, fluid, walls, ends, markers), dx);
 
   std::vector<double> label_x;
   std::vector<std::string> names;
@@ -350,7 +349,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_wall_particles(svg, walls, view, diameter);
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
-  draw_outlets(svg, outlets, view);
+  draw_open_ends(svg, ends, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
   svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");

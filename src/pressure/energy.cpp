@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// Share of what walls bring that is not counted as a rise if it was more: the force on a wall, summed over the kernel,
-/// is known to some (dx/depth)^2, 4 % at 12 rows of particles.
+/// Share of what walls and open ends bring that is not counted as a rise if it was more: the force on a wall, summed
+/// over the kernel, is known to some (dx/depth)^2, 4 % at 12 rows of particles.
 constexpr double in_doubt = 0.25;
 
 /// [speed/L]; at which a rise is forgotten. Water at rest dissipates nothing that could pay for lifting a lattice that
@@ -27,6 +27,22 @@ double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
                     flow.here.pair_vectors[k]);
   });
   return dt * particles.volume[i] * recoil.dot(flow.state.wall_velocity[particles.wall_row[i]]);
+}
+
+/// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done
+/// on itself.
+template <int Dim>
+double work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const OpenEnd<Dim>& end = flow.setup.open_ends[flow.end_of[i]];
+  const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
+    if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
+    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
+                    flow.here.pair_vectors[k]);
+  });
+  const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
+  return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
 }
 
 template <int Dim>
@@ -65,9 +81,19 @@ double wall_work(const Flow<Dim>& flow, double dt) {
 }
 
 template <int Dim>
+double end_work(const Flow<Dim>& flow, double dt) {
+  const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
+  if (std::ranges::none_of(ends, [](const OpenEnd<Dim>& end) { return end.is_driven(); })) return 0.0;
+  return flow.driven_change + sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
+           return flow.is_driven(i) ? work_of_driven_particle(flow, i, dt) : 0.0;
+         });
+}
+
+template <int Dim>
 Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                  const PosedEquation& equation, double dt) {
-  return {density_work(flow, equation, dt), wall_work(flow, dt), viscous_work(flow, start, predicted, dt)};
+  return {density_work(flow, equation, dt), wall_work(flow, dt), end_work(flow, dt),
+          viscous_work(flow, start, predicted, dt)};
 }
 
 template <int Dim>
@@ -77,13 +103,13 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   FluidSums sums = fluid_sums_of_rank(flow);
   double change = sums.energy - start.energy;
   Works& work = report.work;
-  setup.ranks.sum_each(work.density, work.walls, work.viscous, change, sums.mass, sums.kinetic_energy);
+  setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, change, sums.mass, sums.kinetic_energy);
 
-  const double doubt = in_doubt * (std::abs(work.walls) + report.dragged());
+  const double doubt = in_doubt * (std::abs(work.walls) + std::abs(work.ends) + report.dragged());
   const double g = setup.gravity.norm();
   const double speed = g > 0.0 ? setup.time_step_rule.reference_speed : largest_speed(flow);
   const double faded = std::exp(-fading_rate * speed * report.dt / setup.length);
-  state.energy_rise = std::max(0.0, faded * state.energy_rise + change - report.brought_by_walls() - doubt);
+  state.energy_rise = std::max(0.0, faded * state.energy_rise + change - report.brought() - doubt);
 
   const double at_hand = 0.5 * sums.mass * g * setup.length + sums.kinetic_energy;
   if (at_hand > 0.0) {
@@ -95,6 +121,7 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                \
   template double wall_work<Dim>(const Flow<Dim>&, double);                                       \
+  template double end_work<Dim>(const Flow<Dim>&, double);                                        \
   template Works book_works<Dim>(const Flow<Dim>&, const StepStart<Dim>&, const Prediction<Dim>&, \
                                  const PosedEquation&, double);                                   \
   template void balance_energy<Dim>(Flow<Dim>&, const StepStart<Dim>&, StepReport&);

@@ -63,7 +63,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   const double unit = flow.setup.density / dt;
   const bool with_divergence = flow.setup.scheme.source != SourceKind::density;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (!flow.has_equation(i) || flow.is_leaving(i)) return;
+    if (!flow.has_equation(i) || flow.is_in_end_stretch(i)) return;
     double source = 0.0;
     if (with_divergence) source -= unit * (divergence_at(flow, i, predicted.velocity) - target[i]);
     flow.pressure_rows.set_rhs(i, source + equation.density_source[i]);

@@ -60,10 +60,14 @@ Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Predi
 template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt);
 
+/// Work [J] of what is prescribed at open ends on this rank's water in a step of dt; likewise.
+template <int Dim>
+double end_work(const Flow<Dim>& flow, double dt);
+
 /// Adds up the works of all ranks in `report`, books the energy of the step, and sets which share of the density source
 /// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
 /// before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the work of walls
-/// apart; rises are slowly forgotten (docs/theory/robustness.md).
+/// and open ends apart; rises are slowly forgotten (docs/theory/robustness.md).
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& report);
 

@@ -98,18 +98,44 @@ double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) {
   return std::lerp(air, inside, interior);
 }
 
+/// Row of a particle in an end stretch. Where the velocity is prescribed, the pressure is that of the water inside, as
+/// behind a wall; elsewhere, and as long as there is no water inside, it is hydrostatic.
+template <int Dim>
+void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const OpenEnd<Dim>& end = setup.open_ends[flow.end_of[i]];
+  const auto weight = [&](std::size_t k) {
+    const auto j = pairs.j[k];
+    return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.W[k] : 0.0;
+  };
+  double total = 0.0;
+  for (std::size_t k = pairs.begin(i); flow.is_fed(i) && k < pairs.end(i); ++k) total += weight(k);
+  LinearSystem::Row row = flow.pressure_rows.row(i);
+  if (total == 0.0) {
+    row.set_weights([](std::size_t) { return 0.0; });
+    row.finish(1.0, end.pressure_at(flow.state.open_ends[flow.end_of[i]], particles.position[i], setup.density));
+    return;
+  }
+  double hydrostatic = 0.0;
+  row.set_weights([&](std::size_t k) {
+    const double share = weight(k) / total;
+    hydrostatic += share * setup.density * setup.gravity.dot(pairs.d[k]);
+    return share;
+  });
+  row.finish(1.0, hydrostatic);
+}
+
 /// Writes row i without its source. Returns whether it had to fall back to two-point weights.
 template <int Dim>
 bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
   const Setup<Dim>& setup = flow.setup;
-  LinearSystem::Row row = flow.pressure_rows.row(i);
-  if (flow.is_leaving(i)) {
-    const auto e = flow.end_of[i];
-    row.set_weights([](std::size_t) { return 0.0; });
-    row.finish(
-        1.0, setup.open_ends[e].pressure_at(flow.state.open_ends[e], flow.state.particles.position[i], setup.density));
+  if (flow.is_in_end_stretch(i)) {
+    assemble_end_row(flow, i);
     return false;
   }
+  LinearSystem::Row row = flow.pressure_rows.row(i);
   const bool is_dry = !flow.here.takes_part[i];  // a wall
   if (is_dry || (!setup.has_air() && flow.here.is_surface[i] && !setup.is_closed)) {
     row.finish_as_zero();
@@ -133,9 +159,9 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
   if (flow.pressure_solver.needs_cells()) {
     const std::span positions(flow.state.particles.position);
-    flow.pressure_rows.set_cells(find_cells<Dim>(positions.first(flow.state.particles.owned),
-                                                 cell_edge * flow.setup.spacing,
-                                                 [&](std::size_t i) { return flow.has_equation(i); }));
+    flow.pressure_rows.set_cells(
+        find_cells<Dim>(positions.first(flow.state.particles.owned), cell_edge * flow.setup.spacing,
+                        [&](std::size_t i) { return flow.has_equation(i) && !flow.is_fed(i); }));
   }
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   return count_each(flow.state.particles.owned,

@@ -23,7 +23,9 @@ struct FlowTotals {
   double potential_energy = 0.0;    ///< J; relative to the origin
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 away from the surface
   double density_error_rms = 0.0;
-  double volume_out = 0.0;  ///< m^Dim; volume that has left through outlets
+  double volume_out = 0.0;                   ///< m^Dim; volume that has left through open ends
+  double volume_in = 0.0;                    ///< m^Dim; volume that has come through them
+  std::vector<double> section_volumes = {};  ///< m^Dim; one per discharge probe, what has passed it
 };
 
 /// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them. Its reach must exceed the kernel's

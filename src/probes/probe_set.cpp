@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "parallel/together.h"
+#include "probes/discharge.h"
 #include "probes/front.h"
 #include "probes/gather.h"
 #include "probes/point.h"
@@ -25,12 +26,12 @@ Reading<Dim> energy_reading() {
 
 template <int Dim>
 Reading<Dim> volume_reading() {
-  return {{"particles", "density_error_mean", "density_error_rms", "volume_out_m3"},
+  return {{"particles", "density_error_mean", "density_error_rms", "volume_out_m3", "volume_in_m3"},
           [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const Particles<Dim>& particles = context.particles;
             const std::size_t count = count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
             return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
-                     context.totals.density_error_rms, context.totals.volume_out}};
+                     context.totals.density_error_rms, context.totals.volume_out, context.totals.volume_in}};
           }};
 }
 
@@ -53,6 +54,8 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
       return velocity_reading<Dim>(probe);
     case ProbeType::energy:
       return energy_reading<Dim>();
+    case ProbeType::discharge:
+      return discharge_reading<Dim>(probe, spec);
     case ProbeType::volume:
       break;
   }

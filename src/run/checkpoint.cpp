@@ -66,16 +66,37 @@ void for_each_field(Particles<Dim>& particles, Body&& body) {
   });
 }
 
+nlohmann::json json_of(const Passed& passed) {
+  const auto& [particles, volume, energy] = passed;
+  return {{"particles", particles}, {"volume", volume}, {"energy", energy}};
+}
+
+Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), json.at("volume"), json.at("energy")}; }
+
 nlohmann::json json_of(const OpenEndState& end) {
-  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, departed] = end;
-  const auto& [particles, volume, energy] = departed;
-  return {{"is_wet", is_wet},       {"wet_time", wet_time},   {"speed", speed},   {"speed_beyond", speed_beyond},
-          {"invariant", invariant}, {"particles", particles}, {"volume", volume}, {"energy", energy}};
+  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
+               entry_speed, rows, departed, arrived] = end;
+  return {
+      {"is_wet", is_wet},           {"wet_time", wet_time},       {"speed", speed}, {"speed_beyond", speed_beyond},
+      {"invariant", invariant},     {"mean_speed", mean_speed},   {"depth", depth}, {"depth_at_gauge", depth_at_gauge},
+      {"depth_rate", depth_rate},   {"entry_speed", entry_speed}, {"rows", rows},   {"departed", json_of(departed)},
+      {"arrived", json_of(arrived)}};
 }
 
 OpenEndState open_end_of(const nlohmann::json& json) {
-  return {json.at("is_wet"),       json.at("wet_time"),  json.at("speed"),
-          json.at("speed_beyond"), json.at("invariant"), {json.at("particles"), json.at("volume"), json.at("energy")}};
+  return {json.at("is_wet"),
+          json.at("wet_time"),
+          json.at("speed"),
+          json.at("speed_beyond"),
+          json.at("invariant"),
+          json.at("mean_speed"),
+          json.at("depth"),
+          json.at("depth_at_gauge"),
+          json.at("depth_rate"),
+          json.at("entry_speed"),
+          json.at("rows"),
+          passed_of(json.at("departed")),
+          passed_of(json.at("arrived"))};
 }
 
 nlohmann::json json_of(const MakerState& maker) {
@@ -89,8 +110,8 @@ MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"),
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, wave_makers, energy_rise, density_share] =
-      checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, wave_makers, energy_rise,
+               density_share] = checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
                       {"energy_rise", energy_rise},
@@ -98,6 +119,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
                       {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
                       {"wave_makers", nlohmann::json::array()},
+                      {"section_volumes", section_volumes},
                       {"output", checkpoint.output}};
   for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
   for (const MakerState& maker : wave_makers) json["wave_makers"].push_back(json_of(maker));
@@ -115,6 +137,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
   for (const nlohmann::json& maker : json.at("wave_makers")) state.wave_makers.push_back(maker_of(maker));
+  json.at("section_volumes").get_to(state.section_volumes);
   checkpoint.output = json.at("output");
 }
 

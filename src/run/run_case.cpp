@@ -66,15 +66,16 @@ class Run {
       return state.particles.is_fluid(i) ? row != -1 : row < 0 || static_cast<std::size_t>(row) >= rows;
     });
     return misplaced == 0 && state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
-           state.open_ends.size() == flow_.state.open_ends.size();
+           state.open_ends.size() == flow_.state.open_ends.size() &&
+           state.section_volumes.size() == flow_.state.section_volumes.size();
   }
 
   void go_on_from(Checkpoint<Dim>& checkpoint) {
     if (flow_.setup.ranks.any(!fits(checkpoint.state))) {
-      throw IoError(
-          fmt::format("the checkpoint does not fit the walls and outlets of its case; remedy: remove the newest "
-                      "file in '{}', to go on from the one before",
-                      output_.folder().checkpoints().string()));
+      throw IoError(fmt::format(
+          "the checkpoint does not fit the walls, open ends and probes of its case; remedy: remove the newest "
+          "file in '{}', to go on from the one before",
+          output_.folder().checkpoints().string()));
     }
     keeper_.go_on_from(checkpoint.state.step);
     flow_.restore(std::move(checkpoint.state));
@@ -121,8 +122,8 @@ class Run {
   }
 
   /// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
-  /// have passed an outlet are removed. A checkpoint is of the moment between: before water that may have limited the
-  /// time step has left.
+  /// have passed an open end are removed, and new ones come in. A checkpoint is of the moment between: before water
+  /// that may have limited the time step has left.
   void rearrange() {
     const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
     if (is_shared_out) {
@@ -130,7 +131,8 @@ class Run {
       keeper_.remember(flow_, output_, guard_);
     }
     const bool some_left = let_go(flow_);
-    if (some_left || is_shared_out) guard_.remember_good();
+    const bool some_came = let_in(flow_);
+    if (some_left || some_came || is_shared_out) guard_.remember_good();
   }
 
   double end_;  ///< s

@@ -54,6 +54,20 @@ std::vector<ProbeMark> marks_of(const nlohmann::json& kept) {
   return marks;
 }
 
+/// What has passed the sections of discharge probes since the start.
+template <int Dim>
+nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
+  nlohmann::ordered_json discharges = nlohmann::ordered_json::array();
+  const double time = flow.state.time;
+  for (std::size_t s = 0; s < flow.setup.sections.size(); ++s) {
+    const double volume = flow.state.section_volumes[s];
+    discharges.push_back({{"name", flow.setup.sections[s].name},
+                          {"volume_m3", volume},
+                          {"mean_m3_per_s", time > 0.0 ? volume / time : 0.0}});
+  }
+  return discharges;
+}
+
 /// Replaces the file as a whole, as always; where the disk is so full that this cannot be, writes over its bytes.
 void write_last_file(const std::filesystem::path& path, const std::string& text) {
   try {
@@ -204,7 +218,9 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .potential_energy = measures.potential_energy,
                              .density_error_mean = measures.density_error_mean,
                              .density_error_rms = measures.density_error_rms,
-                             .volume_out = measures.departed.volume},
+                             .volume_out = measures.departed.volume,
+                             .volume_in = measures.arrived.volume,
+                             .section_volumes = flow.state.section_volumes},
                   .ranks = ranks_,
                   .wall_of_row = flow.walls.particles.wall});
 }
@@ -295,6 +311,8 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"ranks", rank_log_.json()}};
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
+  nlohmann::ordered_json discharges = discharges_of(flow);
+  if (!discharges.empty()) summary["discharge"] = std::move(discharges);
   summary.update(provenance());
   if (code) summary["exit_code"] = static_cast<int>(*code);
   std::string text = summary.dump(2) + "\n";
@@ -308,8 +326,10 @@ void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   if (flow.setup.open_ends.empty() && outside.particles == 0) return;
   Water inside = water_in(flow);
   inside -= outside;
-  tell(fmt::format("water: {} at the start, {} inside, {} outside the walls, {} out", water_at_start_.text(),
-                   inside.text(), outside.text(), water_out(flow).text()));
+  const Water came = water_came(flow);
+  tell(fmt::format("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
+                   came.particles > 0 ? came.text() + " in, " : "", inside.text(), outside.text(),
+                   water_out(flow).text()));
 }
 
 template class RunOutput<2>;

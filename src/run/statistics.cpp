@@ -25,9 +25,11 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
   energy_end_ = measures.energy();
   energy_out_ = measures.departed.energy;
+  energy_in_ = measures.arrived.energy;
   brought_by_walls_ += report.brought_by_walls();
+  brought_by_ends_ += report.work.ends;
   viscous_work_ += report.work.viscous;
-  const double accounted = energy_end_ + energy_out_ - brought_by_walls_;
+  const double accounted = energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.work.density;
@@ -56,7 +58,9 @@ void RunStatistics::for_each_sum(Self& self, Body&& body) {
   body("energy_start", self.energy_start_);
   body("energy_end", self.energy_end_);
   body("energy_out", self.energy_out_);
+  body("energy_in", self.energy_in_);
   body("brought_by_walls", self.brought_by_walls_);
+  body("brought_by_ends", self.brought_by_ends_);
   body("viscous_work", self.viscous_work_);
   body("energy_least", self.energy_least_);
   body("energy_rise", self.energy_rise_);
@@ -103,7 +107,9 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
        {{"start_J", energy_start_},
         {"end_J", energy_end_},
         {"out_J", energy_out_},
+        {"in_J", energy_in_},
         {"brought_by_walls_J", brought_by_walls_},
+        {"brought_by_open_ends_J", brought_by_ends_},
         {"viscous_work_J", viscous_work_},
         {"largest_rise_J", energy_rise_},
         {"largest_rise_over_start", over_start(energy_rise_)},

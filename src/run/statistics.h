@@ -16,7 +16,7 @@ class RunStatistics {
 
   void add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped);
 
-  /// J; largest rise of the energy, outlets and walls accounted for.
+  /// J; largest rise of the energy, open ends and walls accounted for.
   double energy_rise() const { return energy_rise_; }
 
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
@@ -44,9 +44,11 @@ class RunStatistics {
   double energy_start_;
   double energy_end_;
   double energy_out_ = 0.0;  ///< J; energy of the water that left, which is not a loss
+  double energy_in_ = 0.0;   ///< J; energy of the water that came in
   double brought_by_walls_ = 0.0;
+  double brought_by_ends_ = 0.0;
   double viscous_work_ = 0.0;
-  double energy_least_;  ///< J; least energy so far, inside plus out, minus what walls brought
+  double energy_least_;  ///< J; least energy so far, inside plus out minus in, without what walls and open ends brought
   double energy_rise_ = 0.0;
   double density_work_ = 0.0;
   double density_share_sum_ = 0.0;

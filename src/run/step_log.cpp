@@ -31,7 +31,10 @@ StepLog::StepLog(const std::filesystem::path& path, std::optional<std::int64_t> 
             "fallback_rows",
             "restarted_solves",
             "volume_out_m3",
-            "energy_out_J"},
+            "energy_out_J",
+            "volume_in_m3",
+            "energy_in_J",
+            "end_work_J"},
            kept) {}
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
@@ -61,7 +64,10 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                         static_cast<double>(counts.fallback_rows),
                         static_cast<double>(counts.restarted_solves),
                         measures.departed.volume,
-                        measures.departed.energy});
+                        measures.departed.energy,
+                        measures.arrived.volume,
+                        measures.arrived.energy,
+                        report.work.ends});
 }
 
 }  // namespace tailwater

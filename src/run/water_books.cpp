@@ -15,12 +15,13 @@ nlohmann::ordered_json json_of(const Water& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
-/// The box around all walls; empty if there are none.
+/// The box around all walls and open ends; empty if there are none.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const Boundary<Dim>& boundary) {
+Eigen::AlignedBox<double, Dim> box_around(const Flow<Dim>& flow) {
   Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : boundary.faces) {
-    for (const Vec<Dim>& corner : face.corners) box.extend(corner);
+  for (const WallFace<Dim>& face : flow.walls.boundary.faces) box.extend(face.box());
+  for (const OpenEnd<Dim>& end : flow.setup.open_ends) {
+    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
   }
   return box;
 }
@@ -44,9 +45,9 @@ bool falls_into(const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x, co
 }
 
 template <int Dim>
-bool is_passing_outlet(const Flow<Dim>& flow, const Vec<Dim>& x) {
+bool is_passing_end(const Flow<Dim>& flow, const Vec<Dim>& x) {
   return std::any_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
-                     [&](const OpenEnd<Dim>& end) { return end.outlet.is_passed_by(x); });
+                     [&](const OpenEnd<Dim>& end) { return end.opening.is_passed_by(x); });
 }
 
 }  // namespace
@@ -77,13 +78,13 @@ Water water_in(const Flow<Dim>& flow) {
 
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow) {
-  const Eigen::AlignedBox<double, Dim> box = box_around(flow.walls.boundary);
+  const Eigen::AlignedBox<double, Dim> box = box_around(flow);
   if (box.isEmpty()) return {};
   const Particles<Dim>& particles = flow.state.particles;
   Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
     const bool is_outside =
-        particles.is_fluid(i) && !falls_into(box, x, flow.setup.gravity) && !is_passing_outlet(flow, x);
+        particles.is_fluid(i) && !falls_into(box, x, flow.setup.gravity) && !is_passing_end(flow, x);
     return is_outside ? Water{1, particles.volume[i]} : Water();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
@@ -98,33 +99,53 @@ Water water_out(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+Water water_came(const Flow<Dim>& flow) {
+  Water water;
+  for (const OpenEndState& end : flow.state.open_ends) water += {end.arrived.particles, end.arrived.volume};
+  return water;
+}
+
+template <int Dim>
 nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow) {
+  const double density = flow.setup.density;
+  const auto json_of_passed = [&](const Passed& passed) {
+    nlohmann::ordered_json json = json_of({passed.particles, passed.volume}, density);
+    json["energy_J"] = passed.energy;
+    return json;
+  };
+  nlohmann::ordered_json inlets = nlohmann::ordered_json::array();
   nlohmann::ordered_json outlets = nlohmann::ordered_json::array();
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const Departed& departed = flow.state.open_ends[e].departed;
-    outlets.push_back({{"name", flow.setup.open_ends[e].outlet.name},
-                       {"particles", departed.particles},
-                       {"volume_m3", departed.volume},
-                       {"mass_kg", flow.setup.density * departed.volume},
-                       {"energy_J", departed.energy}});
+    const Opening<Dim>& opening = flow.setup.open_ends[e].opening;
+    const OpenEndState& end = flow.state.open_ends[e];
+    const bool is_inlet = opening.kind == OpeningKind::inlet;
+    // On the way that is meant, and `back`.
+    nlohmann::ordered_json json;
+    json["name"] = opening.name;
+    json.update(json_of_passed(is_inlet ? end.arrived : end.departed));
+    json["back"] = json_of_passed(is_inlet ? end.departed : end.arrived);
+    (is_inlet ? inlets : outlets).push_back(json);
   }
-  const double density = flow.setup.density;
   const Water outside = water_outside(flow);
   Water inside = water_in(flow);
   inside -= outside;
-  return {{"start", json_of(at_start, density)},      {"in", json_of({}, density)},
-          {"inside", json_of(inside, density)},       {"outside", json_of(outside, density)},
-          {"out", json_of(water_out(flow), density)}, {"outlets", outlets}};
+  return {{"start", json_of(at_start, density)},
+          {"in", json_of(water_came(flow), density)},
+          {"inside", json_of(inside, density)},
+          {"outside", json_of(outside, density)},
+          {"out", json_of(water_out(flow), density)},
+          {"inlets", inlets},
+          {"outlets", outlets}};
 }
 
 template <int Dim>
 std::size_t count_outside(const Flow<Dim>& flow) {
-  const Eigen::AlignedBox<double, Dim> box = box_around(flow.walls.boundary);
+  const Eigen::AlignedBox<double, Dim> box = box_around(flow);
   if (box.isEmpty()) return 0;
   const Particles<Dim>& particles = flow.state.particles;
   const std::size_t count = count_each(particles.owned, [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
-    return particles.is_fluid(i) && !box.contains(x) && !is_passing_outlet(flow, x);
+    return particles.is_fluid(i) && !box.contains(x) && !is_passing_end(flow, x);
   });
   return flow.setup.ranks.sum(count);
 }
@@ -133,6 +154,7 @@ std::size_t count_outside(const Flow<Dim>& flow) {
   template Water water_in<Dim>(const Flow<Dim>&);                                     \
   template Water water_outside<Dim>(const Flow<Dim>&);                                \
   template Water water_out<Dim>(const Flow<Dim>&);                                    \
+  template Water water_came<Dim>(const Flow<Dim>&);                                   \
   template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&); \
   template std::size_t count_outside<Dim>(const Flow<Dim>&);
 TAILWATER_INSTANTIATE(2)

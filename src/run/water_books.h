@@ -1,5 +1,5 @@
 // The water balance of a run: start + in = inside + outside + out. What is outside has left the walls over a rim; what
-// is out has left through an outlet. There are no inlets, so nothing has come in.
+// is out has left through an open end, and what is in has come through one.
 #pragma once
 
 #include <cstdint>
@@ -23,21 +23,25 @@ struct Water {
 template <int Dim>
 Water water_in(const Flow<Dim>& flow);
 
-/// The part of it that has left the walls for good, over all ranks: it is beyond the box around all walls, and does not
-/// fall back into it along gravity. Water on its way out through an outlet does not belong to it. Collective.
+/// The part of it that has left the walls for good, over all ranks: it is beyond the box around walls and open ends, and
+/// does not fall back into it along gravity. Water on its way out through an open end does not belong to it. Collective.
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow);
 
-/// The water that left through all outlets since the start.
+/// The water that left through all open ends since the start.
 template <int Dim>
 Water water_out(const Flow<Dim>& flow);
+
+/// The water that came through all open ends since the start.
+template <int Dim>
+Water water_came(const Flow<Dim>& flow);
 
 /// Block "water_balance" of the summary; collective.
 template <int Dim>
 nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow);
 
 /// Number of fluid particles, on all ranks, outside the box around all walls. They are still computed, but have left
-/// the case over its rim. Particles on their way out through an outlet do not count. Collective.
+/// the case over its rim. Particles on their way out through an open end do not count. Collective.
 template <int Dim>
 std::size_t count_outside(const Flow<Dim>& flow);
 

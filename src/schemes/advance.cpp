@@ -26,6 +26,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   const StepStart<Dim> start = remember(flow);
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;
+  count_passing(flow, start);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);

@@ -49,6 +49,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   report.iterations += second.iterations;  // the residual stays that of the first solve, which reaches the tolerance
   report.interventions += second.interventions;
   report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
+  report.work.ends = end_work(flow, dt);
   report.divergence_old = bulk_rms(flow, find_divergence(flow));
   report.divergence_new = report.divergence_old;  // the last solve was at the new positions
   return report;

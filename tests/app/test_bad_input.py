@@ -21,6 +21,7 @@ class BadInput(NamedTuple):
 
 FLOOR = 'points = [[0, 2], [0, 0], [3, 0], [3, 2]]'
 COLUMN = "max = [1, 0.5]"
+INLET = 'points = [[0, 0], [3, 0], [3, 2]]\n[[inlet]]\nname = "in"\nfrom = [0, 0]\nto = [0, 2]\n'
 GATE = '[[wall]]\nname = "gate"\nshape = "box"\nfluid_side = "outside"\nmin = [1, 0]\nmax = [1.4, 1]\n'
 SECOND_COLUMN = '\n[[fluid]]\nname = "second"\n'
 TABLE = (
@@ -88,6 +89,24 @@ TABLE = (
              ("[time]", '[[outlet]]\nname = "end"\nfrom = [0.6, 0]\nto = [0.6, 2]\n[time]')),
     BadInput("outlet above the bed", ("outlet 'end' leaves a gap to the walls at (2, 0.2)", "0.2 m away"),
              ("[time]", '[[outlet]]\nname = "end"\nfrom = [2, 0.2]\nto = [2, 2]\n[time]')),
+    BadInput("inlet in a wall", ("inlet 'in' overlaps wall 'tank' at (0, ",),
+             ("[time]", '[[inlet]]\nname = "in"\nfrom = [0, 0]\nto = [0, 2]\ndischarge = 0.1\n[time]')),
+    BadInput("inlet that faces outwards", ("case.toml:12:1", "inlet 'in' cuts through fluid 'column'", "the opposite"),
+             (FLOOR, INLET + "discharge = 0.1\ndirection = [-1, 0]")),
+    BadInput("litres for cubic metres", ("case.toml:12:1", "inlet 'in'", "more water enters", "1 l/s is 0.001"),
+             (FLOOR, INLET + "discharge = 50")),
+    BadInput("millimetres per second", ("inlet 'in'", "1500 m/s, which is implausible", "a velocity in m/s"),
+             (FLOOR, INLET + "velocity = 1500\nlevel = 0.4")),
+    BadInput("level that is a depth", ("case.toml:16:9", "inlet 'in': level = -0.3 m", "not depths"),
+             (FLOOR, INLET + "level = -0.3")),
+    BadInput("discharge that jumps", ("inlet 'in'", "discharge jumps by 0.3 m^3/s", "let it change over"),
+             (FLOOR, INLET + 'discharge = "t < 0.05 ? 0.1 : 0.4"')),
+    BadInput("discharge without a value", ("inlet 'in'", "has no finite value at t = 0 s"),
+             (FLOOR, INLET + 'discharge = "1/t"')),
+    BadInput("hydrograph that is not there", ("case.toml:16:8", "inlet[0].file", "cannot read it"),
+             (FLOOR, INLET + 'file = "hydrograph.csv"')),
+    BadInput("section that is a point", ("probe 'passing' has no extent", "give its two ends"),
+             ("[time]", '[[probe]]\nname = "passing"\ntype = "discharge"\nfrom = [1, 0]\nto = [1, 1e-9]\n[time]')),
     BadInput("spacing that needs more memory than there is", ("1e-07 m", "GB", "use a spacing of at least"),
              ("= 0.1\n[[", "= 1e-7\n[[")),
     BadInput("end time that no run reaches", ("case.toml:13:7", "time.end = 1e+09 s", "out of reach", "seconds"),

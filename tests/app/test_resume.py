@@ -24,6 +24,10 @@ WAVES = ("--set", "wall[0].points=[[-0.5, 2], [-0.5, 0], [3, 0], [3, 2]]", "--se
          "wave_maker=[{from=[0, 0], to=[0, 1.5], depth=0.5, waves='regular', height=0.1, period=0.2, absorption='active'}]",
          "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5}]")
 ROLL = ("--set", "wall[0].motion='roll.csv'")
+FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].velocity=[1, 0]", "--set",
+         "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)'}]",
+         "--set", "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2], level=0.5}]", "--set",
+         "probe=[{name='middle', type='discharge', from=[0.6, 0], to=[0.6, 2]}, {name='volume', type='volume'}]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -35,6 +39,7 @@ FEATURES = {
     "a wave maker that absorbs, and a damping zone": WAVES,
     "a tank that a file rolls": ROLL,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
+    "an inlet, a tailwater and a discharge probe": FLUME,
     "three dimensions, multigrid and the published shifting": (*CUBE, "--set", "pressure_solver.preconditioner=gamg",
                                                                "--set", "scheme.shifting=farzin"),
 }

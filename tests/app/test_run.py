@@ -143,6 +143,32 @@ class Outlet(ProgramTest):
                 self.assertEqual(len(set(fields["id"])), inside)
                 self.assertEqual(self.summary(integrator)["volume"]["outside_the_walls_most"], 0)
 
+    def test_what_comes_in_is_counted_and_passes_a_section(self):
+        inlet = ("--set", "wall[0].points=[[0, 0], [1.5, 0]]", "--set", "fluid[0].max=[1.5, 0.5]", "--set",
+                 "fluid[0].velocity=[1, 0]", "--set", "outlet[0].level=0.5", "--set",
+                 "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge=0.5}]", "--set",
+                 "probe=[{name='volume', type='volume'}, {name='middle', type='discharge', from=[0.75, 0], to=[0.75, 2]}]")
+        result = self.call("run", "small.toml", "--out", "run", *self.OPEN, *inlet)
+        summary = self.summary("run")
+        balance = summary["water_balance"]
+        start, came, inside, outside, out = (balance[key]["particles"]
+                                             for key in ("start", "in", "inside", "outside", "out"))
+        self.assertEqual(start + came, inside + outside + out)
+        self.assertGreater(came, 0)
+        self.assertAlmostEqual(balance["in"]["volume_m3"], 0.5 * 0.6, delta=0.1 * 0.5)  # to one layer of particles
+        (inlet,), (outlet,) = balance["inlets"], balance["outlets"]
+        self.assertEqual((inlet["name"], inlet["particles"], inlet["back"]["particles"]), ("in", came, 0))
+        self.assertEqual(outlet["particles"], out)
+        self.assertIn(f" {came} particles ", result.stderr)
+        names, steps = self.table("run/steps.csv")
+        self.assertAlmostEqual(steps[-1][names.index("volume_in_m3")], balance["in"]["volume_m3"])
+        names, rows = self.table("run/probes/middle.csv")
+        self.assertEqual(names, ["time_s", "discharge_m3_per_s", "volume_m3"])
+        (section,) = summary["discharge"]
+        self.assertAlmostEqual(section["volume_m3"], rows[-1][2])
+        self.assertAlmostEqual(section["mean_m3_per_s"], section["volume_m3"] / summary["time_s"]["reached"])
+        self.assertAlmostEqual(rows[0][1], 0.5, places=6)  # a lattice in even motion is counted exactly
+
     def test_a_run_goes_on_when_all_is_gone(self):
         self.call("run", "small.toml", "--out", "run", *self.OPEN, "--set", "fluid[0].velocity=[8, 0]")
         summary = self.summary("run")

@@ -62,6 +62,16 @@ inline OutletTable outlet(Coordinates from, Coordinates to) {
   return outlet;
 }
 
+inline InletTable inlet(Coordinates from, Coordinates to, const Varying& discharge) {
+  InletTable inlet;
+  inlet.direction.assign(from.size(), 0.0);
+  inlet.direction[0] = 1.0;
+  inlet.from = std::move(from);
+  inlet.to = std::move(to);
+  inlet.discharge = discharge;
+  return inlet;
+}
+
 /// Channel 2.0 m long and open at its end, filled to 0.4 m over its first half, spacing 0.1 m.
 inline CaseSpec open_channel() {
   CaseSpec spec = empty_case(0.1);

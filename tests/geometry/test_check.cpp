@@ -473,5 +473,86 @@ TEST(Check, AFileThatDoesNotBeginWhereItsWallIsDrawnIsRefused) {
   expect_only(check(spec), Severity::error, {"wall 'wall1' is not where it is drawn", "shake.csv", "(0.2, 0)"});
 }
 
+/// Channel from 0 to 2 m, 0.8 m high, open at both ends, with 0.4 m of water; one thing is prescribed at its inlet.
+CaseSpec flume(const Varying& discharge = 0.1) {
+  CaseSpec spec = open_channel();
+  spec.walls = {polyline({{0.0, 0.0}, {2.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.0, 0.4})};
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, discharge)};
+  spec.outlets[0].level = 0.4;
+  spec.time.end = 10.0;
+  return spec;
+}
+
+TEST(Check, AFlumeIsSound) { EXPECT_TRUE(check(flume()).empty()) << listed(check(flume())); }
+
+TEST(Check, ACrestMayBeHigherThanTheBedAtOpenEnds) {
+  CaseSpec spec = flume();
+  spec.walls = {polyline({{0.0, 0.05}, {0.5, 0.0}, {1.0, 0.0}, {1.0, 0.2}, {1.4, 0.2}, {1.4, 0.0}, {2.0, 0.0}})};
+  spec.inlets[0].from = {0.0, 0.05};
+  spec.fluid.clear();
+  for (const Finding& finding : check(spec)) EXPECT_EQ(finding.message.find("crest"), std::string::npos);
+}
+
+TEST(Check, AnOpenEndThatFacesTheWrongWayIsAnError) {
+  CaseSpec spec = flume();
+  spec.fluid.clear();
+  spec.inlets[0].direction = {-1.0, 0.0};
+  expect_only(check(spec), Severity::error, {"inlet 'inlet1' at (0, 0) faces the wrong way", "(-1, 0)", "opposite"});
+  spec.inlets[0].direction = {1.0, 0.0};
+  spec.outlets[0].direction = {-1.0, 0.0};
+  expect_only(check(spec), Severity::error, {"outlet 'outlet1' at (2, 0) faces the wrong way"});
+}
+
+TEST(Check, AnInletInAWallOrOffTheBedIsAnError) {
+  CaseSpec low = flume();
+  low.inlets[0].from = {0.0, -0.2};
+  expect_among(check(low), Severity::error, {"inlet 'inlet1'", "at (0, -0.2)", "0.2 m away"});
+  CaseSpec closed = flume();
+  closed.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}})};
+  expect_among(check(closed), Severity::error, {"inlet 'inlet1' overlaps wall 'wall1' at (0, "});
+}
+
+TEST(Check, WhatAnInletCannotPassIsAnError) {
+  // Critical depth cbrt(q^2/g): 0.8 m at q = 2.24 m^2/s.
+  EXPECT_TRUE(check(flume(2.2)).empty()) << listed(check(flume(2.2)));
+  expect_only(check(flume(2.3)), Severity::error,
+              {"inlet 'inlet1'", "more water enters than the opening can pass", "0.8 m high", "1 l/s is 0.001"});
+  CaseSpec fast = flume();
+  fast.inlets[0].discharge.reset();
+  fast.inlets[0].velocity = 3.0;  // critical at 0.92 m
+  expect_only(check(fast), Severity::error, {"more water enters", "needs its level too"});
+  fast.inlets[0].level = 0.4;
+  EXPECT_TRUE(check(fast).empty()) << listed(check(fast));
+  fast.inlets[0].velocity = 50.0;
+  expect_only(check(fast), Severity::error, {"at 50 m/s, which is implausible", "a velocity in m/s"});
+  fast.inlets[0].velocity = 1.0;
+  expect_only(check(fast), Severity::error, {"level is given with a flow that is subcritical", "remove the level"});
+  CaseSpec thin = flume(0.09);  // critical at 0.094 m
+  expect_only(check(thin), Severity::warning, {"critical at a depth of 0.0938 m, less than the spacing of 0.1 m"});
+}
+
+TEST(Check, ALevelOutsideItsOpeningIsAnError) {
+  CaseSpec spec = flume();
+  spec.outlets[0].level = "0.4 + 0.05*t";
+  expect_only(check(spec), Severity::error,
+              {"outlet 'outlet1': level = 0.8", "is above the top of the opening, 0.8 m"});
+  spec.outlets[0].level = -0.1;
+  expect_only(check(spec), Severity::error, {"level = -0.1 m at t = 0 s is below the lowest point", "not depths"});
+}
+
+TEST(Check, ASeriesThatIsTooShortOrJumpsIsAnError) {
+  CaseSpec spec = flume();
+  spec.inlets[0].discharge.reset();
+  spec.inlets[0].series = {"hydrograph.csv", {2, 3}, {0.0, 8.0}, {{0.1, 0.2}, {}, {}}};
+  expect_only(check(spec), Severity::error,
+              {"inlet 'inlet1': file covers t = 0 to 8 s", "time.end = 10 s", "add rows"});
+  spec.inlets[0].series.time = {1.0, 12.0};
+  expect_only(check(spec), Severity::error, {"file covers t = 1 to 12 s"});
+  spec.inlets[0].series = {"hydrograph.csv", {2, 3, 4}, {0.0, 5.0, 5.01, 12.0}, {{0.1, 0.1, 0.3, 0.3}, {}, {}}};
+  expect_only(check(spec), Severity::error, {"inlet 'inlet1': discharge jumps by", "let it change over"});
+  expect_only(check(flume("t < 3 ? 0.1 : 0.5")), Severity::error, {"discharge jumps by 0.4 m^3/s between t = "});
+}
+
 }  // namespace
 }  // namespace tailwater

@@ -63,7 +63,8 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   EXPECT_EQ(lines_of(folder.probe("profile")).size(), 21u);
   EXPECT_EQ(lines_of(folder.probe("energy")), (Lines{"time_s,kinetic_J,potential_J,total_J", "0,1.5,-2,-0.5"}));
   EXPECT_EQ(lines_of(folder.probe("volume")),
-            (Lines{"time_s,particles,density_error_mean,density_error_rms,volume_out_m3", "0,200,0.25,0.5,0.125"}));
+            (Lines{"time_s,particles,density_error_mean,density_error_rms,volume_out_m3,volume_in_m3",
+                   "0,200,0.25,0.5,0.125,0"}));
 }
 
 TEST(ProbeSet, WritesAtEveryStepAtIntervalsOrAtTimes) {

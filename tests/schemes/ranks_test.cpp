@@ -50,6 +50,7 @@ template <int Dim>
 void shared_step(Flow<Dim>& flow) {
   if (flow.state.step % 5 == 0) share_out(flow);
   let_go(flow);
+  let_in(flow);
   advance(flow, next_time_step(flow));
 }
 
@@ -209,6 +210,25 @@ TEST(RanksTest, WaterThatLeavesIsBookedOnAllRanks) {
   run(flow, 40);
   EXPECT_GT(flow.state.open_ends[0].departed.particles, 0);
   EXPECT_EQ(water_in(flow) + flow.state.open_ends[0].departed.particles, at_start);
+  expect_same<2>(spec, 0.3, as_it_is);
+}
+
+TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
+  CaseSpec spec = jittered_tank<2>();
+  spec.walls[0].open.emplace_back("-x");
+  InletTable start;
+  start.from = {0.0, 0.0};
+  start.to = {0.0, 0.6};
+  start.direction = {1.0, 0.0};
+  start.discharge = 0.3;
+  spec.inlets = {start};
+  spec.fluid[0].velocity = {1.0, 0.0};
+  Flow<2> flow(spec, Communicator::world());
+  const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
+  run(flow, 40);
+  EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
+  EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)),
+            at_start + static_cast<std::size_t>(flow.state.open_ends[0].arrived.particles));
   expect_same<2>(spec, 0.3, as_it_is);
 }
 

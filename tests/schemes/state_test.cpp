@@ -53,6 +53,19 @@ CaseSpec outlet_case() {
   return spec;
 }
 
+CaseSpec inlet_case() {
+  CaseSpec spec = outlet_case();
+  spec.walls[0].points = {{0.0, 0.0}, {1.5, 0.0}};
+  InletTable start;
+  start.from = {0.0, 0.0};
+  start.to = {0.0, 3.0};
+  start.direction = {1.0, 0.0};
+  start.discharge = "0.3*(1 + sin(20*t))";
+  spec.inlets = {start};
+  spec.outlets[0].level = 0.3;
+  return spec;
+}
+
 class StateTest : public testing::TestWithParam<Variant> {};
 
 void expect_same(const Flow<2>& a, const Flow<2>& b) {
@@ -74,6 +87,7 @@ void take_steps(Flow<2>& flow, int count) {
   for (int n = 0; n < count; ++n) {
     if (flow.state.step % 5 == 0) share_out(flow);
     let_go(flow);
+    let_in(flow);
     advance(flow, next_time_step(flow));
   }
 }
@@ -94,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, StateTest,
                          testing::Values(Variant{"explicit", dam_break(Integrator::explicit_projection)},
                                          Variant{"implicit", dam_break(Integrator::implicit_projection)},
                                          Variant{"two_step", two_step_case()}, Variant{"published", published_case()},
-                                         Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()}),
+                                         Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()},
+                                         Variant{"inlet", inlet_case()}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -47,7 +47,9 @@ void check_fill(const FluidTable& block, const std::string& label, std::size_t p
 
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
-  if (spec.fluid.empty()) return {Finding::error("there is no fluid: add a [[fluid]] table")};
+  if (spec.fluid.empty() && spec.inlets.empty()) {
+    return {Finding::error("there is no fluid: add a [[fluid]] or an [[inlet]] table")};
+  }
   std::vector<std::size_t> particles(spec.fluid.size(), 0);
   for (const int block : fluid.block) ++particles[block];
   Findings findings;

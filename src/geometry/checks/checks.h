@@ -44,12 +44,18 @@ Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 template <int Dim>
 Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a wall, or
-/// cuts through water.
+/// Errors: an inlet or an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a
+/// wall, cuts through water, or faces the wrong way.
 template <int Dim>
-Findings check_outlets(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Outlets count
+/// Errors: what is prescribed at an inlet or outlet does not cover the run, has no finite value, jumps, is a level
+/// outside the opening, more water than it can pass, a level with a subcritical flow, or an implausible speed. Warning:
+/// a flow shallower than a spacing.
+template <int Dim>
+Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Open ends count
 /// as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);

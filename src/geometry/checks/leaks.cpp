@@ -4,7 +4,7 @@
 #include "geometry/cell_space.h"
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
-#include "geometry/outlet.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -36,8 +36,8 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.position.empty()) return {};
   std::vector<WallFace<Dim>> faces = boundary.faces;
-  for (const Outlet<Dim>& outlet : make_outlets<Dim>(spec)) {
-    const std::vector<WallFace<Dim>> closing = outlet.as_faces();
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    const std::vector<WallFace<Dim>> closing = end.as_faces();
     faces.insert(faces.end(), closing.begin(), closing.end());
   }
   const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells_of_flood);

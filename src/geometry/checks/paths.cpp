@@ -34,9 +34,9 @@ class PathWalk {
       paths_.emplace_back(spec, spec.walls[w], wall_label(drawn, static_cast<int>(w)));
     }
     places_ = places_of_room_ = places_at(0.0);
-    // The room is unknown if water may leave through an outlet, or if a moving wall is not followed.
+    // The room is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
     const auto all = std::ranges::count_if(drawn.walls, [](const WallProperties& wall) { return wall.moves(); });
-    const bool is_known = spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
+    const bool is_known = spec.inlets.empty() && spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
     if (is_known && !fluid.position.empty()) room_.emplace(spec, drawn, fluid);
   }
 

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "cases.h"
-#include "geometry/outlet.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -10,10 +10,10 @@ namespace {
 using namespace testing_cases;
 
 template <int Dim>
-Outlet<Dim> only_outlet(const OutletTable& table) {
+Opening<Dim> only_outlet(const OutletTable& table) {
   CaseSpec spec = empty_case(0.1, Dim);
   spec.outlets = {table};
-  return make_outlets<Dim>(spec).at(0);
+  return make_open_ends<Dim>(spec).at(0);
 }
 
 template <int Dim>
@@ -39,14 +39,14 @@ TEST(Outlet, LetsWaterOutInItsDirectionWhicheverEndComesFirst) {
 }
 
 TEST(Outlet, MayBeSlanted) {
-  const Outlet<2> slanted = only_outlet<2>(outlet({1.0, 0.0}, {2.0, 1.0}));
+  const Opening<2> slanted = only_outlet<2>(outlet({1.0, 0.0}, {2.0, 1.0}));
   EXPECT_NEAR(slanted.beyond({2.0, 0.0}), std::sqrt(0.5), 1e-15);
   EXPECT_TRUE(slanted.spans({2.0, 0.0}));
   EXPECT_FALSE(slanted.spans({0.9, 0.0}));
 }
 
 TEST(Outlet, IsARectangleIn3D) {
-  const Outlet<3> end = only_outlet<3>(outlet({2.0, 1.0, 0.5}, {2.0, 0.0, 0.0}));
+  const Opening<3> end = only_outlet<3>(outlet({2.0, 1.0, 0.5}, {2.0, 0.0, 0.0}));
   EXPECT_LT((end.normal - Vec<3>::Unit(0)).norm(), 1e-15);
   EXPECT_TRUE(end.is_passed_by({2.1, 0.9, 0.4}));
   EXPECT_FALSE(end.is_passed_by({2.1, 1.1, 0.4}));

@@ -1,0 +1,61 @@
+// An open end as the cross-section of a channel, and what the case says about the water in it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "case/time_function.h"
+#include "geometry/opening.h"
+
+namespace tailwater {
+
+/// What is prescribed at an open end. Without any of these the channel goes on beyond it.
+struct EndFlow {
+  std::optional<TimeFunction> discharge;  ///< m^3/s, in 2D per metre of width; into the case
+  std::optional<TimeFunction> velocity;   ///< m/s; mean over the section, into the case
+  std::optional<TimeFunction> level;      ///< m; of the surface, along `up`
+  /// Velocity over its mean at heights that divide the depth into equal parts, from the bed to the surface; empty:
+  /// uniform.
+  std::vector<double> profile;
+
+  bool feeds() const { return discharge || velocity; }
+  /// The velocity over its mean at a share of the depth, 0 to 1.
+  double profile_at(double share) const;
+  double largest_in_profile() const;
+};
+
+template <int Dim>
+struct ChannelEnd {
+  ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity);
+
+  Opening<Dim> opening;
+  EndFlow flow;
+  double gravity;                     ///< m/s^2; the part of gravity along the opening's plane
+  Vec<Dim> up;                        ///< opposite to that part; 0 if there is none
+  double floor;                       ///< m; height of the opening's lowest point along `up`
+  double width;                       ///< m; of the opening across `up`; 1 in 2D
+  Vec<Dim> low;                       ///< m; the corner from which heights and places across are measured
+  Vec<Dim> rise;                      ///< unit vector of the edge from the floor upwards
+  double height;                      ///< m; of the opening, along `rise`
+  Vec<Dim> aside = Vec<Dim>::Zero();  ///< unit vector of the other edge (3D)
+
+  /// Whether the case says more than that the channel goes on.
+  bool is_driven() const { return flow.feeds() || flow.level; }
+  /// Height above the floor at which a level [m] stands, at most that of the opening; the whole opening without gravity
+  /// along it, where there is no level.
+  double depth_at_level(double level) const;
+  /// Discharge per width [m^2/s] that the case prescribes, where the water is `depth` (m) deep.
+  double discharge_per_width(double time, double depth) const;
+  /// Depth [m] at which the prescribed flow is critical: no deeper flow is supercritical. 0 without gravity.
+  double critical_depth(double time) const;
+  /// The largest speed [m/s] with which water enters where nothing resists.
+  double largest_speed(double time) const;
+  /// The largest depth [m], up to a time, that follows from what is prescribed alone.
+  double largest_depth(double end_time) const;
+};
+
+/// The inlets of a case, then its outlets. Throws InputError as make_open_ends does.
+template <int Dim>
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec);
+
+}  // namespace tailwater

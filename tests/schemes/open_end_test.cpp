@@ -1,0 +1,363 @@
+// Open ends. Taking out, letting in and counting are exact. What stands before an outlet behaves as if the channel went
+// on, up to the resolution of the level, which is known no better than half a spacing. An inlet brings what is asked
+// for, to the particle.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = 0.05;
+
+template <class D>
+class OpenEndTest : public testing::Test {};
+TYPED_TEST_SUITE(OpenEndTest, Dimensions);
+
+/// The tank of tank_case with its end at high x open.
+template <int Dim>
+CaseSpec open_tank(double width, double depth) {
+  CaseSpec spec = tank_case<Dim>(dx, width, depth);
+  spec.walls[0].open.emplace_back("+x");
+  OutletTable end;
+  end.from = Coordinates(Dim, 0.0);
+  end.from[0] = width;
+  end.to = spec.walls[0].max;
+  end.direction = Coordinates(Dim, 0.0);
+  end.direction[0] = 1.0;
+  spec.outlets = {end};
+  return spec;
+}
+
+template <int Dim>
+std::multiset<std::int64_t> fluid_ids(const Particles<Dim>& particles) {
+  std::multiset<std::int64_t> ids;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) ids.insert(particles.id[i]);
+  }
+  return ids;
+}
+
+/// Without gravity a plug that glides along the walls feels nothing: it leaves as it came, column by column, and the
+/// empty case goes on.
+TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double speed = 2.0;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = open_tank<Dim>(0.4, 0.2);
+    spec.walls[0].open.emplace_back("-x");
+    spec.physics.gravity = Coordinates(Dim, 0.0);
+    spec.scheme.integrator = integrator;
+    spec.scheme.shifting = ShiftingKind::none;  // it would round the plug's ends off
+    spec.scheme.density_relaxation = 0.0;       // they have too few neighbours
+    spec.scheme.length = 0.2;
+    spec.fluid[0].velocity.assign(Dim, 0.0);
+    spec.fluid[0].velocity[0] = speed;
+    Flow<Dim> flow(spec);
+    const auto ids_at_start = fluid_ids(flow.state.particles);
+    const double energy_at_start = measure(flow).kinetic_energy;
+    while (flow.state.time < 0.4 / speed + 2.0 * dx / speed) {
+      let_go(flow);
+      const auto before = fluid_ids(flow.state.particles);
+      step(flow);
+      const Passed& departed = flow.state.open_ends[0].departed;
+      ASSERT_EQ(fluid_ids(flow.state.particles), before) << "a step takes nothing out";
+      ASSERT_EQ(before.size() + static_cast<std::size_t>(departed.particles), ids_at_start.size());
+      ASSERT_TRUE(std::includes(ids_at_start.begin(), ids_at_start.end(), before.begin(), before.end()));
+      ASSERT_NEAR(departed.volume, static_cast<double>(departed.particles) * power<Dim>(dx), 1e-12);
+    }
+    EXPECT_EQ(fluid_ids(flow.state.particles).size(), 0u);
+    EXPECT_NEAR(flow.state.open_ends[0].departed.energy / energy_at_start, 1.0, 1e-9);
+    const FlowMeasures measures = measure(flow);
+    EXPECT_EQ(measures.kinetic_energy, 0.0);
+    EXPECT_EQ(measures.departed.particles, static_cast<std::int64_t>(ids_at_start.size()));
+  }
+}
+
+/// Still water stays, but for what an error of half a spacing in the level beyond drives: u = (g/c) dx/2. Over a brink
+/// it would leave at 8/27 sqrt(g h) h, six times as much. A column leaves at a time.
+TYPED_TEST(OpenEndTest, StillWaterIsNotDrawnDown) {
+  constexpr int Dim = TypeParam::value;
+  const double width = Dim == 2 ? 1.0 : 0.4;
+  const double depth = Dim == 2 ? 0.5 : 0.2;
+  const double breadth = Dim == 2 ? 1.0 : width;
+  const double celerity = std::sqrt(g * depth);
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = open_tank<Dim>(width, depth);
+    spec.scheme.integrator = integrator;
+    Flow<Dim> flow(spec);
+    start(flow);
+    while (flow.state.time < 2.0 * width / celerity) {
+      let_go(flow);
+      step(flow);
+    }
+    const double speed = g / celerity * 0.5 * dx;
+    EXPECT_LE(flow.state.open_ends[0].departed.volume, (speed * flow.state.time + dx) * depth * breadth + 1e-12);
+  }
+}
+
+/// A pressing stretch of water keeps no memory of how it is oriented: the mirrored channel does the same, mirrored.
+TEST(Outlet, LeftIsRightMirrored) {
+  CaseSpec right = open_tank<2>(0.8, 0.4);
+  right.fluid[0].velocity = {1.0, 0.0};
+  CaseSpec left = right;
+  left.walls[0].open = {"+y", "-x"};
+  left.outlets[0].from = {0.0, 0.0};
+  left.outlets[0].to = {0.0, 0.8};
+  left.outlets[0].direction = {-1.0, 0.0};
+  left.fluid[0].velocity = {-1.0, 0.0};
+  Flow<2> flow_right(right);
+  Flow<2> flow_left(left);
+  for (int n = 0; n < 20; ++n) {
+    for (Flow<2>* flow : {&flow_right, &flow_left}) {
+      let_go(*flow);
+      advance(*flow, 0.002);
+    }
+  }
+  EXPECT_GT(flow_right.state.open_ends[0].departed.particles, 0);
+  EXPECT_EQ(flow_right.state.open_ends[0].departed.particles, flow_left.state.open_ends[0].departed.particles);
+  // As near as the solver's tolerance of 1e-4 leaves them.
+  EXPECT_NEAR(measure(flow_right).kinetic_energy / measure(flow_left).kinetic_energy, 1.0, 1e-2);
+}
+
+/// A level that comes by is that of a channel that goes on: the pressure in the end stretch is hydrostatic below it.
+TEST(Outlet, EndStretchIsHydrostatic) {
+  CaseSpec spec = open_tank<2>(1.0, 0.5);
+  spec.pressure_solver.tolerance = 1e-12;
+  Flow<2> flow(spec);
+  start(flow);
+  int leaving = 0;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.is_in_end_stretch(i)) continue;
+    ++leaving;
+    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (0.5 - flow.state.particles.position[i][1]),
+                1e-6);
+  }
+  EXPECT_EQ(leaving, 4 * 10) << "the support and a spacing, in the whole depth";
+}
+
+/// Gravity along the normal presses on nothing: water falls through a hole in the floor as in air.
+TEST(Outlet, HoleInTheFloor) {
+  CaseSpec spec = open_tank<2>(0.4, 0.4);
+  spec.walls[0].open = {"+y", "-y"};
+  spec.outlets[0].from = {0.0, 0.0};
+  spec.outlets[0].to = {0.4, 0.0};
+  spec.outlets[0].direction = {0.0, -1.0};
+  Flow<2> flow(spec);
+  const std::size_t at_start = fluid_ids(flow.state.particles).size();
+  start(flow);
+  while (flow.state.time < 0.2) {
+    let_go(flow);
+    step(flow);
+  }
+  // Nothing holds it: what stood below g t^2/2, less a spacing and half, has fallen out.
+  const double fallen = 0.5 * g * flow.state.time * flow.state.time;
+  EXPECT_GE(flow.state.open_ends[0].departed.volume, 0.5 * 0.4 * (fallen - 1.5 * dx));
+  EXPECT_LE(flow.state.open_ends[0].departed.volume, 0.4 * (fallen + 1.5 * dx));
+  EXPECT_EQ(
+      fluid_ids(flow.state.particles).size() + static_cast<std::size_t>(flow.state.open_ends[0].departed.particles),
+      at_start);
+}
+
+/// The tank of tank_case with both ends in x open: an inlet at low x, an outlet at high x.
+template <int Dim>
+CaseSpec channel(double width, double depth) {
+  CaseSpec spec = open_tank<Dim>(width, depth);
+  spec.walls[0].open.emplace_back("-x");
+  InletTable start;
+  start.from = Coordinates(Dim, 0.0);
+  start.to = spec.walls[0].max;
+  start.to[0] = 0.0;
+  start.direction = spec.outlets[0].direction;
+  spec.inlets = {start};
+  return spec;
+}
+
+/// Lets water out and in, and takes a step, as a run does.
+template <int Dim>
+void pass_and_step(Flow<Dim>& flow) {
+  if (flow.state.step % 5 == 0) share_out(flow);
+  let_go(flow);
+  let_in(flow);
+  advance(flow, next_time_step(flow));
+}
+
+template <int Dim>
+Passed arrived_at(const Flow<Dim>& flow, std::size_t end) {
+  return flow.state.open_ends[end].arrived;
+}
+
+/// Without gravity nothing acts on water that comes in at one speed: it stands on the lattice of its entrance, to
+/// round-off, and every particle is counted once.
+TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double speed = 2.0;
+  const double height = 0.4;  // of the opening: 8 rows
+  CaseSpec spec = channel<Dim>(1.0, 0.2);
+  spec.walls[0].max.back() = spec.inlets[0].to.back() = spec.outlets[0].to.back() = height;
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.scheme.shifting = ShiftingKind::none;
+  spec.scheme.density_relaxation = 0.0;
+  spec.scheme.length = 0.2;
+  spec.fluid.clear();
+  spec.inlets[0].velocity = speed;
+  const double breadth = 1.0;  // m; in 3D as broad as wide
+  Flow<Dim> flow(spec);
+  start(flow);
+  std::size_t before = 0;
+  while (flow.state.time < 0.3) {
+    pass_and_step(flow);
+    const std::size_t now = count_fluid(flow);
+    ASSERT_GE(now, before);
+    before = now;
+    const Passed arrived = arrived_at(flow, 0);
+    ASSERT_EQ(static_cast<std::size_t>(arrived.particles), now);
+    ASSERT_NEAR(arrived.volume, static_cast<double>(now) * power<Dim>(dx), 1e-12);
+    const double asked = speed * flow.state.time * height * breadth;
+    ASSERT_NEAR(arrived.volume, asked, dx * height * breadth + 1e-12) << "all but one layer";
+  }
+  ASSERT_GT(before, 0u);
+  EXPECT_EQ(fluid_ids(flow.state.particles).size(), before);
+  const std::multiset<std::int64_t> ids = fluid_ids(flow.state.particles);
+  EXPECT_EQ(std::set<std::int64_t>(ids.begin(), ids.end()).size(), before) << "ids are unique";
+  const Particles<Dim>& particles = flow.state.particles;
+  std::optional<double> first;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = particles.position[i];
+    if (!first) first = x[0];
+    const double columns = (x[0] - *first) / dx;
+    ASSERT_NEAR(columns, std::round(columns), 1e-9);
+    const double rows = x[Dim - 1] / dx + 0.5;
+    ASSERT_NEAR(rows, std::round(rows), 1e-9);
+    ASSERT_NEAR(particles.velocity[i][0], speed, 1e-9);
+  }
+}
+
+/// Even flow through a channel: the discharge that comes in is the prescribed one to a layer, what passes both ends and
+/// what is inside add up to the particle, and a section in the middle is passed by as much, but for what is between.
+TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
+  constexpr int Dim = TypeParam::value;
+  const double width = Dim == 2 ? 1.5 : 0.7;
+  const double depth = Dim == 2 ? 0.4 : 0.2;
+  const double breadth = Dim == 2 ? 1.0 : width;
+  const double speed = 0.4 * std::sqrt(g * depth);
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = channel<Dim>(width, depth);
+    spec.scheme.integrator = integrator;
+    spec.fluid[0].velocity.assign(Dim, 0.0);
+    spec.fluid[0].velocity[0] = speed;
+    spec.inlets[0].discharge = speed * depth * breadth;
+    spec.outlets[0].level = depth;
+    ProbeTable section;
+    section.name = "middle";
+    section.type = ProbeType::discharge;
+    section.from = spec.outlets[0].from;
+    section.to = spec.outlets[0].to;
+    section.from[0] = section.to[0] = 0.5 * width;
+    section.direction = spec.outlets[0].direction;
+    spec.probes = {section};
+    Flow<Dim> flow(spec);
+    const double volume_at_start = static_cast<double>(count_fluid(flow)) * power<Dim>(dx);
+    const auto at_start = static_cast<std::int64_t>(count_fluid(flow));
+    start(flow);
+    while (flow.state.time < 0.5 * width / speed) pass_and_step(flow);
+    const Passed arrived = arrived_at(flow, 0);
+    const Passed departed = flow.state.open_ends[1].departed;
+    EXPECT_NEAR(arrived.volume, speed * depth * breadth * flow.state.time, dx * depth * breadth);
+    const auto inside = static_cast<std::int64_t>(count_fluid(flow));
+    EXPECT_EQ(at_start + arrived.particles + flow.state.open_ends[1].arrived.particles,
+              inside + departed.particles + flow.state.open_ends[0].departed.particles);
+    double before_section = 0.0;
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      const bool is_before = flow.state.particles.is_fluid(i) && flow.state.particles.position[i][0] <= 0.5 * width;
+      if (is_before) before_section += flow.state.particles.volume[i];
+    }
+    const double passed = flow.state.section_volumes[0];
+    EXPECT_NEAR(0.5 * volume_at_start + arrived.volume, before_section + passed, 1e-9);
+  }
+}
+
+/// A discharge below 0 takes water out through the inlet.
+TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
+  const double depth = 0.4;
+  const double speed = 0.3;
+  CaseSpec spec = channel<2>(1.5, depth);
+  spec.fluid[0].velocity = {-speed, 0.0};
+  spec.inlets[0].discharge = -speed * depth;
+  spec.outlets[0].level = depth;
+  Flow<2> flow(spec);
+  const auto at_start = static_cast<std::int64_t>(count_fluid(flow));
+  start(flow);
+  while (flow.state.time < 1.0) pass_and_step(flow);
+  const OpenEndState& inlet = flow.state.open_ends[0];
+  const OpenEndState& outlet = flow.state.open_ends[1];
+  EXPECT_NEAR(inlet.departed.volume, speed * depth * flow.state.time, dx * depth);
+  EXPECT_EQ(inlet.arrived.particles, 0);
+  EXPECT_GT(outlet.arrived.particles, 0) << "the tailwater comes back";
+  EXPECT_EQ(at_start + outlet.arrived.particles,
+            static_cast<std::int64_t>(count_fluid(flow)) + inlet.departed.particles + outlet.departed.particles);
+}
+
+/// Water at rest between an inlet that brings nothing and a tailwater at its level stays there: no more of it moves
+/// than half a spacing of error in the level drives.
+TEST(OpenEnd, AChannelAtRestStaysAtRest) {
+  const double depth = 0.4;
+  CaseSpec spec = channel<2>(1.0, depth);
+  spec.inlets[0].discharge = 0.0;
+  spec.outlets[0].level = depth;
+  Flow<2> flow(spec);
+  start(flow);
+  const double celerity = std::sqrt(g * depth);
+  while (flow.state.time < 2.0 / celerity) pass_and_step(flow);
+  const OpenEndState& outlet = flow.state.open_ends[1];
+  const double bound = (g / celerity * 0.5 * dx * flow.state.time + dx) * depth;
+  EXPECT_LE(std::abs(outlet.departed.volume - outlet.arrived.volume), bound);
+  EXPECT_EQ(flow.state.open_ends[0].departed.particles + flow.state.open_ends[0].arrived.particles, 0);
+  EXPECT_NEAR(flow.state.open_ends[0].depth, depth, 0.5 * dx);
+}
+
+/// The profile of an inlet is what the particles have as they enter, with the mean that is asked for.
+TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
+  CaseSpec spec = channel<2>(1.0, 0.4);
+  spec.fluid.clear();
+  spec.scheme.length = 0.4;
+  spec.physics.gravity = {0.0, 0.0};
+  spec.walls[0].max[1] = spec.inlets[0].to[1] = spec.outlets[0].to[1] = 0.4;
+  spec.inlets[0].velocity = 1.5;
+  spec.inlets[0].profile = "3*s";
+  Flow<2> flow(spec);
+  start(flow);
+  pass_and_step(flow);
+  const Particles<2>& particles = flow.state.particles;
+  double sum = 0.0;
+  ASSERT_EQ(count_fluid(flow), 8u);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    sum += particles.velocity[i][0];
+    EXPECT_NEAR(particles.velocity[i][0], 1.5 * 2.0 * particles.position[i][1] / 0.4, 1e-6);
+  }
+  EXPECT_NEAR(sum / 8.0, 1.5, 1e-6);
+}
+
+/// A dry channel floods from a reservoir, with water no deeper than the level and not slower than critical at first.
+TEST(OpenEnd, AReservoirFloodsADryChannel) {
+  CaseSpec spec = channel<2>(1.5, 0.4);
+  spec.fluid.clear();
+  spec.inlets[0].level = 0.4;
+  Flow<2> flow(spec);
+  start(flow);
+  while (flow.state.time < 0.5) pass_and_step(flow);
+  const Passed arrived = arrived_at(flow, 0);
+  const double critical = std::sqrt(g * 0.4);
+  EXPECT_GT(arrived.volume, 0.5 * 0.4 * (8.0 / 27.0) * critical) << "what a dam break of that depth lets pass";
+  EXPECT_LT(arrived.volume, 0.5 * 0.4 * 2.0 * critical + dx * 0.4) << "no water is faster than its front";
+}
+
+}  // namespace
+}  // namespace tailwater
