@@ -18,6 +18,9 @@ constexpr double phase_at_start = -3.8;
 constexpr double lowest_frequency = 0.5;
 constexpr double highest_frequency = 3.0;
 
+/// Largest height of a periodic wave over its length, and over tanh kh: R. Miche (1944).
+constexpr double steepest = 0.142;
+
 /// Periods after which an absorbing plate has come back. Long beside a period, so that it hardly matters for the waves.
 constexpr double periods_remembered = 20.0;
 
@@ -199,6 +202,16 @@ WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
         fmt::format("{}: its top is {:.4g} m above its foot, below the still water's level of {:.4g} m: give a higher "
                     "`to`, the foot as `from`, or correct depth",
                     owner, up.dot(to - from), depth));
+  }
+  if (maker.waves == WaveKind::regular) {
+    const double k = wave_number(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
+    const double highest = steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
+    if (maker.height > highest) {
+      throw InputError(fmt::format(
+          "{}: its height of {:.4g} m is too much for its period of {:.4g} s: such waves break at {:.4g} m; "
+          "give a smaller height, or a longer period",
+          owner, maker.height, maker.period, highest));
+    }
   }
   foot = from;
   if constexpr (Dim == 3) {

@@ -90,7 +90,7 @@ struct MakerState {
 /// The plate of a table.
 template <int Dim>
 struct WavePlate {
-  /// Throws InputError for a plate that does not reach from the bed above the still water.
+  /// Throws InputError for a plate that does not reach from the bed above the still water, and for waves that break.
   WavePlate(const CaseSpec& spec, const WaveMakerTable& maker);
 
   Vec<Dim> foot;     ///< m; on the bed, halfway along the plate

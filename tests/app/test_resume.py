@@ -21,7 +21,8 @@ GATE = ("--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
 OUTLET = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.3, 0]]", "--set",
           "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2]}]", "--set", "fluid[0].velocity=[3, 0]")
 WAVES = ("--set", "wall[0].points=[[-0.5, 2], [-0.5, 0], [3, 0], [3, 2]]", "--set",
-         "wave_maker=[{from=[0, 0], to=[0, 1.5], depth=0.5, waves='regular', height=0.1, period=0.2, absorption='active'}]",
+         "wave_maker=[{from=[0, 0], to=[0, 1.5], depth=0.5, waves='regular', height=0.05, period=0.8, ramp=0.1, "
+         "absorption='active'}]",
          "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5}]")
 ROLL = ("--set", "wall[0].motion='roll.csv'")
 FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].velocity=[1, 0]", "--set",

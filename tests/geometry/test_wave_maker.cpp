@@ -119,6 +119,14 @@ TEST(MakerLaw, GivesWayAsTheTheoryOfItsPeriodSays) {
   EXPECT_NEAR(MakerLaw(maker, g, 0.0).gain() / (2.0 * std::sqrt(g / h)), 1.0, 1e-3);
 }
 
+TEST(WavePlate, OfWavesThatBreakIsRefused) {
+  const CaseSpec spec = testing_cases::empty_case(0.1);
+  // In deep water 0.142 of g T^2/(2 pi).
+  const double highest = 0.142 * g * 0.25 * 0.25 / (2.0 * std::numbers::pi);
+  EXPECT_NO_THROW(WavePlate<2>(spec, maker_of(WaveKind::regular, 0.999 * highest, 0.25)));
+  EXPECT_THROW(WavePlate<2>(spec, maker_of(WaveKind::regular, 1.001 * highest, 0.25)), InputError);
+}
+
 TEST(WavePlate, TooLowOrFlatIsRefused) {
   CaseSpec spec = testing_cases::empty_case(0.1);
   WaveMakerTable maker = maker_of(WaveKind::regular, 0.05, 1.2);
