@@ -45,6 +45,8 @@ enum class ProbeType {
   velocity,
   energy,
   volume,
+  force,
+  pressure_map,
 };
 
 template <class Enumeration>
@@ -142,8 +144,9 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 9> names{
-      "depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume"};
+  static constexpr std::array<std::string_view, 11> names{"depth",   "wall-pressure", "wall-pressure-mean", "front",
+                                                          "profile", "pressure",      "velocity",           "energy",
+                                                          "volume",  "force",         "pressure-map"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

@@ -56,6 +56,8 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "velocity", {"at"}, {"interval"}},
       {"probe", "type", "energy", {}, {"interval"}},
       {"probe", "type", "volume", {}, {"interval"}},
+      {"probe", "type", "force", {"moment_about"}, {"walls", "region_min", "region_max", "region_points", "interval"}},
+      {"probe", "type", "pressure-map", {}, {"walls", "region_min", "region_max", "region_points", "interval"}},
   };
   return uses;
 }

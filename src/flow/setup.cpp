@@ -57,6 +57,8 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return lowest - highest + spacing;
 }
 
+bool asks_for_wall_forces(const ProbeTable& probe) { return probe.type == ProbeType::force; }
+
 template <int Dim>
 std::vector<OpenEnd<Dim>> make_open_ends(const CaseSpec& spec, const Vec<Dim>& gravity) {
   std::vector<OpenEnd<Dim>> ends;
@@ -86,6 +88,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       length(scheme.length > 0.0 ? scheme.length : fluid_height(drawing.fluid, gravity, spacing)),
       rows_deep(fluid_height(drawing.fluid, gravity, spacing) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
+      finds_wall_forces(std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_model(drawing.wall_model),
       wall_traits(wall_model->traits()),

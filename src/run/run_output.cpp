@@ -170,6 +170,7 @@ template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
   if (flow.state.time < next_fields_) return;
   write_fields(flow);
+  probes_.write_maps(folder_, flow.state.time, ranks_);
   next_fields_ = fields_due_after(flow.state.time);
 }
 
@@ -190,7 +191,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures) {
+void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood.grid(),
@@ -205,7 +206,10 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .density_error_mean = measures.density_error_mean,
                              .density_error_rms = measures.density_error_rms,
                              .volume_out = measures.departed.volume},
-                  .ranks = ranks_});
+                  .ranks = ranks_,
+                  .domain = flow.setup.domain,
+                  .dt = dt,
+                  .wall_forces = &flow.wall_forces});
 }
 
 template <int Dim>
@@ -223,7 +227,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
     require_folder_in_place();
     step_log_->write(flow.state.time, flow.state.step, report, measures);
   });
-  record_probes(flow, measures);
+  record_probes(flow, measures, report.dt);
   progress_.show(flow.state.time, flow.state.step, report, measures);
   try {
     limits_.check(flow.state.time, statistics_.energy_rise(), measures);
@@ -255,6 +259,7 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   write_fields(flow);
+  probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
@@ -294,6 +299,9 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"ranks", rank_log_.json()}};
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
+  for (const auto& [probe, lines] : probes_.summaries()) {
+    for (const auto& [name, value] : lines) summary["probes"][probe][name] = value;
+  }
   summary.update(provenance());
   if (code) summary["exit_code"] = static_cast<int>(*code);
   std::string text = summary.dump(2) + "\n";
