@@ -51,6 +51,8 @@ enum class ProbeType {
   energy,
   volume,
   discharge,
+  force,
+  pressure_map,
 };
 
 template <class Enumeration>
@@ -168,9 +170,9 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 10> names{"depth",   "wall-pressure", "wall-pressure-mean", "front",
-                                                          "profile", "pressure",      "velocity",           "energy",
-                                                          "volume",  "discharge"};
+  static constexpr std::array<std::string_view, 12> names{
+      "depth",  "wall-pressure", "wall-pressure-mean", "front", "profile",     "pressure", "velocity",
+      "energy", "volume",        "discharge",          "force", "pressure-map"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

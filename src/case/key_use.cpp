@@ -66,6 +66,8 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "energy", {}, {"interval"}},
       {"probe", "type", "volume", {}, {"interval"}},
       {"probe", "type", "discharge", {"from", "to"}, {"direction", "interval"}},
+      {"probe", "type", "force", {"moment_about"}, {"walls", "region_min", "region_max", "region_points", "interval"}},
+      {"probe", "type", "pressure-map", {}, {"walls", "region_min", "region_max", "region_points", "interval"}},
   };
   return uses;
 }

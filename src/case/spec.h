@@ -711,6 +711,11 @@ struct ProbeTable {
   Coordinates from;
   Coordinates to;
   Coordinates direction;
+  std::vector<std::string> walls;
+  Coordinates region_min;
+  Coordinates region_max;
+  std::vector<Coordinates> region_points;
+  Coordinates moment_about;
   std::vector<double> times;
   double interval = 0.0;
 
@@ -729,8 +734,14 @@ struct ProbeTable {
                   "flat axis-parallel rectangle (3D)");
     v.coordinates("direction", self.direction, "",
                   "Direction in which a front probe looks, or in which a discharge counts as positive (default: +x)");
+    v.texts("walls", self.walls, {}, "Names of the walls that a force or pressure-map probe is for (default: all)");
+    v.coordinates("region_min", self.region_min, "m",
+                  "Lowest corner of a box; only what is inside of these walls, as drawn, counts");
+    v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
+    v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
+    v.coordinates("moment_about", self.moment_about, "m", "Point, which does not move, that the moment is taken about");
     v.numbers("times", self.times, "s", "Times at which a profile is taken");
-    v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two lines of the file; 0: every step");
+    v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
   }
 };
 

@@ -173,7 +173,8 @@ void TableReader::numbers(std::string_view key, std::vector<double>& value, std:
 void TableReader::texts(std::string_view key, std::vector<std::string>& value,
                         std::span<const std::string_view> allowed, std::string_view doc) {
   const toml::node* node = find(key, doc, "", quoted_list(allowed), Presence::optional);
-  const toml::array* list = list_at(key, node, fmt::format("give a list of any of {}", quoted_list(allowed)));
+  const std::string choice = allowed.empty() ? "names in quotes" : fmt::format("any of {}", quoted_list(allowed));
+  const toml::array* list = list_at(key, node, fmt::format("give a list of {}", choice));
   if (list == nullptr) {
     return;
   }
@@ -183,8 +184,8 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
     const std::string place = fmt::format("{}[{}]", key, i);
     const auto* name = element.as_string();
     if (name == nullptr) {
-      wrong(key, element, fmt::format("give any of {}", quoted_list(allowed)), place);
-    } else if (std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
+      wrong(key, element, fmt::format("give {}", choice), place);
+    } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
       wrong(key, element, fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
     } else if (std::find(given.begin(), given.end(), name->get()) != given.end()) {
       wrong(key, element, "is in the list twice; remove one", place);

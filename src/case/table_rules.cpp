@@ -50,10 +50,11 @@ std::size_t least_corners(WallShape shape, int dimension) {
   return shape == WallShape::polyline || shape == WallShape::plate ? 2 : 3;
 }
 
-void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader) {
-  const toml::node* node = reader.given("points");
-  if (node != nullptr && !reader.is_wrong("points") && points.size() < least) {
-    reader.wrong("points", *node,
+void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader,
+                        std::string_view key = "points") {
+  const toml::node* node = reader.given(key);
+  if (node != nullptr && !reader.is_wrong(key) && points.size() < least) {
+    reader.wrong(key, *node,
                  fmt::format("{} points are too few for this shape; give at least {}", points.size(), least));
   }
 }
@@ -477,7 +478,40 @@ void check(const OutletTable& outlet, TableReader& reader) {
   check_ends(outlet.from, outlet.to, reader);
 }
 
+namespace {
+
+/// The region that limits a probe to a part of the walls: a box, which may be flat, or a polygon.
+void check_region(const ProbeTable& probe, TableReader& reader) {
+  const toml::node* min = reader.given("region_min");
+  const toml::node* max = reader.given("region_max");
+  const toml::node* points = reader.given("region_points");
+  if (reader.is_wrong("region_min") || reader.is_wrong("region_max") || reader.is_wrong("region_points")) return;
+  if ((min == nullptr) != (max == nullptr)) {
+    const bool lacks_max = max == nullptr;
+    reader.wrong(lacks_max ? "region_min" : "region_max", lacks_max ? *min : *max,
+                 fmt::format("is one corner of a box; give {} as well", lacks_max ? "region_max" : "region_min"));
+    return;
+  }
+  for (std::size_t d = 0; d < std::min(probe.region_min.size(), probe.region_max.size()); ++d) {
+    if (probe.region_max[d] < probe.region_min[d]) {
+      reader.wrong("region_max", *max,
+                   fmt::format("lies below region_min in {}: {} and {}; exchange them", "xyz"[d], probe.region_min[d],
+                               probe.region_max[d]));
+    }
+  }
+  if (points == nullptr) return;
+  check_corner_count(probe.region_points, 3, reader, "region_points");
+  if (min != nullptr) {
+    reader.wrong("region_points", *points, "the probe has a box region_min to region_max as well; remove one of them");
+  } else if (reader.dimension() == 3) {
+    reader.wrong("region_points", *points, "a polygon is a region of two dimensions; give region_min and region_max");
+  }
+}
+
+}  // namespace
+
 void check(const ProbeTable& probe, TableReader& reader) {
+  check_region(probe, reader);
   check_direction(probe.direction, reader);
   if (const toml::node* node = reader.given("times"); node != nullptr && !reader.is_wrong("times")) {
     const bool is_rising =

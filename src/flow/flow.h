@@ -13,6 +13,7 @@
 #include "linear/linear_system.h"
 #include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
+#include "particles/wall_forces.h"
 #include "walls/near_walls.h"
 
 namespace tailwater {
@@ -37,6 +38,7 @@ struct Flow {
   NearWalls<Dim> near_walls;         ///< which of their rows are among the particles
   Surroundings<Dim> here;            ///< as `locate` found them
   bool is_located = false;           ///< whether no particle has moved since
+  WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 

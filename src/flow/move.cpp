@@ -36,8 +36,16 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   });
   place_walls(flow, flow.state.time + dt);
   flow.is_located = false;
-  return keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.spacing, ways_of_walls(flow, dt),
-                             start.position, particles, particles.velocity);
+  const bool finds_forces = flow.setup.finds_wall_forces;
+  const std::vector<Vec<Dim>> before = finds_forces ? particles.velocity : std::vector<Vec<Dim>>();
+  const std::size_t put_back =
+      keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.spacing, ways_of_walls(flow, dt),
+                          start.position, particles, particles.velocity);
+  for_each(finds_forces ? particles.owned : 0, [&](std::size_t i) {
+    const double mass = flow.setup.density * particles.volume[i];
+    if (particles.is_fluid(i)) flow.wall_forces.pressure[i] = mass / dt * (before[i] - particles.velocity[i]);
+  });
+  return put_back;
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                             \

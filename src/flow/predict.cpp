@@ -40,7 +40,7 @@ void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gra
 
 /// Adds the friction of the case's walls and of a channel's side walls.
 template <int Dim>
-void add_friction(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+void add_friction(Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const bool is_in_laplacian = setup.scheme.laplacian == LaplacianKind::consistent && setup.wall_traits.shows_friction;
@@ -50,8 +50,15 @@ void add_friction(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
     std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
     setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
     flow.halo().exchange(no_slip);
+    std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
     add_wall_friction<Dim>(flow.wall_scene(), setup.viscosity_law, setup.spacing, V, no_slip, particles.velocity,
-                           acceleration);
+                           acceleration, viscosity);
+    if (setup.finds_wall_forces) {
+      flow.halo().exchange(viscosity);
+      std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
+      find_friction_on_walls<Dim>(flow.wall_scene(), setup.spacing, no_slip, particles.velocity, viscosity, force);
+      for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
+    }
   }
   add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
 }
@@ -102,6 +109,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  if (setup.finds_wall_forces) flow.wall_forces.reset(particles.owned);
 
   Prediction<Dim> predicted;
   std::vector<Vec<Dim>>& acceleration = predicted.acceleration;

@@ -57,6 +57,8 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return lowest - highest + spacing;
 }
 
+bool asks_for_wall_forces(const ProbeTable& probe) { return probe.type == ProbeType::force; }
+
 /// Depth of the water [m] that there may be: at the start, and what open ends bring.
 template <int Dim>
 double depth_scale(const CaseSpec& spec, double fluid_height) {
@@ -111,6 +113,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
                                  : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
       rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
+      finds_wall_forces(std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_model(drawing.wall_model),
       wall_traits(wall_model->traits()),

@@ -45,7 +45,8 @@ struct Setup {
   double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
-  bool is_closed;  ///< periodic in every direction: no surface anywhere, pressure known up to a constant
+  bool finds_wall_forces;  ///< whether a probe asks for them
+  bool is_closed;          ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;

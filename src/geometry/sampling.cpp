@@ -12,6 +12,7 @@
 #include "case/named_numbers.h"
 #include "geometry/fill.h"
 #include "geometry/from_spec.h"
+#include "geometry/polygon.h"
 
 namespace tailwater {
 namespace {
@@ -24,24 +25,6 @@ constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 template <int Dim>
 bool is_axis_parallel(const WallFace<Dim>& face) {
   return face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
-}
-
-enum class Where { outside, on_outline, inside };
-
-/// Where `x` is relative to a polygon whose outline is `tolerance` thick, by the parity of the edges to its right.
-Where where_in(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
-  bool is_inside = false;
-  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
-    const Vec<2>& a = corners[last];
-    const Vec<2>& b = corners[i];
-    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance) {
-      return Where::on_outline;
-    }
-    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {
-      is_inside = !is_inside;
-    }
-  }
-  return is_inside ? Where::inside : Where::outside;
 }
 
 /// The places where one block may have particles.

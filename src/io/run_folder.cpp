@@ -98,7 +98,8 @@ std::vector<std::string> probe_files(const fs::path& folder) {
   for (std::string line; std::getline(effective_case, line);) {
     if (line.starts_with('[')) is_in_probe = line == "[[probe]]";
     if (is_in_probe && line.starts_with(key)) {
-      names.push_back(line.substr(key.size(), line.find('"', key.size()) - key.size()) + ".csv");
+      const std::string name = line.substr(key.size(), line.find('"', key.size()) - key.size());
+      for (const char* ending : {".csv", ".vtp"}) names.push_back(name + ending);
     }
   }
   return names;

@@ -40,6 +40,7 @@ class RunFolder {
   std::filesystem::path ranks() const { return path_ / "ranks.csv"; }
   std::filesystem::path summary() const { return path_ / summary_name; }
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
+  std::filesystem::path probe_map(const std::string& name) const { return path_ / "probes" / (name + ".vtp"); }
   std::filesystem::path fields() const { return path_ / "fields"; }
   /// The files by which a user asks the run to end or to write a checkpoint (run/requests.h).
   std::filesystem::path stop() const { return path_ / stop_file_name; }

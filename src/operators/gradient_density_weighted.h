@@ -14,15 +14,22 @@
 
 namespace tailwater {
 
+/// The share of pair k of particle i in the gradient below, along pairs.e(k).
+template <int Dim>
+double density_weighted_slope(const Pairs<Dim>& pairs, std::size_t i, std::size_t k, std::span<const double> volume,
+                              std::span<const double> density, std::span<const double> field) {
+  const auto j = pairs.j[k];
+  const double own = field[i] / (density[i] * density[i]);
+  return volume[j] * pairs.slope(k) * (own + field[j] / (density[j] * density[j]));
+}
+
 /// rho_0/rho times the gradient of a scalar at particle i; `density` is c.
 template <int Dim>
 Vec<Dim> density_weighted_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                                    std::span<const double> density, std::span<const double> field) {
-  const double own = field[i] / (density[i] * density[i]);
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    sum += (volume[j] * pairs.slope(k) * (own + field[j] / (density[j] * density[j]))) * pairs.e(k);
+    sum += density_weighted_slope<Dim>(pairs, i, k, volume, density, field) * pairs.e(k);
   }
   return sum;
 }

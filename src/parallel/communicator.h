@@ -64,6 +64,8 @@ class Communicator {
   }
   /// The largest value of each entry, in place. All ranks give as many.
   void largest_of_each(std::span<int> values) const { reduce(values.data(), values.size(), MPI_INT, MPI_MAX); }
+  /// The sum of each entry, in place. All ranks give as many.
+  void sum_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_SUM); }
   /// The least value of each entry, in place. All ranks give as many.
   void least_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_MIN); }
   bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }

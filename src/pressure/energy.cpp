@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "closures/fluid_pairs.h"
+#include "pressure/operators.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -17,16 +17,12 @@ constexpr double in_doubt = 0.25;
 /// was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
-/// Work [J] of a moving wall's particle: the conservative gradient's force on each fluid neighbour, times its velocity.
+/// Work [J] of a moving wall's particle: its force on the fluid, times its velocity.
 template <int Dim>
 double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
-  const Pairs<Dim>& pairs = flow.pairs();
-  const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
-                    flow.here.pair_vectors[k]);
-  });
-  return dt * particles.volume[i] * recoil.dot(flow.state.wall_velocity[particles.wall_row[i]]);
+  return dt * particles.volume[i] *
+         push_of_wall_particle(flow, i, particles.pressure).dot(flow.state.wall_velocity[particles.wall_row[i]]);
 }
 
 /// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 #include "flow/verbs.h"
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
@@ -24,6 +25,23 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
   if (!tensors.gradient_is_sound()) return Vec<Dim>::Zero();
   return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, volume, flow.here.takes_part,
                                   std::span<const double>(pressure));
+}
+
+template <int Dim>
+Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const std::vector<double>& volume = particles.volume;
+  if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
+    return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t, std::size_t k) {
+      return Vec<Dim>(density_weighted_slope<Dim>(pairs, i, k, volume, flow.here.concentration, pressure) * pairs.e(k));
+    });
+  }
+  const bool has_pair_vectors = flow.setup.uses_pair_vectors();
+  return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
+    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(k);
+    return Vec<Dim>((volume[j] * (pressure[i] + pressure[j])) * a);
+  });
 }
 
 template <int Dim>
@@ -59,10 +77,11 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                 \
-  template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);   \
-  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&); \
-  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                   \
+#define TAILWATER_INSTANTIATE(Dim)                                                                         \
+  template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);           \
+  template Vec<Dim> push_of_wall_particle<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&); \
+  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&);         \
+  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                           \
   template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -11,6 +11,12 @@ namespace tailwater {
 template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
 
+/// What wall particle i pushes the fluid with by a pressure field, over its volume [the field's unit * m^(Dim - 1)]:
+/// the reactions of its shares in the gradients at its fluid neighbours. The consistent gradient has no reactions; for
+/// it this is what the conservative one would push with.
+template <int Dim>
+Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
+
 /// div of `velocity` at fluid particle i [1/s]; 0 where the consistent operator is chosen and does not exist.
 template <int Dim>
 double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity);

@@ -100,6 +100,8 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   Correction<Dim> last;
   next.resize(particles.size());
   last.resize(particles.size());
+  // What accelerates the water, on wall particles too; these then get their pressure from the fluid's.
+  std::vector<double> added(flow.setup.finds_wall_forces ? particles.size() : 0, 0.0);
   for (int n = 0; n < flow.setup.scheme.corrections; ++n) {
     for_each(particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, source[i]); });
     const std::span<double> guess = std::span(next.pressure).first(particles.owned);
@@ -125,7 +127,12 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
       particles.velocity[i] += length * next.velocity[i];
       particles.pressure[i] += length * next.pressure[i];
     });
+    for_each(added.size(), [&](std::size_t i) { added[i] += length * next.pressure[i]; });
     std::swap(next, last);
+  }
+  if (flow.setup.finds_wall_forces) {
+    flow.halo().exchange(added);
+    add_wall_forces(flow, added);
   }
   finish_pressure(flow, drive);
   return report;

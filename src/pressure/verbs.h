@@ -44,6 +44,10 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 template <int Dim>
 void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<Dim>& drive, double dt);
 
+/// Adds the forces of a pressure field [Pa], up to date on ghosts, to those on the walls in this step, if a probe asks.
+template <int Dim>
+void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure);
+
 /// Projects the velocity a second time, at the present positions: takes div u out of it as far as `corrections` reach,
 /// and adds what does it to the pressure, without suction near the surface (but for what lengths and mixing of
 /// corrections bring back). The particles stay. Reports its one solve.

@@ -3,17 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
 #include "geometry/boundary.h"
 #include "kernel/kernel.h"
 #include "neighbours/cell_grid.h"
+#include "neighbours/halo.h"
 #include "parallel/communicator.h"
 #include "particles/particles.h"
+#include "particles/wall_forces.h"
 
 namespace tailwater {
 
@@ -45,6 +50,9 @@ struct ProbeContext {
   Communicator ranks = {};
   /// By row of the table of wall particles, an index into Boundary::walls. Needed where there are plates.
   std::span<const int> wall_of_row = {};
+  PeriodicDomain<Dim> domain = {};
+  double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
+  const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
 };
 
 /// Whether a plate hides a particle from a place.
@@ -105,6 +113,13 @@ struct Reading {
   /// On several ranks the root takes the measurement, from the particles of all ranks within the kernel's support of
   /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
   std::function<Region<Dim>(double time)> region = {};
+  /// What it remembers from reading to reading, the same on all ranks; null: nothing. A checkpoint keeps it, and a run
+  /// that goes on puts as many numbers back.
+  std::shared_ptr<std::vector<double>> memory = {};
+  /// Its lines in the summary of the run, from its memory: name and value.
+  std::function<std::vector<std::pair<std::string, double>>()> summary = {};
+  /// Writes its map at `time` [s] as VTP, from its memory. Throws IoError.
+  std::function<void(const std::filesystem::path& path, double time)> write_map = {};
 };
 
 }  // namespace tailwater

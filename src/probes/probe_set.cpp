@@ -10,6 +10,8 @@
 #include "probes/front.h"
 #include "probes/gather.h"
 #include "probes/point.h"
+#include "probes/pressure_map.h"
+#include "probes/wall_force.h"
 #include "probes/wall_pressure.h"
 #include "probes/water_column.h"
 
@@ -56,6 +58,10 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
       return energy_reading<Dim>();
     case ProbeType::discharge:
       return discharge_reading<Dim>(probe, spec);
+    case ProbeType::force:
+      return force_reading(probe, spec, boundary);
+    case ProbeType::pressure_map:
+      return pressure_map_reading(probe, spec, boundary);
     case ProbeType::volume:
       break;
   }
@@ -100,6 +106,55 @@ std::vector<ProbeMark> ProbeSet<Dim>::marks() const {
     marks.push_back({instrument.taken, instrument.csv ? instrument.csv->size() : 0});
   }
   return marks;
+}
+
+template <int Dim>
+std::vector<double> ProbeSet<Dim>::memory() const {
+  std::vector<double> all;
+  for (const Instrument& instrument : instruments_) {
+    if (const auto& own = instrument.probe.reading.memory) all.insert(all.end(), own->begin(), own->end());
+  }
+  return all;
+}
+
+template <int Dim>
+void ProbeSet<Dim>::restore(std::span<const double> memory) {
+  std::size_t count = 0;
+  for (const Instrument& instrument : instruments_) {
+    if (const auto& own = instrument.probe.reading.memory) count += own->size();
+  }
+  if (count != memory.size()) {
+    throw IoError(fmt::format(
+        "the checkpoint has {} numbers for the memory of the probes, which is of {}; remedy: remove the newest "
+        "checkpoint, to go on from the one before",
+        memory.size(), count));
+  }
+  for (const Instrument& instrument : instruments_) {
+    const auto& own = instrument.probe.reading.memory;
+    if (!own) continue;
+    std::copy_n(memory.begin(), own->size(), own->begin());
+    memory = memory.subspan(own->size());
+  }
+}
+
+template <int Dim>
+std::vector<typename ProbeSet<Dim>::Summary> ProbeSet<Dim>::summaries() const {
+  std::vector<Summary> all;
+  for (const Instrument& instrument : instruments_) {
+    const Probe<Dim>& probe = instrument.probe;
+    if (probe.reading.summary) all.push_back({probe.name, probe.reading.summary()});
+  }
+  return all;
+}
+
+template <int Dim>
+void ProbeSet<Dim>::write_maps(const RunFolder& folder, double time, const Communicator& ranks) const {
+  do_on_root(ranks, [&] {
+    for (const Instrument& instrument : instruments_) {
+      const Probe<Dim>& probe = instrument.probe;
+      if (probe.reading.write_map) probe.reading.write_map(folder.probe_map(probe.name), time);
+    }
+  });
 }
 
 template <int Dim>

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case/spec.h"
@@ -43,6 +45,21 @@ class ProbeSet {
 
   /// Of each probe.
   std::vector<ProbeMark> marks() const;
+
+  /// What the probes remember, one after the other; the same on all ranks.
+  std::vector<double> memory() const;
+  /// Takes it up again. Throws IoError if it is not of these probes.
+  void restore(std::span<const double> memory);
+
+  /// The lines of a probe in the summary of the run.
+  struct Summary {
+    std::string probe;
+    std::vector<std::pair<std::string, double>> lines;
+  };
+  std::vector<Summary> summaries() const;
+
+  /// Writes the maps of all probes that have one, at `time` [s]. Collective; throws IoError, on all ranks.
+  void write_maps(const RunFolder& folder, double time, const Communicator& ranks) const;
 
   /// Whether any probe is due at `time` [s].
   bool is_due(double time) const;

@@ -63,19 +63,41 @@ Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) 
 }  // namespace
 
 template <int Dim>
-std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w) {
-  if (water_share(context, x_w) <= surface_share) return std::nullopt;
-  const Particles<Dim>& particles = context.particles;
-  double sum = 0.0;
-  double weights = 0.0;
-  double least = 0.0;
-  for_each_weight(context, x_w, [&](std::int32_t j, double weight) {
-    if (!particles.is_fluid(j)) return;
-    least = std::min(least, particles.pressure[j]);
-    sum += weight * (particles.pressure[j] + context.density * context.gravity.dot(x_w - particles.position[j]));
-    weights += weight;
+void WallPressureSums<Dim>::add(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, std::int32_t j,
+                                const Vec<Dim>& x_j, double weight) {
+  if (!context.particles.is_fluid(j)) {
+    wall += weight;
+    return;
+  }
+  const double p_j = context.particles.pressure[j];
+  least = std::min(least, p_j);
+  pressure += weight * (p_j + context.density * context.gravity.dot(x_w - x_j));
+  water += weight;
+}
+
+template <int Dim>
+void WallPressureSums<Dim>::add_owned(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& shift) {
+  const Vec<Dim> near = x_w - shift;
+  for_each_weight(context, near, [&](std::int32_t j, double weight) {
+    if (static_cast<std::size_t>(j) < context.particles.owned) {
+      add(context, near, j, context.particles.position[j], weight);
+    }
   });
-  return std::max(sum / weights, least);
+}
+
+template <int Dim>
+std::optional<double> WallPressureSums<Dim>::value() const {
+  if (water_share<Dim>(water, wall) <= surface_share) return std::nullopt;
+  return std::max(pressure / water, least);
+}
+
+template <int Dim>
+std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w) {
+  WallPressureSums<Dim> sums;
+  for_each_weight(context, x_w, [&](std::int32_t j, double weight) {
+    sums.add(context, x_w, j, context.particles.position[j], weight);
+  });
+  return sums.value();
 }
 
 template <int Dim>
@@ -110,6 +132,8 @@ Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec&
           [points](double time) { return region_of(points, time); }};
 }
 
+template struct WallPressureSums<2>;
+template struct WallPressureSums<3>;
 template std::optional<double> wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);
 template std::optional<double> wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&);
 template Reading<2> wall_pressure_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);

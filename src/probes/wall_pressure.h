@@ -16,6 +16,24 @@
 
 namespace tailwater {
 
+/// The sums of this formula and of c, over particles or over some of them.
+template <int Dim>
+struct WallPressureSums {
+  double water = 0.0;     ///< S_f
+  double wall = 0.0;      ///< S_w
+  double pressure = 0.0;  ///< Pa; not yet divided by S_f
+  double least = 0.0;     ///< Pa; of 0 and the pressures of fluid particles
+
+  /// Adds the particle at `x_j` with w_j W = `weight`.
+  void add(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, std::int32_t j, const Vec<Dim>& x_j, double weight);
+
+  /// Adds the owned particles whose images, moved by `shift` [m], are near.
+  void add_owned(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& shift);
+
+  /// Pressure on the wall, Pa; none where it is dry.
+  std::optional<double> value() const;
+};
+
 /// Pressure on the wall at `x_w`, Pa; none where it is dry.
 template <int Dim>
 std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w);

@@ -1,7 +1,5 @@
 #include "probes/water_share.h"
 
-#include <algorithm>
-
 namespace tailwater {
 namespace {
 
@@ -11,7 +9,7 @@ double share(const ProbeContext<Dim>& context, const Vec<Dim>& x, IsWater&& is_w
   double water = 0.0;
   double wall = 0.0;
   for_each_weight(context, x, [&](std::int32_t j, double weight) { (is_water(j) ? water : wall) += weight; });
-  return water / std::max(1.0 - wall, power<Dim>(0.5));
+  return water_share<Dim>(water, wall);
 }
 
 }  // namespace

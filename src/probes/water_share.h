@@ -9,12 +9,20 @@
 // 0.
 #pragma once
 
+#include <algorithm>
+
 #include "probes/context.h"
 
 namespace tailwater {
 
 /// There is water where c exceeds this.
 inline constexpr double surface_share = 0.5;
+
+/// c from both sums.
+template <int Dim>
+double water_share(double water, double wall) {
+  return water / std::max(1.0 - wall, power<Dim>(0.5));
+}
 
 template <int Dim>
 double water_share(const ProbeContext<Dim>& context, const Vec<Dim>& x);

@@ -236,6 +236,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& 
     file->put("run", text_of(checkpoint));
     file->put("owned", std::span<const std::int64_t>(owned));
     put(*file, "wall_velocity", checkpoint.state.wall_velocity);
+    put(*file, "probe_memory", checkpoint.probe_memory);
     file->put("rank_log", std::span<const double>(rank_log), checkpoint.rank_log.size());
     file->put("cuts", all_cuts);
     file->put("cuts_size", std::span<const std::int64_t>(cuts_size));
@@ -299,17 +300,20 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
     field = ranks.scatter(all, shares);
   });
   state.particles.owned = state.particles.size();
-  std::vector<Vec<Dim>> wall_velocity;
-  do_on_root(ranks, [&] {
-    expecting_a_checkpoint(file.path, [&] {
-      wall_velocity = get<Vec<Dim>>(*image, "wall_velocity");
-      require_fit(is_sound("wall_velocity", wall_velocity), "wall_velocity");
+  const auto give_to_all = [&]<class Value>(const char* name, std::vector<Value>& values) {
+    do_on_root(ranks, [&] {
+      expecting_a_checkpoint(file.path, [&] {
+        values = get<Value>(*image, name);
+        require_fit(is_sound(name, values), name);
+      });
     });
-  });
-  const std::string bytes =
-      ranks.broadcast({reinterpret_cast<const char*>(wall_velocity.data()), wall_velocity.size() * sizeof(Vec<Dim>)});
-  state.wall_velocity.resize(bytes.size() / sizeof(Vec<Dim>));
-  bytes.copy(reinterpret_cast<char*>(state.wall_velocity.data()), bytes.size());
+    const std::string bytes =
+        ranks.broadcast({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
+    values.resize(bytes.size() / sizeof(Value));
+    bytes.copy(reinterpret_cast<char*>(values.data()), bytes.size());
+  };
+  give_to_all("wall_velocity", state.wall_velocity);
+  give_to_all("probe_memory", checkpoint.probe_memory);
 
   checkpoint.is_shared_out = ranks.largest(writers) == ranks.size();
   return checkpoint;

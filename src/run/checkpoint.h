@@ -20,12 +20,13 @@ inline constexpr int checkpoint_format = 2;
 /// state is complete.
 template <int Dim>
 struct Checkpoint {
-  State<Dim> state;              ///< of this rank
-  nlohmann::json output;         ///< how far the run's output has come (RunOutput::saved); on all ranks
-  std::vector<double> rank_log;  ///< of this rank (RankLog::saved)
-  double reference_step = 0.0;   ///< s (StepGuard); the same on all ranks
-  std::string cuts;              ///< of this rank (SpaceCuts::bytes); empty if space must be cut anew
-  bool is_shared_out = true;     ///< false where it was written by another number of ranks
+  State<Dim> state;                  ///< of this rank
+  nlohmann::json output;             ///< how far the run's output has come (RunOutput::saved); on all ranks
+  std::vector<double> probe_memory;  ///< of the probes (ProbeSet::memory); on all ranks
+  std::vector<double> rank_log;      ///< of this rank (RankLog::saved)
+  double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks
+  std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be cut anew
+  bool is_shared_out = true;         ///< false where it was written by another number of ranks
 };
 
 /// Writes the checkpoint of all ranks as one file, which is on the disk when this returns. `case_text` is the effective

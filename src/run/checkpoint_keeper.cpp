@@ -45,6 +45,7 @@ void CheckpointKeeper<Dim>::remember(const Flow<Dim>& flow, const RunOutput<Dim>
   if (!last_) last_.emplace();
   last_->state = flow.state;
   last_->output = output.saved();
+  last_->probe_memory = output.probe_memory();
   last_->reference_step = guard.reference_step();
   last_->rank_log = output.rank_log().saved();
 }

@@ -80,6 +80,7 @@ class Run {
     keeper_.go_on_from(checkpoint.state.step);
     flow_.restore(std::move(checkpoint.state));
     output_.rank_log().restore(checkpoint.rank_log);
+    output_.restore_probe_memory(checkpoint.probe_memory);
     guard_.restore_reference_step(checkpoint.reference_step);
     goes_on_ = true;
     if (!checkpoint.is_shared_out) return;

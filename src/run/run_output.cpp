@@ -184,6 +184,7 @@ template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
   if (flow.state.time < next_fields_) return;
   write_fields(flow);
+  probes_.write_maps(folder_, flow.state.time, ranks_);
   next_fields_ = fields_due_after(flow.state.time);
 }
 
@@ -204,7 +205,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures) {
+void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood.grid(),
@@ -222,6 +223,9 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .volume_in = measures.arrived.volume,
                              .section_volumes = flow.state.section_volumes},
                   .ranks = ranks_,
+                  .domain = flow.setup.domain,
+                  .dt = dt,
+                  .wall_forces = &flow.wall_forces,
                   .wall_of_row = flow.walls.particles.wall});
 }
 
@@ -240,7 +244,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
     require_folder_in_place();
     step_log_->write(flow.state.time, flow.state.step, report, measures);
   });
-  record_probes(flow, measures);
+  record_probes(flow, measures, report.dt);
   progress_.show(flow.state.time, flow.state.step, report, measures);
   try {
     limits_.check(flow.state.time, statistics_.energy_rise(), measures);
@@ -272,6 +276,7 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   write_fields(flow);
+  probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
@@ -313,6 +318,9 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   summary["water_balance"] = water_balance(water_at_start_, flow);
   nlohmann::ordered_json discharges = discharges_of(flow);
   if (!discharges.empty()) summary["discharge"] = std::move(discharges);
+  for (const auto& [probe, lines] : probes_.summaries()) {
+    for (const auto& [name, value] : lines) summary["probes"][probe][name] = value;
+  }
   summary.update(provenance());
   if (code) summary["exit_code"] = static_cast<int>(*code);
   std::string text = summary.dump(2) + "\n";

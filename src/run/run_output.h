@@ -5,6 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ class RunOutput {
   /// How far the output has come, for a checkpoint: clocks, sums, and the sizes of all files. Not collective; the sizes
   /// are those of the root.
   nlohmann::json saved() const;
+  /// What the probes remember, and taking it up again (probe_set.h).
+  std::vector<double> probe_memory() const { return probes_.memory(); }
+  void restore_probe_memory(std::span<const double> memory) { probes_.restore(memory); }
   /// Adds to it what the run has cost so far. Collective.
   void add_costs(nlohmann::json& saved) const;
 
@@ -48,8 +52,8 @@ class RunOutput {
 
   /// Writes fields if they are due.
   void write_due_fields(const Flow<Dim>& flow);
-  /// Records the probes that are due.
-  void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures);
+  /// Records the probes that are due after a step of dt [s]; 0 at the start.
+  void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt = 0.0);
   void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
   /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
   /// case.

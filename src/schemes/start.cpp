@@ -12,10 +12,12 @@ void start(Flow<Dim>& flow) {
   hold_open_ends(flow, 0.0);
   const StepStart<Dim> start = remember(flow);
   locate(flow);
+  if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   if (flow.setup.scheme.name == SchemeName::farmani2020) {
     predict_pressure(flow, start, drive, dt);
+    add_wall_forces(flow, flow.state.particles.pressure);
     std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
     place_walls(flow, flow.state.time);
     flow.is_located = false;
@@ -24,6 +26,7 @@ void start(Flow<Dim>& flow) {
   }
   const Prediction<Dim> predicted = predict(flow, start, drive, dt);
   solve(flow, drive, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt));
+  add_wall_forces(flow, flow.state.particles.pressure);
 }
 
 template void start<2>(Flow<2>&);

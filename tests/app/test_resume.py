@@ -32,7 +32,8 @@ FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].veloci
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
-        "probe=[{name='energy', type='energy'}]")
+        "probe=[{name='energy', type='energy'}, {name='force', type='force', moment_about=[0, 0, 0]}, "
+        "{name='map', type='pressure-map'}]")
 
 # Every feature whose memory a run carries from step to step; all runs have warned before their first checkpoint.
 FEATURES = {
@@ -54,7 +55,9 @@ class Resumed(ProgramTest):
         (self.folder / "roll.csv").write_text("t [s], x [mm], angle [deg]\n" + "".join(
             f"{0.02 * k}, {0.1 * k * k}, {0.05 * k * k}\n" for k in range(20)))
         # Probes with an interval of their own and with times, beside those of every step.
-        case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n')
+        case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n'
+                        '[[probe]]\nname = "force"\ntype = "force"\nmoment_about = [0, 0]\n'
+                        '[[probe]]\nname = "map"\ntype = "pressure-map"\ninterval = 0.01\n')
 
     def run_case(self, run, *arguments, **options):
         return self.call("run", "small.toml", "--out", run, "--quiet", "--set", "particles.jitter=0.1", *FIELDS,

@@ -33,6 +33,31 @@ Tank<Dim> sloping_tank() {
   return tank;
 }
 
+/// On the part of the walls left of x = 0.63.
+template <int Dim>
+ProbeTable on_walls(ProbeType type, const Coordinates& moment_about) {
+  ProbeTable probe = probe_at(type, {});
+  probe.region_min.assign(Dim, -1.0);
+  probe.region_max.assign(Dim, 2.0);
+  probe.region_max[0] = 0.63;
+  probe.moment_about = moment_about;
+  return probe;
+}
+
+/// Some force through every owned wall particle.
+template <int Dim>
+WallForces<Dim> made_forces(const Particles<Dim>& particles) {
+  WallForces<Dim> forces;
+  forces.reset(particles.owned);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) continue;
+    const Vec<Dim>& x = particles.position[i];
+    forces.pressure[i] = Vec<Dim>::Constant(std::sin(7.0 * x[0] + 3.0 * x[Dim - 1]));
+    forces.friction[i][0] = std::cos(5.0 * x[0] - x[Dim - 1]);
+  }
+  return forces;
+}
+
 template <int Dim>
 std::vector<ProbeTable> all_probes() {
   using Tank = Tank<Dim>;
@@ -49,6 +74,8 @@ std::vector<ProbeTable> all_probes() {
       probe_at(ProbeType::velocity, Tank::at(0.5, 1.4)),
       probe_at(ProbeType::energy, {}),
       probe_at(ProbeType::volume, {}),
+      on_walls<Dim>(ProbeType::pressure_map, {}),
+      on_walls<Dim>(ProbeType::force, Tank::at(0.2, 0.1)),
       probe_at(ProbeType::front, {}),
   };
   for (std::size_t k = 0; k < probes.size(); ++k) probes[k].name = "p" + std::to_string(k);
@@ -99,14 +126,27 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   const Particles<Dim> part = part_of<Dim>(tank.particles, deal, ranks.rank(), with_ghosts);
   const CellGrid<Dim> grid(part.position, 3.0 * tank.dx);
   const ProbeContext<Dim> whole = tank.context();
-  probes.record(
-      {part, grid, whole.kernel, whole.boundary, whole.density, whole.gravity, whole.spacing, 0.0, totals, ranks});
+  const WallForces<Dim> own_forces = made_forces(part);
+  probes.record({.particles = part,
+                 .grid = grid,
+                 .kernel = whole.kernel,
+                 .boundary = whole.boundary,
+                 .density = whole.density,
+                 .gravity = whole.gravity,
+                 .spacing = whole.spacing,
+                 .time = 0.0,
+                 .totals = totals,
+                 .ranks = ranks,
+                 .wall_forces = &own_forces});
 
   if (!ranks.is_root()) return;
   const TemporaryFolder alone;
   ProbeSet<Dim> single(make_probes<Dim>(tank.spec, tank.boundary), RunFolder::create(alone.path(), false));
-  single.record({whole.particles, whole.grid, whole.kernel, whole.boundary, whole.density, whole.gravity, whole.spacing,
-                 0.0, totals});
+  const WallForces<Dim> all_forces = made_forces(whole.particles);
+  ProbeContext<Dim> on_one = whole;
+  on_one.totals = totals;
+  on_one.wall_forces = &all_forces;
+  single.record(on_one);
   for (const ProbeTable& probe : tank.spec.probes) {
     const std::filesystem::path file = std::filesystem::path("probes") / (probe.name + ".csv");
     const std::vector<double> expected = numbers_in(alone.path() / file);

@@ -15,7 +15,7 @@ struct Dataset {
 };
 
 /// Of a run in 2D.
-inline constexpr std::array<Dataset, 14> datasets{{{"position", Type::real, 2},
+inline constexpr std::array<Dataset, 15> datasets{{{"position", Type::real, 2},
                                                    {"velocity", Type::real, 2},
                                                    {"pressure", Type::real, 1},
                                                    {"volume", Type::real, 1},
@@ -23,6 +23,7 @@ inline constexpr std::array<Dataset, 14> datasets{{{"position", Type::real, 2},
                                                    {"wall_row", Type::whole32, 1},
                                                    {"id", Type::whole64, 1},
                                                    {"wall_velocity", Type::real, 2},
+                                                   {"probe_memory", Type::real, 1},
                                                    {"owned", Type::whole64, 1},
                                                    {"rank_log", Type::real, 1},
                                                    {"cuts", Type::text, 1},

@@ -1,0 +1,60 @@
+#include "geometry/wall_patches.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+void add_pieces(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest,
+                std::vector<WallPatch<Dim>>& pieces) {
+  double length = longest;
+  std::array<int, 2> edge{-1, -1};
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = a + 1; b < Dim; ++b) {
+      const double found = (patch.corner(boundary, a) - patch.corner(boundary, b)).norm();
+      if (found <= length) continue;
+      length = found;
+      edge = {a, b};
+    }
+  }
+  if (edge[0] < 0) {
+    pieces.push_back(patch);
+    return;
+  }
+  std::array<double, Dim> middle;
+  for (int k = 0; k < Dim; ++k) middle[k] = 0.5 * (patch.corners[edge[0]][k] + patch.corners[edge[1]][k]);
+  for (const int end : edge) {
+    WallPatch<Dim> half = patch;
+    half.corners[end] = middle;
+    half.measure *= 0.5;
+    add_pieces(half, boundary, longest, pieces);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<WallPatch<Dim>> pieces_of(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest) {
+  std::vector<WallPatch<Dim>> pieces;
+  add_pieces(patch, boundary, longest, pieces);
+  return pieces;
+}
+
+template <int Dim>
+std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest) {
+  std::vector<WallPatch<Dim>> patches;
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    WallPatch<Dim> whole{static_cast<int>(f), {}, boundary.faces[f].measure()};
+    for (int c = 0; c < Dim; ++c) whole.corners[c][c] = 1.0;
+    add_pieces(whole, boundary, longest, patches);
+  }
+  return patches;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                           \
+  template std::vector<WallPatch<Dim>> make_wall_patches<Dim>(const Boundary<Dim>&, double); \
+  template std::vector<WallPatch<Dim>> pieces_of<Dim>(const WallPatch<Dim>&, const Boundary<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,42 @@
+// Walls in patches about dx large, which move with their faces: where forces act on walls, and where a map of them has
+// its cells.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/boundary.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct WallPatch {
+  int face;                                          ///< index into Boundary::faces
+  std::array<std::array<double, Dim>, Dim> corners;  ///< of each corner, the shares of the face's corners in it
+  double measure;                                    ///< m or m^2
+
+  Vec<Dim> corner(const Boundary<Dim>& boundary, int c) const {
+    Vec<Dim> x = Vec<Dim>::Zero();
+    for (int k = 0; k < Dim; ++k) x += corners[c][k] * boundary.faces[face].corners[k];
+    return x;
+  }
+  Vec<Dim> centre(const Boundary<Dim>& boundary) const {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int c = 0; c < Dim; ++c) sum += corner(boundary, c);
+    return sum / Dim;
+  }
+};
+
+/// The edges of patches are not longer than this, dx.
+inline constexpr double longest_patch_edge = 1.5;
+
+/// All faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face follow each
+/// other.
+template <int Dim>
+std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
+
+/// The pieces of one patch, made in the same way.
+template <int Dim>
+std::vector<WallPatch<Dim>> pieces_of(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest);
+
+}  // namespace tailwater

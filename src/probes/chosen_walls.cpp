@@ -1,0 +1,97 @@
+#include "probes/chosen_walls.h"
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+
+#include "base/for_each.h"
+#include "case/nearest_name.h"
+#include "geometry/polygon.h"
+#include "probes/places.h"
+
+namespace tailwater {
+namespace {
+
+/// dx; the part of a patch in a region is found from pieces of this size.
+constexpr double longest_piece_edge = 0.2;
+
+/// By wall, whether the probe names it.
+template <int Dim>
+std::vector<std::uint8_t> named_walls(const ProbeTable& probe, const Boundary<Dim>& boundary) {
+  std::vector<std::uint8_t> named(boundary.walls.size(), probe.walls.empty());
+  std::vector<std::string_view> known;
+  for (const WallProperties& wall : boundary.walls) known.emplace_back(wall.name);
+  for (const std::string& name : probe.walls) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      throw InputError(fmt::format("{}: walls has \"{}\", and no wall of the case has this name; {}", label(probe),
+                                   name, unknown_name_hint(name, known)));
+    }
+    named[static_cast<std::size_t>(found - known.begin())] = 1;
+  }
+  return named;
+}
+
+/// Whether a point is in the region; empty if the probe has none.
+template <int Dim>
+std::function<bool(const Vec<Dim>&)> region_of(const ProbeTable& probe, double tolerance) {
+  if (!probe.region_min.empty()) {
+    const Vec<Dim> low = to_vec<Dim>(probe.region_min, label(probe), "region_min");
+    const Vec<Dim> high = to_vec<Dim>(probe.region_max, label(probe), "region_max");
+    return [low, high, tolerance](const Vec<Dim>& x) {
+      return (x - low).minCoeff() >= -tolerance && (high - x).minCoeff() >= -tolerance;
+    };
+  }
+  if constexpr (Dim == 2) {
+    if (!probe.region_points.empty()) {
+      std::vector<Vec<2>> corners;
+      for (const Coordinates& point : probe.region_points) {
+        corners.push_back(to_vec<2>(point, label(probe), "region_points"));
+      }
+      return [corners, tolerance](const Vec<2>& x) { return where_in(corners, x, tolerance) != Where::outside; };
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                  std::span<const WallPatch<Dim>> patches) {
+  if (patches.empty()) throw InputError(fmt::format("{}: the case has no wall; remove the probe", label(probe)));
+  const std::vector<std::uint8_t> named = named_walls(probe, boundary);
+  const double spacing = spec.particles.spacing;
+  const auto is_inside = region_of<Dim>(probe, corner_tolerance * spacing);
+  std::vector<double> shares(patches.size(), 0.0);
+  for_each(patches.size(), [&](std::size_t k) {
+    const WallPatch<Dim>& patch = patches[k];
+    if (!named[boundary.faces[patch.face].wall]) return;
+    if (!is_inside) {
+      shares[k] = 1.0;
+      return;
+    }
+    const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_piece_edge * spacing);
+    const std::size_t inside =
+        count_each(pieces.size(), [&](std::size_t p) { return is_inside(pieces[p].centre(boundary)); });
+    shares[k] = static_cast<double>(inside) / static_cast<double>(pieces.size());
+  });
+  if (std::ranges::all_of(shares, [](double share) { return share == 0.0; })) {
+    Eigen::AlignedBox<double, Dim> box;
+    for (const WallFace<Dim>& face : boundary.faces) {
+      if (named[face.wall]) box.extend(face.box());
+    }
+    throw InputError(fmt::format(
+        "{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn; choose "
+        "region_min and region_max (or region_points) around the part you mean",
+        label(probe), place<Dim>(box.min()), place<Dim>(box.max())));
+  }
+  return shares;
+}
+
+template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<2>&,
+                                           std::span<const WallPatch<2>>);
+template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<3>&,
+                                           std::span<const WallPatch<3>>);
+
+}  // namespace tailwater

@@ -1,0 +1,153 @@
+#include "probes/pressure_map.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "base/for_each.h"
+#include "io/vtp_writer.h"
+#include "probes/chosen_walls.h"
+#include "probes/places.h"
+#include "probes/wall_pressure.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+struct PressureMap {
+  std::vector<WallPatch<Dim>> patches;
+  std::vector<Vec<Dim>> drawn_corners;  ///< of one patch after the other
+  std::vector<std::int64_t> wall;       ///< of each patch
+  double area = 0.0;                    ///< m or m^2; of all patches
+
+  // What a checkpoint keeps: two numbers, then three for each patch.
+  std::shared_ptr<std::vector<double>> memory;
+  double& last_time() const { return (*memory)[0]; }                             // s
+  double& duration() const { return (*memory)[1]; }                              // s
+  double& largest(std::size_t k) const { return (*memory)[2 + 3 * k]; }          // Pa
+  double& time_of_largest(std::size_t k) const { return (*memory)[3 + 3 * k]; }  // s
+  double& sum(std::size_t k) const { return (*memory)[4 + 3 * k]; }              // Pa s
+  double mean(std::size_t k) const { return duration() > 0.0 ? sum(k) / duration() : 0.0; }
+
+  PressureMap(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+    const auto all = make_wall_patches(boundary, longest_patch_edge * spec.particles.spacing);
+    const std::vector<double> shares = chosen_shares<Dim>(probe, spec, boundary, all);
+    for (const std::size_t k : indices_where(all.size(), [&](std::size_t p) { return shares[p] > 0.0; })) {
+      patches.push_back(all[k]);
+      wall.push_back(boundary.faces[all[k].face].wall);
+      area += all[k].measure;
+      for (int c = 0; c < Dim; ++c) drawn_corners.push_back(all[k].corner(boundary, c));
+    }
+    memory = std::make_shared<std::vector<double>>(2 + 3 * patches.size(), 0.0);
+  }
+
+  /// Collective.
+  Row read(const ProbeContext<Dim>& context) const {
+    const std::vector<std::optional<double>> pressure = pressures(context);
+    const double since_last = context.time - last_time();
+    last_time() = context.time;
+    duration() += since_last;
+    double mean = 0.0;
+    double wet = 0.0;
+    std::size_t highest = 0;
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const double p = pressure[k].value_or(0.0);
+      sum(k) += since_last * p;
+      mean += patches[k].measure / area * p;
+      if (pressure[k]) wet += patches[k].measure / area;
+      if (p > pressure[highest].value_or(0.0)) highest = k;
+      if (p <= largest(k)) continue;
+      largest(k) = p;
+      time_of_largest(k) = context.time;
+    }
+    Row row{pressure[highest].value_or(0.0)};
+    const Vec<Dim> place = patches[highest].centre(context.boundary);
+    row.insert(row.end(), place.begin(), place.end());
+    row.insert(row.end(), {mean, wet});
+    return row;
+  }
+
+  std::vector<std::optional<double>> pressures(const ProbeContext<Dim>& context) const {
+    std::vector<double> sums(3 * patches.size());
+    std::vector<double> least(patches.size());
+    const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
+    for_each(patches.size(), [&](std::size_t k) {
+      const Vec<Dim> centre = patches[k].centre(context.boundary);
+      WallPressureSums<Dim> here;
+      for (const Vec<Dim>& shift : shifts) here.add_owned(context, centre, shift);
+      sums[3 * k] = here.water;
+      sums[3 * k + 1] = here.wall;
+      sums[3 * k + 2] = here.pressure;
+      least[k] = here.least;
+    });
+    context.ranks.sum_of_each(sums);
+    context.ranks.least_of_each(least);
+    std::vector<std::optional<double>> pressure(patches.size());
+    for_each(patches.size(), [&](std::size_t k) {
+      pressure[k] = WallPressureSums<Dim>{sums[3 * k], sums[3 * k + 1], sums[3 * k + 2], least[k]}.value();
+    });
+    return pressure;
+  }
+
+  /// `of(k)` for each corner of each patch k.
+  template <class Of>
+  auto at_corners(Of&& of) const {
+    std::vector<std::decay_t<decltype(of(0))>> values;
+    for (std::size_t k = 0; k < patches.size(); ++k) values.insert(values.end(), Dim, of(k));
+    return values;
+  }
+
+  void write(const std::filesystem::path& path, double time, int compression) const {
+    const std::vector<double> largest_here = at_corners([&](std::size_t k) { return largest(k); });
+    const std::vector<double> times = at_corners([&](std::size_t k) { return time_of_largest(k); });
+    const std::vector<double> means = at_corners([&](std::size_t k) { return mean(k); });
+    const std::vector<std::int64_t> walls = at_corners([&](std::size_t k) { return wall[k]; });
+    const ParticleFields<Dim> fields{.position = drawn_corners,
+                                     .fields = {{"largest_pressure", largest_here},
+                                                {"time_of_largest", times},
+                                                {"mean_pressure", means},
+                                                {"wall", walls}},
+                                     .corners = Dim};
+    write_vtp(path, time, encode_piece(fields, compression), compression);
+  }
+
+  std::vector<std::pair<std::string, double>> summary() const {
+    std::size_t highest = 0;
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      if (largest(k) > largest(highest)) highest = k;
+    }
+    std::vector<std::pair<std::string, double>> lines{{"largest_Pa", largest(highest)},
+                                                      {"time_of_largest_s", time_of_largest(highest)}};
+    Vec<Dim> place = Vec<Dim>::Zero();
+    for (int c = 0; c < Dim; ++c) place += drawn_corners[Dim * highest + c] / Dim;
+    constexpr std::array names{"x_m", "y_m", "z_m"};
+    for (int d = 0; d < Dim; ++d) lines.emplace_back(names[d], place[d]);
+    double mean_over_area = 0.0;
+    for (std::size_t k = 0; k < patches.size(); ++k) mean_over_area += patches[k].measure / area * mean(k);
+    lines.emplace_back("mean_Pa", mean_over_area);
+    return lines;
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> pressure_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const auto map = std::make_shared<const PressureMap<Dim>>(probe, spec, boundary);
+  Reading<Dim> reading;
+  reading.columns = {"largest_Pa", "x_m", "y_m", "z_m"};
+  reading.columns.resize(1 + Dim);
+  reading.columns.insert(reading.columns.end(), {"mean_Pa", "wet_share"});
+  reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
+  reading.memory = map->memory;
+  reading.summary = [map] { return map->summary(); };
+  reading.write_map = [map, compression = spec.output.compression](const std::filesystem::path& path, double time) {
+    map->write(path, time, compression);
+  };
+  return reading;
+}
+
+template Reading<2> pressure_map_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> pressure_map_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

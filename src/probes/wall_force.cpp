@@ -1,0 +1,328 @@
+#include "probes/wall_force.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/assert.h"
+#include "base/for_each.h"
+#include "geometry/wall_motion.h"
+#include "geometry/wall_particles.h"
+#include "probes/chosen_walls.h"
+#include "probes/places.h"
+
+namespace tailwater {
+namespace {
+
+/// e: the share of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
+/// forces across both of them by one over their angle.
+constexpr double indifference = 0.02;
+
+/// Weight of patches which the particle is not behind, over that of the others. It counts where there are no others.
+constexpr double weight_in_front = 1e-6;
+
+/// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
+constexpr double patch_margin = 1.0;
+
+template <int Dim>
+using Moment = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
+
+template <int Dim>
+Moment<Dim> moment_of(const Vec<Dim>& arm, const Vec<Dim>& force) {
+  if constexpr (Dim == 2) {
+    return Moment<2>(arm[0] * force[1] - arm[1] * force[0]);
+  } else {
+    return arm.cross(force);
+  }
+}
+
+template <int Dim>
+struct Loads {
+  Vec<Dim> pressure = Vec<Dim>::Zero();
+  Vec<Dim> friction = Vec<Dim>::Zero();
+  Moment<Dim> moment = Moment<Dim>::Zero();
+  double power = 0.0;  ///< of the walls on the water
+
+  Loads& operator+=(const Loads& other) {
+    pressure += other.pressure;
+    friction += other.friction;
+    moment += other.moment;
+    power += other.power;
+    return *this;
+  }
+  friend Loads operator+(Loads a, const Loads& b) { return a += b; }
+  Vec<Dim> force() const { return pressure + friction; }
+
+  /// Adds up those of all ranks. Collective.
+  void gather(const Communicator& ranks) {
+    std::array<double, 3 * Dim + Moment<Dim>::RowsAtCompileTime> sums{};
+    Eigen::Map<Vec<Dim>> all_pressure(sums.data());
+    Eigen::Map<Vec<Dim>> all_friction(sums.data() + Dim);
+    Eigen::Map<Moment<Dim>> all_moments(sums.data() + 2 * Dim);
+    all_pressure = pressure;
+    all_friction = friction;
+    all_moments = moment;
+    sums.back() = power;
+    ranks.sum_of_each(sums);
+    pressure = all_pressure;
+    friction = all_friction;
+    moment = all_moments;
+    power = sums.back();
+  }
+};
+
+template <int Dim>
+class WallForceProbe {
+ public:
+  WallForceProbe(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
+      : patches_(make_wall_patches(boundary, longest_patch_edge * spec.particles.spacing)),
+        chosen_(chosen_shares<Dim>(probe, spec, boundary, patches_)),
+        takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
+        about_(to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
+        reach_((1.5 * dummy_layers(spec) + patch_margin) * spec.particles.spacing),
+        paths_(boundary.walls.size()) {
+    for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
+      if (!boundary.walls[wall].moves()) continue;
+      paths_[wall].emplace(spec, spec.walls[wall], wall_label(boundary, static_cast<int>(wall)));
+    }
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      has_power_ = has_power_ || (chosen_[k] > 0.0 && paths_[boundary.faces[patches_[k].face].wall].has_value());
+    }
+  }
+
+  /// Whether one of the chosen walls moves.
+  bool has_power() const { return has_power_; }
+
+  /// Collective.
+  Loads<Dim> read(const ProbeContext<Dim>& context) {
+    TAILWATER_ASSERT(context.wall_forces != nullptr, "the flow finds the forces on its walls");
+    place_patches(context.boundary);
+    const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
+    Loads<Dim> loads = sum_over(context.particles.owned, Loads<Dim>(), [&](std::size_t i) {
+      const Loads<Dim> whole = loads_at(context, i);
+      return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity);
+    });
+    loads.gather(context.ranks);
+    return loads;
+  }
+
+ private:
+  bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
+
+  void place_patches(const Boundary<Dim>& boundary) {
+    const bool rest = std::ranges::none_of(paths_, [](const auto& path) { return path.has_value(); });
+    if (takes_all_and_rests() || (rest && !centres_.empty())) return;
+    centres_.resize(patches_.size());
+    for_each(patches_.size(), [&](std::size_t k) { centres_[k] = patches_[k].centre(boundary); });
+    grid_ = CellGrid<Dim>(centres_, reach_);
+  }
+
+  /// Of each wall: from a place on it to its mean velocity there during the step.
+  std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
+    std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
+    for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
+      if (!paths_[wall] || context.dt == 0.0) continue;
+      const AffineMap<Dim> now = paths_[wall]->at(context.time);
+      const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(context.time - context.dt, context.time);
+      maps[wall].linear = of_drawn.linear * now.linear.transpose();
+      maps[wall].constant = of_drawn.constant - maps[wall].linear * now.constant;
+    }
+    return maps;
+  }
+
+  Moment<Dim> moment(const Vec<Dim>& x, const Vec<Dim>& force) const { return moment_of<Dim>(x - about_, force); }
+
+  /// All that acts through owned particle i. Friction acts on the wall itself, and the arm of the pressure, which is
+  /// across the wall, is the same there.
+  Loads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
+    Loads<Dim> loads;
+    loads.pressure = context.wall_forces->pressure[i];
+    loads.friction = context.wall_forces->friction[i];
+    const Vec<Dim>& x = context.particles.position[i];
+    if (!loads.pressure.isZero(0.0)) loads.moment += moment(x, loads.pressure);
+    if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
+    return loads;
+  }
+
+  Vec<Dim> foot(const ProbeContext<Dim>& context, const Vec<Dim>& x) const {
+    const NearestWall<Dim> wall = context.boundary.nearest(x, reach_);
+    return wall.face < 0 ? x : wall.point;
+  }
+
+  /// The part of the loads through particle i that is this probe's.
+  Loads<Dim> part_of(const Loads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
+                     const std::vector<AffineMap<Dim>>& velocity) const {
+    const Vec<Dim>& x = context.particles.position[i];
+    const std::vector<Share> shares = shares_near(context.boundary, x);
+    Mat<Dim> all_across = Mat<Dim>::Zero();
+    Mat<Dim> all_along = Mat<Dim>::Zero();
+    for (const Share& share : shares) {
+      all_across += share.across;
+      all_along += share.along;
+    }
+    Loads<Dim> loads;
+    if (shares.empty()) return takes_all_ ? whole : loads;
+    const Vec<Dim> pressure = all_across.inverse() * whole.pressure;
+    const Vec<Dim> friction = all_along.inverse() * whole.friction;
+    for (const Share& share : shares) {
+      const double chosen = chosen_[share.patch];
+      if (chosen == 0.0) continue;
+      const Vec<Dim> p = chosen * (share.across * pressure);
+      const Vec<Dim> f = chosen * (share.along * friction);
+      loads.pressure += p;
+      loads.friction += f;
+      const int wall = context.boundary.faces[patches_[share.patch].face].wall;
+      if (paths_[wall]) loads.power -= (p + f).dot(velocity[wall](x));
+    }
+    loads.moment = moment(x, loads.pressure);
+    if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
+    return loads;
+  }
+
+  /// What a patch takes of a force, over what all patches near the particle take: A_k.
+  struct Share {
+    std::int32_t patch;
+    Mat<Dim> across;  ///< of the pressure's
+    Mat<Dim> along;   ///< of friction
+  };
+
+  std::vector<Share> shares_near(const Boundary<Dim>& boundary, const Vec<Dim>& x) const {
+    std::vector<Share> shares;
+    double sum = 0.0;
+    grid_.for_each_near(x, [&](std::int32_t k) {
+      const Vec<Dim> offset = x - centres_[k];
+      const double nearness = 1.0 - offset.norm() / reach_;
+      if (nearness <= 0.0) return;
+      const Vec<Dim>& n = boundary.faces[patches_[k].face].normal;
+      const bool is_behind = n.dot(offset) < 0.0;
+      const double weight = patches_[k].measure * std::pow(nearness, 4) * (is_behind ? 1.0 : weight_in_front);
+      const Mat<Dim> across = n * n.transpose();
+      const Mat<Dim> any = Mat<Dim>::Identity();
+      shares.push_back({k, weight * (across + indifference * any), weight * (any - across + indifference * any)});
+      sum += weight;
+    });
+    for (Share& share : shares) {  // numbers near 1
+      share.across /= sum;
+      share.along /= sum;
+    }
+    return shares;
+  }
+
+  std::vector<WallPatch<Dim>> patches_;
+  std::vector<double> chosen_;  ///< share of each patch
+  bool takes_all_;
+  Vec<Dim> about_;
+  double reach_;                                     ///< m; R
+  std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move
+  bool has_power_ = false;
+  std::vector<Vec<Dim>> centres_;  ///< of the patches, where they are
+  CellGrid<Dim> grid_;             ///< of these
+};
+
+/// Largest and mean force so far, as numbers that a checkpoint keeps.
+template <int Dim>
+struct ForceMemory {
+  std::vector<double>& numbers;
+
+  static constexpr std::size_t count = 4 + Dim;
+  double& last_time() const { return numbers[0]; }        // s
+  double& duration() const { return numbers[1]; }         // s; of the impulse
+  double& largest() const { return numbers[2]; }          // N
+  double& time_of_largest() const { return numbers[3]; }  // s
+  Eigen::Map<Vec<Dim>> impulse() const { return Eigen::Map<Vec<Dim>>(numbers.data() + 4); }
+
+  void add(double time, const Vec<Dim>& force) const {
+    const double since_last = time - last_time();
+    last_time() = time;
+    duration() += since_last;
+    impulse() += since_last * force;
+    if (force.norm() <= largest()) return;
+    largest() = force.norm();
+    time_of_largest() = time;
+  }
+};
+
+constexpr std::array axis_names{"x", "y", "z"};
+
+template <int Dim>
+std::vector<std::string> component_columns(std::string_view what, std::string_view unit) {
+  std::vector<std::string> columns;
+  for (int d = 0; d < Dim; ++d) columns.push_back(fmt::format("{}_{}_{}", what, axis_names[d], unit));
+  return columns;
+}
+
+/// Throws InputError where the forces between particles are not equal and opposite.
+void require_reactions(const ProbeTable& probe, const SchemeTable& scheme) {
+  const auto refuse = [&](std::string_view key, std::string_view value, std::string_view why, std::string_view remedy) {
+    throw InputError(
+        fmt::format("{}: type = \"force\" does not go with scheme.{} = {}: {}; choose {}, or measure with "
+                    "type = \"wall-pressure-mean\"",
+                    label(probe), key, value, why, remedy));
+  };
+  constexpr std::string_view no_reactions = "what a wall does to the water has no equal and opposite force on the wall";
+  if (scheme.gradient == GradientKind::consistent) {
+    refuse("gradient", "\"consistent\"", no_reactions, "\"conservative\"");
+  }
+  if (scheme.laplacian == LaplacianKind::consistent) {
+    refuse("laplacian", "\"consistent\"", no_reactions, "\"morris\"");
+  }
+  if (scheme.name == SchemeName::farzin2014 && scheme.integrator == Integrator::implicit_projection &&
+      scheme.implicit_form == ImplicitForm::repeated && scheme.relax_velocity < 1.0) {
+    refuse("relax_velocity", fmt::format("{}", scheme.relax_velocity),
+           "the velocity keeps shares of the forces of all passes", "1");
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  require_reactions(probe, spec.scheme);
+  const auto walls = std::make_shared<WallForceProbe<Dim>>(probe, spec, boundary);
+  const auto memory = std::make_shared<std::vector<double>>(ForceMemory<Dim>::count, 0.0);
+  const std::string per_width = Dim == 2 ? "_per_m" : "";
+  const std::string newton = "N" + per_width;
+
+  Reading<Dim> reading;
+  for (const std::string_view what : {"force", "pressure", "friction"}) {
+    for (std::string& column : component_columns<Dim>(what, newton)) reading.columns.push_back(std::move(column));
+  }
+  if constexpr (Dim == 2) {
+    reading.columns.emplace_back("moment_N_m_per_m");
+  } else {
+    for (std::string& column : component_columns<3>("moment", "N_m")) reading.columns.push_back(std::move(column));
+  }
+  if (walls->has_power()) reading.columns.push_back("power_to_water_W" + per_width);
+
+  reading.take = [walls, memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
+    const Loads<Dim> loads = walls->read(context);
+    const Vec<Dim> force = loads.force();
+    ForceMemory<Dim>{*memory}.add(context.time, force);
+    Row row;
+    for (const Vec<Dim>& vector : {force, loads.pressure, loads.friction}) {
+      row.insert(row.end(), vector.begin(), vector.end());
+    }
+    row.insert(row.end(), loads.moment.begin(), loads.moment.end());
+    if (walls->has_power()) row.push_back(loads.power);
+    return {row};
+  };
+  reading.memory = memory;
+  reading.summary = [memory, newton] {
+    const ForceMemory<Dim> so_far{*memory};
+    std::vector<std::pair<std::string, double>> lines{{"largest_" + newton, so_far.largest()},
+                                                      {"time_of_largest_s", so_far.time_of_largest()}};
+    const std::vector<std::string> means = component_columns<Dim>("mean", newton);
+    for (int d = 0; d < Dim; ++d) {
+      lines.emplace_back(means[d], so_far.duration() > 0.0 ? so_far.impulse()[d] / so_far.duration() : 0.0);
+    }
+    return lines;
+  };
+  return reading;
+}
+
+template Reading<2> force_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> force_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

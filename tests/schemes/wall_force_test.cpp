@@ -1,0 +1,337 @@
+// Forces on walls: what the water's momentum loses to them, each wall's own part, and the work of those that move.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "flow/verbs.h"
+#include "pressure/verbs.h"
+#include "probes/wall_force.h"
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+/// Relative; what is left of sums of 1e5 forces of pairs, each up to 1e2 times as large as a particle's weight, in
+/// units of the whole weight of 1e2 particles at least: eps 1e5 1e2/1e2, and ten times that.
+constexpr double rounding = 2e-10;
+
+ProbeTable force_probe(Coordinates about, std::vector<std::string> walls = {}) {
+  ProbeTable probe;
+  probe.name = "force";
+  probe.type = ProbeType::force;
+  probe.walls = std::move(walls);
+  probe.moment_about = std::move(about);
+  return probe;
+}
+
+/// What probe `which` of the case reads of the last step.
+template <int Dim>
+class Reader {
+ public:
+  Reader(const CaseSpec& spec, const Flow<Dim>& flow, std::size_t which = 0)
+      : flow_(flow), reading_(force_reading<Dim>(spec.probes[which], spec, flow.walls.boundary)) {}
+
+  Row row(double dt) const {
+    return reading_
+        .take({.particles = flow_.state.particles,
+               .grid = flow_.neighbourhood.grid(),
+               .kernel = flow_.setup.kernel,
+               .boundary = flow_.walls.boundary,
+               .density = flow_.setup.density,
+               .gravity = flow_.setup.gravity,
+               .spacing = flow_.setup.spacing,
+               .time = flow_.state.time,
+               .totals = {},
+               .domain = flow_.setup.domain,
+               .dt = dt,
+               .wall_forces = &flow_.wall_forces})
+        .at(0);
+  }
+  Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>(row(dt).data()); }
+  double power(double dt) const { return row(dt).back(); }
+  const Reading<Dim>& reading() const { return reading_; }
+
+ private:
+  const Flow<Dim>& flow_;
+  Reading<Dim> reading_;
+};
+
+template <int Dim>
+struct Momentum {
+  double mass = 0.0;
+  Vec<Dim> linear = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+Momentum<Dim> momentum_of(const Flow<Dim>& flow) {
+  Momentum<Dim> sum;
+  const Particles<Dim>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const double mass = flow.setup.density * particles.volume[i];
+    sum.mass += mass;
+    sum.linear += mass * particles.velocity[i];
+  }
+  return sum;
+}
+
+/// Whether the last guard has kept water off a wall in this step.
+template <int Dim>
+bool has_contact(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  return count_each(particles.owned, [&](std::size_t i) {
+           return particles.is_fluid(i) && !flow.wall_forces.pressure[i].isZero(0.0);
+         }) > 0;
+}
+
+struct Scheme {
+  const char* name;
+  void (*choose)(CaseSpec& spec);
+};
+
+std::ostream& operator<<(std::ostream& out, const Scheme& scheme) { return out << scheme.name; }
+
+const Scheme schemes[] = {
+    {"explicit", [](CaseSpec& spec) { spec.scheme.integrator = Integrator::explicit_projection; }},
+    {"implicit", [](CaseSpec& spec) { spec.scheme.integrator = Integrator::implicit_projection; }},
+    {"repeated",
+     [](CaseSpec& spec) {
+       spec.scheme.integrator = Integrator::implicit_projection;
+       spec.scheme.implicit_form = ImplicitForm::repeated;
+     }},
+    {"two_step",
+     [](CaseSpec& spec) {
+       spec.scheme.name = SchemeName::farmani2020;
+       apply_formulation(spec.scheme);
+     }},
+    {"two_step_as_published",
+     [](CaseSpec& spec) {
+       spec.scheme.name = SchemeName::farmani2020;
+       spec.scheme.formulation = Formulation::published;
+       apply_formulation(spec.scheme);
+     }},
+    {"pressure_rows", [](CaseSpec& spec) { spec.scheme.walls = WallTreatment::pressure_rows; }},
+};
+
+class WallForce : public testing::TestWithParam<Scheme> {};
+
+/// Water that falls onto the bed of its tank, slides along and rises at the walls.
+template <int Dim>
+void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, double depth, int steps) {
+  CaseSpec spec = tank_case<Dim>(dx, width, depth);
+  spec.walls[0].slip = Slip::no_slip;
+  spec.fluid[0].velocity = VectorField(Dim, 0.0);
+  spec.fluid[0].velocity[0] = 0.6;
+  spec.fluid[0].velocity[Dim - 1] = -1.5;
+  scheme.choose(spec);
+  spec.probes = {force_probe(Coordinates(Dim, 0.0))};
+  Flow<Dim> flow(spec);
+  const Reader<Dim> probe(spec, flow);
+  Vec<Dim> largest = Vec<Dim>::Zero();
+  bool any_contact = false;
+  for (int n = 0; n < steps; ++n) {
+    const Momentum<Dim> before = momentum_of(flow);
+    const double dt = step(flow).dt;
+    const Momentum<Dim> after = momentum_of(flow);
+    const Vec<Dim> force = probe.force(dt);
+    const Vec<Dim> lost = after.mass * flow.setup.gravity - (after.linear - before.linear) / dt;
+    const double scale = std::max(after.mass * g, force.norm());
+    ASSERT_LE((force - lost).norm(), rounding * scale) << "step " << n << ": " << force.transpose();
+    largest = largest.cwiseMax(force.cwiseAbs());
+    any_contact = any_contact || has_contact(flow);
+  }
+  // The balance is of something: the walls stop the water.
+  EXPECT_GT(largest[Dim - 1], 2.0 * momentum_of(flow).mass * g);
+  EXPECT_GT(largest[0], 0.1 * momentum_of(flow).mass * g);
+  // Water does not come near a wall that has a row of its equation's particles on it.
+  EXPECT_EQ(any_contact, spec.scheme.walls != WallTreatment::row_and_dummies);
+}
+
+TEST_P(WallForce, IsWhatTheMomentumLosesInATank) { expect_balance_of_momentum<2>(GetParam(), 0.05, 1.0, 0.4, 40); }
+
+INSTANTIATE_TEST_SUITE_P(Schemes, WallForce, testing::ValuesIn(schemes),
+                         [](const auto& chosen) { return std::string(chosen.param.name); });
+
+TEST(WallForce3D, IsWhatTheMomentumLosesInASmallBox) {
+  for (const int k : {0, 1}) expect_balance_of_momentum<3>(schemes[k], 0.1, 0.6, 0.4, 12);
+}
+
+/// Three walls of a tank, and the water in it.
+CaseSpec tank_of_three_walls(double dx, double width, double depth) {
+  CaseSpec spec = tank_case<2>(dx, width, depth);
+  const double high = 2.0 * depth;
+  const std::vector<std::pair<std::string, std::vector<Coordinates>>> chains{{"left", {{0.0, high}, {0.0, 0.0}}},
+                                                                             {"bed", {{0.0, 0.0}, {width, 0.0}}},
+                                                                             {"right", {{width, 0.0}, {width, high}}}};
+  spec.walls.clear();
+  for (const auto& [name, points] : chains) {
+    WallTable wall;
+    wall.name = name;
+    wall.points = points;
+    wall.slip = Slip::no_slip;
+    spec.walls.push_back(wall);
+  }
+  return spec;
+}
+
+TEST(WallForceParts, AddUpToTheWholeAndMomentsToo) {
+  CaseSpec spec = tank_of_three_walls(0.05, 1.0, 0.4);
+  spec.fluid[0].velocity = {0.5, -0.5};
+  const Coordinates about{0.3, 0.2};
+  spec.probes = {force_probe(about)};
+  for (const WallTable& wall : spec.walls) spec.probes.push_back(force_probe(about, {wall.name}));
+  // The bed again, in two parts whose border no patch respects.
+  for (const bool is_left : {true, false}) {
+    ProbeTable part = force_probe(about, {"bed"});
+    part.region_min = {is_left ? -0.1 : 0.437, -0.1};
+    part.region_max = {is_left ? 0.437 : 1.1, 0.1};
+    spec.probes.push_back(part);
+  }
+  Flow<2> flow(spec);
+  for (int n = 0; n < 5; ++n) step(flow);
+  const auto row = [&](std::size_t probe) { return Reader<2>(spec, flow, probe).row(0.0); };
+  const Row whole = row(0);
+  const Row left = row(1), bed = row(2), right = row(3), bed_left = row(4), bed_right = row(5);
+  ASSERT_EQ(whole.size(), 7u);
+  const double scale = Vec<2>(whole.data()).norm();
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    EXPECT_NEAR(left[k] + bed[k] + right[k], whole[k], rounding * scale) << k;
+    EXPECT_NEAR(bed_left[k] + bed_right[k], bed[k], rounding * scale) << k;
+  }
+  for (const std::size_t k : {0, 1}) EXPECT_NEAR(whole[2 + k] + whole[4 + k], whole[k], rounding * scale) << k;
+  EXPECT_NE(whole[4], 0.0);  // friction
+}
+
+/// Every wall of a full box takes p times its length, whatever its neighbours: what acts through the wall particles
+/// behind a corner, p <r>/pi in each direction (docs/theory/probes.md), goes to the wall across which it acts. The rest
+/// is the kernel's quadrature, 0.0125 at most (its error of the first moment of a lattice), and e of what acts behind
+/// both corners.
+TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
+  const double dx = 0.1;
+  const double width = 1.0;
+  const double p = 3000.0;
+  CaseSpec spec = tank_of_three_walls(dx, width, width);
+  WallTable lid;
+  lid.name = "lid";
+  lid.points = {{width, width}, {0.0, width}};
+  spec.walls[0].points[0][1] = spec.walls[2].points[1][1] = width;
+  spec.walls.push_back(lid);
+  const Coordinates about{0.0, 0.0};
+  for (const WallTable& wall : spec.walls) spec.probes.push_back(force_probe(about, {wall.name}));
+  Flow<2> flow(spec);
+  locate(flow);
+  flow.wall_forces.reset(flow.state.particles.owned);
+  add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
+  const Vec<2> outwards[] = {{-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}};
+  for (std::size_t wall = 0; wall < 4; ++wall) {
+    const Reader<2> probe(spec, flow, wall);
+    const Vec<2> expected = p * width * outwards[wall];
+    EXPECT_LE((probe.force() - expected).norm(), 0.0125 * p * width) << spec.walls[wall].name;
+    // In the middle of its wall, about a corner of the box.
+    const double arm = wall == 0 || wall == 3 ? 0.5 * width : -0.5 * width;
+    EXPECT_NEAR(probe.row(0.0)[6], p * width * arm, 0.0125 * p * width * width) << spec.walls[wall].name;
+  }
+}
+
+/// A cylinder or a square on its edge, 20 dx across, in water at rest: the weight of the water it displaces.
+void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
+  const double dx = 0.05;
+  CaseSpec spec = tank_case<2>(dx, 36.0 * dx, 36.0 * dx);
+  WallTable body;
+  body.name = "body";
+  body.shape = WallShape::polygon;
+  body.points = outline;
+  body.fluid_side = FluidSide::outside;
+  spec.walls.push_back(body);
+  spec.probes = {force_probe({0.0, 0.0}, {"body"}), force_probe({0.0, 0.0})};
+  Flow<2> flow(spec);
+  const Reader<2> on_body(spec, flow, 0);
+  const Reader<2> on_all(spec, flow, 1);
+  double impulse = 0.0;
+  double mean_all = 0.0;
+  Vec<2> mean = Vec<2>::Zero();
+  for (int n = 0; n < 60; ++n) {
+    const double dt = step(flow).dt;
+    impulse += dt;
+    mean += dt * on_body.force(dt);
+    mean_all += dt * on_all.force(dt)[1];
+  }
+  mean /= impulse;
+  const double weight = flow.setup.density * g * area;
+  EXPECT_NEAR(mean[1], weight, 0.01 * weight);
+  EXPECT_NEAR(mean[0], 0.0, 0.01 * weight);
+  // All walls carry the water.
+  EXPECT_NEAR(-mean_all / impulse, momentum_of(flow).mass * g, 0.01 * weight);
+}
+
+TEST(Buoyancy, OfACylinder) {
+  std::vector<Coordinates> outline;
+  constexpr int corners = 120;
+  const double radius = 0.5;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / corners;
+    outline.push_back({0.9 + radius * std::cos(angle), 0.85 + radius * std::sin(angle)});
+  }
+  expect_buoyancy(outline, 0.5 * corners * radius * radius * std::sin(2.0 * std::numbers::pi / corners));
+}
+
+TEST(Buoyancy, OfATiltedSquare) {
+  std::vector<Coordinates> outline;
+  const double half = 0.5;
+  const double tilt = 0.4;
+  for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}}) {
+    outline.push_back({0.9 + x * std::cos(tilt) - y * std::sin(tilt), 0.85 + x * std::sin(tilt) + y * std::cos(tilt)});
+  }
+  expect_buoyancy(outline, 4.0 * half * half);
+}
+
+/// A piston pushes the water of a tank together. What it gives is the rise of the energy and what the water loses,
+/// which the books of the viscosity say.
+TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
+  const double dx = 0.05;
+  CaseSpec spec = tank_of_three_walls(dx, 1.0, 0.5);
+  spec.walls[0].displacement = {"0.1*(1 - cos(pi*clamp(t/2, 0, 1)))", 0.0};
+  spec.walls[0].slip = Slip::free;
+  spec.walls[1].points[0][0] = -0.3;
+  spec.probes = {force_probe({0.0, 0.0}, {"left"})};
+  Flow<2> flow(spec);
+  const Reader<2> probe(spec, flow);
+  const double start = fluid_sums_of_rank(flow).energy;
+  double work = 0.0;
+  double booked = 0.0;
+  double lost = 0.0;
+  while (flow.state.time < 2.0) {
+    const StepReport report = step(flow);
+    work += report.dt * probe.power(report.dt);
+    booked += report.work.walls;
+    lost -= report.work.viscous;
+  }
+  const double rise = fluid_sums_of_rank(flow).energy - start;
+  EXPECT_GT(rise, 50.0);
+  EXPECT_NEAR(work, rise + lost, 0.05 * rise);
+  // The books leave out what acts through the bed's particles below the piston.
+  EXPECT_NEAR(work, booked, 0.1 * rise);
+}
+
+TEST(WallForceRefuses, SchemesWithoutReactions) {
+  CaseSpec spec = tank_case<2>(0.1, 1.0, 0.5);
+  spec.probes = {force_probe({0.0, 0.0})};
+  spec.scheme.gradient = GradientKind::consistent;
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  try {
+    force_reading<2>(spec.probes[0], spec, boundary);
+    FAIL() << "the consistent gradient has no reactions";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    for (const char* part : {"probe 'force'", "scheme.gradient", "\"conservative\""}) {
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
