@@ -37,7 +37,7 @@ class EndFlowCheck {
     look_at_values("velocity", "m/s", end_.flow.velocity);
     look_at_values("level", "m", end_.flow.level);
     if (findings_.empty()) follow();
-    append(findings_, warnings_);
+    if (findings_.empty()) look_at_thinness();
     return std::move(findings_);
   }
 
@@ -120,13 +120,19 @@ class EndFlowCheck {
           "m, and the opening is {:.4g} m high: make it higher, or let less enter ({}); a supercritical flow needs "
           "its level too",
           label_, time, critical, end_.height, unit_hint);
-    } else if (critical > 0.0 && critical < dx_ && !has_warned_) {
-      has_warned_ = true;
-      warnings_.push_back(Finding::warning(
-          "{}: at t = {:.6g} s the flow is critical at a depth of {:.3g} m, less than the spacing of {:.3g} "
-          "m: where nothing dams it, it enters one spacing deep and slower; use a smaller spacing",
-          label_, time, critical, dx_));
     }
+  }
+
+  /// A discharge may begin and end at 0: only one that never makes a row of particles is told.
+  void look_at_thinness() {
+    if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_) return;
+    const double critical = end_.largest_depth(last_);
+    if (critical == 0.0 || critical >= dx_) return;
+    findings_.push_back(
+        Finding::warning("{}: the flow is critical at a depth of {:.3g} m at most, less than the spacing of {:.3g} m: "
+                         "where nothing dams "
+                         "it, it enters one spacing deep and slower; use a smaller spacing",
+                         label_, critical, dx_));
   }
 
   void look_at_level(double time, double level) {
@@ -164,9 +170,7 @@ class EndFlowCheck {
   double dx_, last_;
   double crossing_;  ///< s; of a wave, of the end stretch
   bool has_lid_;
-  bool has_warned_ = false;
   Findings findings_;
-  Findings warnings_;
 };
 
 }  // namespace
