@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 #include "pressure/operators.h"
 #include "pressure/verbs.h"
 

@@ -223,10 +223,10 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .volume_in = measures.arrived.volume,
                              .section_volumes = flow.state.section_volumes},
                   .ranks = ranks_,
+                  .wall_of_row = flow.walls.particles.wall,
                   .domain = flow.setup.domain,
                   .dt = dt,
-                  .wall_forces = &flow.wall_forces,
-                  .wall_of_row = flow.walls.particles.wall});
+                  .wall_forces = &flow.wall_forces});
 }
 
 template <int Dim>
