@@ -37,7 +37,9 @@ class CaseWriter {
  private:
   void write(std::string_view name, const std::vector<KeyInfo>& rows) {
     for (const KeyInfo& row : rows) {
-      if (key_verdict(name, row.key, rows).need != KeyNeed::unused) {
+      // Places that are not given have no default; the reader takes a key without numbers for a mistake.
+      const bool has_value = row.value != "[]" || (row.type != "vector" && row.type != "points");
+      if (has_value && key_verdict(name, row.key, rows).need != KeyNeed::unused) {
         const std::string unit = row.unit.empty() ? "" : fmt::format("{}: ", row.unit);
         text_ += fmt::format("{} = {}  # {}{}\n", row.key, row.value, unit, row.doc);
       }

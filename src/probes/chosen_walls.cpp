@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// dx; the part of a patch in a region is found from pieces of this size.
-constexpr double longest_piece_edge = 0.2;
+constexpr double longest_piece_edge = 0.4;
 
 /// By wall, whether the probe names it.
 template <int Dim>

@@ -63,6 +63,15 @@ TEST(EffectiveCase, InThreeDimensionsReadsBack) {
                     "[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [0.5, 0.5, 0]\n");
 }
 
+TEST(EffectiveCase, OfAProbeWithAndWithoutARegionIsReadAgain) {
+  const std::string force = "[[probe]]\nname = \"f\"\ntype = \"force\"\nmoment_about = [0, 0]\n";
+  const std::string map = "[[probe]]\nname = \"m\"\ntype = \"pressure-map\"\n";
+  for (const std::string region : {"", "walls = [\"bed\"]\n", "region_min = [0, 0]\nregion_max = [1, 1]\n",
+                                   "region_points = [[0, 0], [1, 0], [1, 1]]\n"}) {
+    expect_round_trip(required_keys + water + force + region + map + region);
+  }
+}
+
 TEST(EffectiveCase, SaysUnitAndMeaning) {
   const std::string written = effective_case(read_text(required_keys + water));
   EXPECT_NE(written.find("spacing = 0.1  # m: Distance dx between"), std::string::npos) << written;
