@@ -153,150 +153,153 @@ class MotionFile : public testing::Test {
     }
     ADD_FAILURE() << "no InputError for\n" << text;
     return {};
+  }
 
-    const std::string inlet_case =
-        required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\nfile = \"hydrograph.csv\"\n";
+  CaseFile file_;
+};
 
-    class Hydrograph : public testing::Test {
-     protected:
-      explicit Hydrograph(const std::string& text = inlet_case) : file_(text) {}
+const std::string inlet_case =
+    required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\nfile = \"hydrograph.csv\"\n";
 
-      void write(const std::string& text) const { std::ofstream(path()) << text; }
-      std::filesystem::path path() const { return file_.path().parent_path() / "hydrograph.csv"; }
+class Hydrograph : public testing::Test {
+ protected:
+  explicit Hydrograph(const std::string& text = inlet_case) : file_(text) {}
 
-      std::string message(const std::string& text) const {
-        write(text);
-        try {
-          read_case(file_.path());
-        } catch (const InputError& error) {
-          return error.what();
-        }
-        ADD_FAILURE() << "no InputError for\n" << text;
-        return {};
-      }
+  void write(const std::string& text) const { std::ofstream(path()) << text; }
+  std::filesystem::path path() const { return file_.path().parent_path() / "hydrograph.csv"; }
 
-      CaseFile file_;
-    };
-
-    TEST_F(MotionFile, IsReadWithAnyUnitAndOrderOfColumns) {
-      for (const char* text : {
-               "t,x,angle [rad]\n-1,0.5,0\n0,0.25,-0.5\n2,0,0.5\n",
-               "# encoder 3\nangle [rad]; time [ms]; X [mm]\n0;-1000;500\n\n-0.5;0;250\n5e-1;2000;0\n",
-           }) {
-        write(text);
-        const TimeSeries series = read_case(file_.path()).walls[0].series;
-        EXPECT_EQ(series.time, (std::vector<double>{-1.0, 0.0, 2.0})) << text;
-        ASSERT_EQ(series.columns.size(), 4u);
-        EXPECT_EQ(series.columns[0], (std::vector<double>{0.5, 0.25, 0.0})) << text;
-        EXPECT_TRUE(series.columns[1].empty() && series.columns[2].empty()) << text;
-        EXPECT_EQ(series.columns[3], (std::vector<double>{0.0, -0.5, 0.5})) << text;
-      }
-      write("t [min], angle [deg]\n0, 0\n1, 180\n");
-      EXPECT_DOUBLE_EQ(read_case(file_.path()).walls[0].series.time.back(), 60.0);
-      EXPECT_DOUBLE_EQ(read_case(file_.path()).walls[0].series.columns[3].back(), std::numbers::pi);
+  std::string message(const std::string& text) const {
+    write(text);
+    try {
+      read_case(file_.path());
+    } catch (const InputError& error) {
+      return error.what();
     }
+    ADD_FAILURE() << "no InputError for\n" << text;
+    return {};
+  }
 
-    TEST_F(MotionFile, IsRefusedWithPlaceAndRemedy) {
-      struct Bad {
-        std::string text, place;
-        std::vector<std::string> words;
-      };
-      for (const Bad& bad : {
-               Bad{"", "roll.csv:0", {"has 0 lines", "at least two"}},
-               Bad{"t,x\n0,0\n", "roll.csv:2", {"has 1 lines", "at least two"}},
-               Bad{"0,0\n1,0\n", "roll.csv:1", {"has numbers", "t [s], x [m], y [m], z [m], angle [deg]"}},
-               Bad{"x,y\n0,0\n1,0\n", "roll.csv:1", {"does not name the column t"}},
-               Bad{"t\n0\n1\n", "roll.csv:1", {"does not name any column but t"}},
-               Bad{"t,x,x\n0,0,0\n1,0,0\n", "roll.csv:1", {"\"x\" twice", "keep one"}},
-               Bad{"t,q\n0,0\n1,0\n", "roll.csv:1", {"a column \"q\"", "correct its name"}},
-               Bad{"t,x [l]\n0,0\n1,0\n", "roll.csv:1", {"unknown unit \"l\"", "m, mm, cm, km or ft"}},
-               Bad{"t [d],x\n0,0\n1,0\n", "roll.csv:1", {"unknown unit \"d\"", "s, ms, min or h"}},
-               Bad{"t,angle\n0,0\n1,0\n", "roll.csv:1", {"has no unit", "angle [rad] or angle [deg]"}},
-               Bad{"t,x\n0,0\n1,nan\n", "roll.csv:3", {"nan is no finite value"}},
-               Bad{"t,x\n0,0\nnan,0\n", "roll.csv:3", {"nan is no finite time"}},
-               Bad{"t,x\n0,0\n1,a\n", "roll.csv:3", {"\"a\" is not a number"}},
-               Bad{"t,x\n0,0\n1\n", "roll.csv:3", {"has 1 columns"}},
-               Bad{"t,x\n0,0\n2,0\n\n1,0\n", "roll.csv:5", {"1 s, is not after that of line 3, 2 s"}},
-               Bad{"t,x\n0,0\n0,1\n", "roll.csv:3", {"keep one of two with the same time"}},
-               Bad{"t,x\n0.5,0\n2,0\n", "roll.csv:2", {"begins at t = 0.5 s", "add a line for t = 0"}},
-               Bad{"t,x\n0,0\n0.9,0\n", "roll.csv:3", {"t = 0.9 s", "the run ends at 1 s", "the last values again"}},
-               Bad{"t,z\n0,0\n2,0\n", "roll.csv", {"column z", "case.dimension = 2"}},
-           }) {
-        const std::string message = this->message(bad.text);
-        const std::string key = "case.toml:9:10: wall[0].motion = \"roll.csv\": ";
-        EXPECT_NE(message.find(key), std::string::npos) << bad.text << message;
-        EXPECT_NE(message.find(bad.place), std::string::npos) << bad.text << message;
-        for (const std::string& word : bad.words)
-          EXPECT_NE(message.find(word), std::string::npos) << bad.text << message;
-      }
-      std::filesystem::remove(motion());
-      EXPECT_THROW(read_case(file_.path()), InputError);
-    }
+  CaseFile file_;
+};
 
-    TEST_F(MotionFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
-      write("t,x\n0,0\n1,0.5\n");
-      const CaseSpec spec = read_case(file_.path());
-      EXPECT_EQ(spec.walls[0].motion, motion().string());
-      const std::string written = effective_case(spec);
-      EXPECT_EQ(read_case_text(written, "run"), spec);
-      write("t,x\n0,0\n1,0.6\n");
-      try {
-        read_case_text(written, "run");
-        ADD_FAILURE() << "a changed file was taken";
-      } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("has changed"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("without motion_checksum"), std::string::npos) << error.what();
-      }
-    }
+TEST_F(MotionFile, IsReadWithAnyUnitAndOrderOfColumns) {
+  for (const char* text : {
+           "t,x,angle [rad]\n-1,0.5,0\n0,0.25,-0.5\n2,0,0.5\n",
+           "# encoder 3\nangle [rad]; time [ms]; X [mm]\n0;-1000;500\n\n-0.5;0;250\n5e-1;2000;0\n",
+       }) {
+    write(text);
+    const TimeSeries series = read_case(file_.path()).walls[0].series;
+    EXPECT_EQ(series.time, (std::vector<double>{-1.0, 0.0, 2.0})) << text;
+    ASSERT_EQ(series.columns.size(), 4u);
+    EXPECT_EQ(series.columns[0], (std::vector<double>{0.5, 0.25, 0.0})) << text;
+    EXPECT_TRUE(series.columns[1].empty() && series.columns[2].empty()) << text;
+    EXPECT_EQ(series.columns[3], (std::vector<double>{0.0, -0.5, 0.5})) << text;
+  }
+  write("t [min], angle [deg]\n0, 0\n1, 180\n");
+  EXPECT_DOUBLE_EQ(read_case(file_.path()).walls[0].series.time.back(), 60.0);
+  EXPECT_DOUBLE_EQ(read_case(file_.path()).walls[0].series.columns[3].back(), std::numbers::pi);
+}
 
-    TEST_F(MotionFile, ExcludesOtherMotionsOfTheWall) {
-      write("t,x\n0,0\n1,0.5\n");
-      const std::string message = message_of(rolled_case + "rotation = \"t\"\n");
-      EXPECT_NE(message.find("wall[0].rotation"), std::string::npos) << message;
-      EXPECT_NE(message.find("remove one of the two keys"), std::string::npos) << message;
-    }
+TEST_F(MotionFile, IsRefusedWithPlaceAndRemedy) {
+  struct Bad {
+    std::string text, place;
+    std::vector<std::string> words;
+  };
+  for (const Bad& bad : {
+           Bad{"", "roll.csv:0", {"has 0 lines", "at least two"}},
+           Bad{"t,x\n0,0\n", "roll.csv:2", {"has 1 lines", "at least two"}},
+           Bad{"0,0\n1,0\n", "roll.csv:1", {"has numbers", "t [s], x [m], y [m], z [m], angle [deg]"}},
+           Bad{"x,y\n0,0\n1,0\n", "roll.csv:1", {"does not name the column t"}},
+           Bad{"t\n0\n1\n", "roll.csv:1", {"does not name any column but t"}},
+           Bad{"t,x,x\n0,0,0\n1,0,0\n", "roll.csv:1", {"\"x\" twice", "keep one"}},
+           Bad{"t,q\n0,0\n1,0\n", "roll.csv:1", {"a column \"q\"", "correct its name"}},
+           Bad{"t,x [l]\n0,0\n1,0\n", "roll.csv:1", {"unknown unit \"l\"", "m, mm, cm, km or ft"}},
+           Bad{"t [d],x\n0,0\n1,0\n", "roll.csv:1", {"unknown unit \"d\"", "s, ms, min or h"}},
+           Bad{"t,angle\n0,0\n1,0\n", "roll.csv:1", {"has no unit", "angle [rad] or angle [deg]"}},
+           Bad{"t,x\n0,0\n1,nan\n", "roll.csv:3", {"nan is no finite value"}},
+           Bad{"t,x\n0,0\nnan,0\n", "roll.csv:3", {"nan is no finite time"}},
+           Bad{"t,x\n0,0\n1,a\n", "roll.csv:3", {"\"a\" is not a number"}},
+           Bad{"t,x\n0,0\n1\n", "roll.csv:3", {"has 1 columns"}},
+           Bad{"t,x\n0,0\n2,0\n\n1,0\n", "roll.csv:5", {"1 s, is not after that of line 3, 2 s"}},
+           Bad{"t,x\n0,0\n0,1\n", "roll.csv:3", {"keep one of two with the same time"}},
+           Bad{"t,x\n0.5,0\n2,0\n", "roll.csv:2", {"begins at t = 0.5 s", "add a line for t = 0"}},
+           Bad{"t,x\n0,0\n0.9,0\n", "roll.csv:3", {"t = 0.9 s", "the run ends at 1 s", "the last values again"}},
+           Bad{"t,z\n0,0\n2,0\n", "roll.csv", {"column z", "case.dimension = 2"}},
+       }) {
+    const std::string message = this->message(bad.text);
+    const std::string key = "case.toml:9:10: wall[0].motion = \"roll.csv\": ";
+    EXPECT_NE(message.find(key), std::string::npos) << bad.text << message;
+    EXPECT_NE(message.find(bad.place), std::string::npos) << bad.text << message;
+    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << bad.text << message;
+  }
+  std::filesystem::remove(motion());
+  EXPECT_THROW(read_case(file_.path()), InputError);
+}
 
-    TEST_F(Hydrograph, IsReadWithUnits) {
-      write("# gauging station\nlevel [cm]; Time (min); Discharge_l/s\n50; 0; 20\n40; 0.5; 35\n");
-      const TimeSeries series = read_case(file_.path()).inlets[0].series;
-      EXPECT_EQ(series.time, (std::vector<double>{0.0, 30.0}));
-      ASSERT_EQ(series.columns.size(), 3u);
-      EXPECT_DOUBLE_EQ(series.columns[0].at(1), 0.035);
-      EXPECT_TRUE(series.columns[1].empty()) << "no velocity";
-      EXPECT_DOUBLE_EQ(series.columns[2].at(0), 0.5);
-    }
+TEST_F(MotionFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
+  write("t,x\n0,0\n1,0.5\n");
+  const CaseSpec spec = read_case(file_.path());
+  EXPECT_EQ(spec.walls[0].motion, motion().string());
+  const std::string written = effective_case(spec);
+  EXPECT_EQ(read_case_text(written, "run"), spec);
+  write("t,x\n0,0\n1,0.6\n");
+  try {
+    read_case_text(written, "run");
+    ADD_FAILURE() << "a changed file was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has changed"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("without motion_checksum"), std::string::npos) << error.what();
+  }
+}
 
-    TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
-      struct Bad {
-        std::string text, line;
-        std::vector<std::string> words;
-      };
-      const std::string head = "t [s], discharge [m^3/s]\n";
-      for (const Bad& bad : {
-               Bad{"0, 1\n1, 2\n", "hydrograph.csv:1", {"columns must be named", "t [s], discharge [m^3/s]"}},
-               Bad{"t [s], discharge\n0, 1\n", "hydrograph.csv:1", {"has no unit", "discharge [m^3/s]"}},
-               Bad{"t [s], discharge [gal/s]\n0, 1\n", "hydrograph.csv:1", {"unknown unit \"gal/s\"", "l/s"}},
-               Bad{head + "0, 1\n", "hydrograph.csv:2", {"at least two"}},
-               Bad{head + "0, 1\n2, 1\n1, 1\n", "hydrograph.csv:4", {"is not after that of line 3", "order of time"}},
-               Bad{head + "0, 1\n0, 2\n", "hydrograph.csv:3", {"is not after that of line 2", "keep one of two"}},
-               Bad{head + "0, nan\n1, 2\n", "hydrograph.csv:2", {"nan is no finite value"}},
-               Bad{head + "0, 1\n1\n", "hydrograph.csv:3", {"complete the line"}},
-           }) {
-        const std::string message = this->message(bad.text);
-        EXPECT_NE(message.find("inlet[0].file = \"hydrograph.csv\": "), std::string::npos) << message;
-        EXPECT_NE(message.find(bad.line), std::string::npos) << message;
-        for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
-      }
-    }
+TEST_F(MotionFile, ExcludesOtherMotionsOfTheWall) {
+  write("t,x\n0,0\n1,0.5\n");
+  const std::string message = message_of(rolled_case + "rotation = \"t\"\n");
+  EXPECT_NE(message.find("wall[0].rotation"), std::string::npos) << message;
+  EXPECT_NE(message.find("remove one of the two keys"), std::string::npos) << message;
+}
 
-    /// The case that a run leaves names the file with its folder and checksum.
-    TEST_F(Hydrograph, OfTheEffectiveCaseMustNotChange) {
-      write("t [s], discharge [l/s]\n0, 20\n1, 30\n");
-      const CaseSpec spec = read_case(file_.path());
-      EXPECT_EQ(read_case_text(effective_case(spec), "effective"), spec);
-      write("t [s], discharge [l/s]\n0, 20\n1, 31\n");
-      EXPECT_THROW(read_case_text(effective_case(spec), "effective"), InputError);
-    }
+TEST_F(Hydrograph, IsReadWithUnits) {
+  write("# gauging station\nlevel [cm]; Time (min); Discharge_l/s\n50; 0; 20\n40; 0.5; 35\n");
+  const TimeSeries series = read_case(file_.path()).inlets[0].series;
+  EXPECT_EQ(series.time, (std::vector<double>{0.0, 30.0}));
+  ASSERT_EQ(series.columns.size(), 3u);
+  EXPECT_DOUBLE_EQ(series.columns[0].at(1), 0.035);
+  EXPECT_TRUE(series.columns[1].empty()) << "no velocity";
+  EXPECT_DOUBLE_EQ(series.columns[2].at(0), 0.5);
+}
 
-  }  // namespace
+TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
+  struct Bad {
+    std::string text, line;
+    std::vector<std::string> words;
+  };
+  const std::string head = "t [s], discharge [m^3/s]\n";
+  for (const Bad& bad : {
+           Bad{"0, 1\n1, 2\n", "hydrograph.csv:1", {"columns must be named", "t [s], discharge [m^3/s]"}},
+           Bad{"t [s], discharge\n0, 1\n", "hydrograph.csv:1", {"has no unit", "discharge [m^3/s]"}},
+           Bad{"t [s], discharge [gal/s]\n0, 1\n", "hydrograph.csv:1", {"unknown unit \"gal/s\"", "l/s"}},
+           Bad{head + "0, 1\n", "hydrograph.csv:2", {"at least two"}},
+           Bad{head + "0, 1\n2, 1\n1, 1\n", "hydrograph.csv:4", {"is not after that of line 3", "order of time"}},
+           Bad{head + "0, 1\n0, 2\n", "hydrograph.csv:3", {"is not after that of line 2", "keep one of two"}},
+           Bad{head + "0, nan\n1, 2\n", "hydrograph.csv:2", {"nan is no finite value"}},
+           Bad{head + "0, 1\n1\n", "hydrograph.csv:3", {"complete the line"}},
+       }) {
+    const std::string message = this->message(bad.text);
+    EXPECT_NE(message.find("inlet[0].file = \"hydrograph.csv\": "), std::string::npos) << message;
+    EXPECT_NE(message.find(bad.line), std::string::npos) << message;
+    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+}
+
+/// The case that a run leaves names the file with its folder and checksum.
+TEST_F(Hydrograph, OfTheEffectiveCaseMustNotChange) {
+  write("t [s], discharge [l/s]\n0, 20\n1, 30\n");
+  const CaseSpec spec = read_case(file_.path());
+  EXPECT_EQ(read_case_text(effective_case(spec), "effective"), spec);
+  write("t [s], discharge [l/s]\n0, 20\n1, 31\n");
+  EXPECT_THROW(read_case_text(effective_case(spec), "effective"), InputError);
+}
+
+}  // namespace
 }  // namespace tailwater
