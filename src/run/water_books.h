@@ -23,8 +23,9 @@ struct Water {
 template <int Dim>
 Water water_in(const Flow<Dim>& flow);
 
-/// The part of it that has left the walls for good, over all ranks: it is beyond the box around walls and open ends, and
-/// does not fall back into it along gravity. Water on its way out through an open end does not belong to it. Collective.
+/// The part of it that has left the walls for good, over all ranks: it is beyond the box around walls and open ends,
+/// and does not fall back into it along gravity. Water on its way out through an open end does not belong to it.
+/// Collective.
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow);
 

@@ -83,8 +83,9 @@ class BitForBit(Resumed):
                 self.assertNotEqual(self.summary(f"part{k}")["warnings"], [])
                 self.call("resume", f"part{k}", "--set", WHOLE, "--quiet")
                 assert_same_results(self, f"part{k}", f"whole{k}")
-        balance = self.summary("whole1")["water_balance"]
-        self.assertGreater(balance["out"]["particles"], 0)
+        for part, end in (("out", "outlet"), ("in", "inlet")):
+            k = next(k for k, feature in enumerate(FEATURES) if f"an {end}" in feature)
+            self.assertGreater(self.summary(f"whole{k}")["water_balance"][part]["particles"], 0)
         # A run that is done is done again.
         self.call("resume", "part0", "--quiet")
         assert_same_results(self, "part0", "whole0")
@@ -234,7 +235,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 1", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 2", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")
