@@ -155,8 +155,11 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
     try {
       return std::make_unique<Run<Dim>>(spec, options, ranks, std::move(read));
     } catch (const nlohmann::json::exception& error) {
-      throw IoError(fmt::format("the checkpoint in '{}' does not say how far the output had come: {}",
-                                options.out.string(), error.what()));
+      if (checkpoint == nullptr) throw;
+      throw IoError(
+          fmt::format("checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from "
+                      "the one before",
+                      checkpoint->path.string(), error.what()));
     }
   };
   return make_run()->execute();
