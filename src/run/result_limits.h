@@ -36,7 +36,8 @@ class ResultLimits {
 
   Limit energy_;
   Limit volume_;
-  double potential_scale_;  ///< J
+  double volume_at_start_;  ///< m^Dim
+  double potential_scale_;  ///< J/m^Dim; of water L/2 above the ground
 };
 
 }  // namespace tailwater
