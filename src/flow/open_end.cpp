@@ -189,8 +189,10 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   for (std::size_t cell = 0; cell < free.size(); ++cell) {
     const double way = std::min(free[cell] - spacing, farthest_entry * spacing);
     if (way < 0.0) continue;
-    const double z = (static_cast<double>(cell / end.columns) + 0.5) * row_height;
-    const double y = (static_cast<double>(cell % end.columns) + 0.5) * column_width;
+    const std::size_t row = cell / static_cast<std::size_t>(end.columns);
+    const std::size_t column = cell % static_cast<std::size_t>(end.columns);
+    const double z = (static_cast<double>(row) + 0.5) * row_height;
+    const double y = (static_cast<double>(column) + 0.5) * column_width;
     Entrant<Dim> entrant;
     entrant.position = end.low + z * end.rise + y * end.aside - way * end.opening.normal;
     entrant.velocity =
