@@ -8,7 +8,7 @@ template <int Dim>
 Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
   append(findings, check_blocks(spec, fluid));
-  append(findings, check_periodic_width<Dim>(spec));
+  append(findings, check_periodic_width(spec, boundary));
   if constexpr (Dim == 2) {
     append(findings, check_self_crossing(spec, boundary));
     append(findings, check_crests(spec, boundary));

@@ -211,6 +211,15 @@ TEST(Check, PeriodicDirectionTooNarrow) {
   expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
 }
 
+// Its wall particles would be wrapped into one period, hundreds on top of each other.
+TEST(Check, AWallLongerThanThePeriod) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {2, 0}}), polyline({{500, 1}, {2, 1}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.4})};
+  spec.domain.periodic_x = {0.0, 2.0};
+  expect_among(check(spec), Severity::error, {"wall 'wall2' is 498 m long in x", "every 2 m", "draw one period"});
+}
+
 TEST(Check, ACrestAsHighAsTheEndsOfItsBed) {
   CaseSpec spec = empty_case(0.05);
   spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.6}, {2, 0}, {3, 0}, {3, 0.5}})};

@@ -13,9 +13,10 @@ namespace tailwater {
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Error: a periodic direction narrower than four supports, in which a particle would meet its own image.
+/// Errors: a periodic direction narrower than four supports, in which a particle would meet its own image; a wall that
+/// is longer than the period, which would lie in itself.
 template <int Dim>
-Findings check_periodic_width(const CaseSpec& spec);
+Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Error: a wall that crosses itself.
 Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
