@@ -307,7 +307,9 @@ TEST(WaveMaker, MovesAsItWasSteered) {
     advance(flow, 2e-3);
     expected += 2e-3 * flow.state.wave_makers[0].rate;
     for (const WallFace<2>& face : flow.walls.boundary.faces) {
-      if (face.wall == 1) EXPECT_NEAR(face.corners[0][0], expected, 1e-12);
+      if (face.wall == 1) {
+        EXPECT_NEAR(face.corners[0][0], expected, 1e-12);
+      }
     }
   }
   EXPECT_LT(expected, -1e-3);
