@@ -23,6 +23,22 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
                      place<Dim>(particles.velocity[i]), particles.pressure[i]);
 }
 
+/// Call where the flow has lists; a step that is refused before it has looked for neighbours has none.
+template <int Dim>
+void list_neighbours(const Flow<Dim>& flow, const Particles<Dim>& last_good, std::size_t i, std::string& report) {
+  auto out = std::back_inserter(report);
+  fmt::format_to(out, "its neighbours before the step:\n");
+  const Pairs<Dim>& pairs = flow.pairs();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = static_cast<std::size_t>(pairs.j[k]);
+    if (j < last_good.owned) {
+      fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
+    } else {
+      fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.state.particles, j));
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -55,16 +71,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
       fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.state.particles, i));
     }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
-    fmt::format_to(out, "its neighbours before the step:\n");
-    const Pairs<Dim>& pairs = flow.pairs();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = static_cast<std::size_t>(pairs.j[k]);
-      if (j < last_good.owned) {
-        fmt::format_to(out, "  {}\n", describe_particle(last_good, j));
-      } else {
-        fmt::format_to(out, "  {}  (a ghost, after the step)\n", describe_particle(flow.state.particles, j));
-      }
-    }
+    if (flow.neighbourhood.has_lists()) list_neighbours(flow, last_good, i, report);
   }
   const std::vector<std::string> reports = flow.setup.ranks.gather(report);
   do_on_root(flow.setup.ranks,

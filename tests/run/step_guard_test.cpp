@@ -49,6 +49,18 @@ TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack
   EXPECT_TRUE(std::filesystem::exists(this->folder.path() / "failure" / "last_good.vtp"));
 }
 
+// As in the first step of a resumed run, which has no lists yet.
+TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
+  this->flow.neighbourhood.forget(this->flow.state.particles);
+  this->flow.state.particles.velocity[5][0] = 1e15;
+  this->guard.remember_good();
+  const std::string message = message_of<SolverError>([&] { this->guard.require_sound_step(next_time_step(this->flow)); });
+  EXPECT_NE(message.find("particle 5"), std::string::npos) << message;
+  const std::string report = text_of(this->folder.path() / "failure" / "report.txt");
+  EXPECT_NE(report.find("particle before the step: "), std::string::npos) << report;
+  EXPECT_EQ(report.find("neighbours"), std::string::npos) << report;
+}
+
 TYPED_TEST(StepGuardTest, PassesOnWhatTheSolverSays) {
   const std::string message =
       message_of<SolverError>([&] { this->guard.attempt([] { throw SolverError("it did not converge"); }); });
