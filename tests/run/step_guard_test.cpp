@@ -54,7 +54,8 @@ TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
   this->flow.neighbourhood.forget(this->flow.state.particles);
   this->flow.state.particles.velocity[5][0] = 1e15;
   this->guard.remember_good();
-  const std::string message = message_of<SolverError>([&] { this->guard.require_sound_step(next_time_step(this->flow)); });
+  const std::string message =
+      message_of<SolverError>([&] { this->guard.require_sound_step(next_time_step(this->flow)); });
   EXPECT_NE(message.find("particle 5"), std::string::npos) << message;
   const std::string report = text_of(this->folder.path() / "failure" / "report.txt");
   EXPECT_NE(report.find("particle before the step: "), std::string::npos) << report;
