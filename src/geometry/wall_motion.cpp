@@ -161,8 +161,8 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (!boundary.walls[w].moves()) continue;
     const WallTable& table = spec.walls[w];
-    MovingWall& wall = moving_.emplace_back(static_cast<int>(w),
-                                            WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w))));
+    MovingWall& wall = moving_.emplace_back(
+        MovingWall{static_cast<int>(w), WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w)))});
     if (table.drive.by == Drive::By::wave_maker) wall.maker = static_cast<int>(table.drive.index);
     for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, static_cast<int>(axis));
