@@ -8,10 +8,19 @@ namespace {
 /// [dx]; thick enough that the water on one side does not feel what is on the other (docs/theory/moving_walls.md).
 constexpr double default_thickness = 4.0;
 
+/// A wall of that shape that is drawn where it starts.
+WallTable wall_of(WallShape shape, std::size_t dimension) {
+  WallTable wall;
+  wall.shape = shape;
+  wall.displacement.assign(dimension, 0.0);
+  wall.pivot.assign(dimension, 0.0);
+  wall.rotate = wall.translate = wall.axis = wall.pivot;
+  return wall;
+}
+
 /// The box between the face from `from` to `to` and the parallel plane `thickness` behind it, on the given side.
 WallTable box_behind(const Coordinates& from, const Coordinates& to, AxisDirection side, double thickness) {
-  WallTable wall;
-  wall.shape = WallShape::box;
+  WallTable wall = wall_of(WallShape::box, from.size());
   wall.fluid_side = FluidSide::outside;
   for (std::size_t d = 0; d < from.size(); ++d) {
     wall.min.push_back(std::min(from[d], to[d]));
@@ -24,19 +33,12 @@ WallTable box_behind(const Coordinates& from, const Coordinates& to, AxisDirecti
   } else {
     wall.min[axis] -= thickness;
   }
-  wall.displacement.assign(from.size(), 0.0);
-  wall.pivot.assign(from.size(), 0.0);
-  wall.rotate = wall.translate = wall.axis = wall.pivot;
   return wall;
 }
 
 /// The face from `from` to `to` as a wall without thickness.
 WallTable plate_at(const Coordinates& from, const Coordinates& to, AxisDirection side) {
-  WallTable wall;
-  wall.shape = WallShape::plate;
-  wall.displacement.assign(from.size(), 0.0);
-  wall.pivot = Coordinates(from.size(), 0.0);
-  wall.rotate = wall.translate = wall.axis = wall.pivot;
+  WallTable wall = wall_of(WallShape::plate, from.size());
   if (from.size() == 2) {
     wall.points = {from, to};
     return wall;

@@ -11,15 +11,13 @@
 namespace tailwater {
 namespace {
 
-const std::string bed_case = required_keys + water + "[[wall]]\nname = \"bed\"\npoints_file = \"bed.csv\"\n";
-
-class BedFile : public testing::Test {
+/// A case and a file that it names, in a folder of its own.
+class LinkedFile : public testing::Test {
  protected:
-  BedFile() : file_(bed_case) {}
+  LinkedFile(const std::string& case_text, const char* name)
+      : file_(case_text), linked_(file_.path().parent_path() / name) {}
 
-  void write(const std::string& text) const { std::ofstream(bed()) << text; }
-  std::filesystem::path bed() const { return file_.path().parent_path() / "bed.csv"; }
-  std::vector<Coordinates> points() const { return read_case(file_.path()).walls[0].points; }
+  void write(const std::string& text) const { std::ofstream(linked_) << text; }
 
   std::string message(const std::string& text) const {
     write(text);
@@ -33,6 +31,16 @@ class BedFile : public testing::Test {
   }
 
   CaseFile file_;
+  std::filesystem::path linked_;
+};
+
+const std::string bed_case = required_keys + water + "[[wall]]\nname = \"bed\"\npoints_file = \"bed.csv\"\n";
+
+class BedFile : public LinkedFile {
+ protected:
+  BedFile() : LinkedFile(bed_case, "bed.csv") {}
+
+  std::vector<Coordinates> points() const { return read_case(file_.path()).walls[0].points; }
 };
 
 TEST_F(BedFile, IsReadWithAnySeparatorHeaderAndUnit) {
@@ -78,7 +86,7 @@ TEST_F(BedFile, IsRefusedWithPlaceAndRemedy) {
     EXPECT_NE(message.find(bad.line), std::string::npos) << message;
     for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
   }
-  std::filesystem::remove(bed());
+  std::filesystem::remove(linked_);
   EXPECT_THROW(read_case(file_.path()), InputError);
 }
 
@@ -92,7 +100,7 @@ TEST_F(BedFile, OfManyPointsIsRefused) {
 TEST_F(BedFile, IsPartOfTheCaseThatARunLeaves) {
   write("x,z\n0.1,1\n0.7,0\n");
   const CaseSpec spec = read_case(file_.path());
-  std::filesystem::remove(bed());
+  std::filesystem::remove(linked_);
   EXPECT_EQ(read_text(effective_case(spec)), spec);
 }
 
@@ -137,49 +145,17 @@ const std::string rolled_case = required_keys + water +
                                 "[[wall]]\nname = \"tank\"\npoints = [[0, 2], [0, 0], [1, 0], [1, 2]]\n"
                                 "motion = \"roll.csv\"\n";
 
-class MotionFile : public testing::Test {
+class MotionFile : public LinkedFile {
  protected:
-  explicit MotionFile(const std::string& text = rolled_case) : file_(text) {}
-
-  std::filesystem::path motion() const { return file_.path().parent_path() / "roll.csv"; }
-  void write(const std::string& text) const { std::ofstream(motion()) << text; }
-
-  std::string message(const std::string& text) const {
-    write(text);
-    try {
-      read_case(file_.path());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "no InputError for\n" << text;
-    return {};
-  }
-
-  CaseFile file_;
+  MotionFile() : LinkedFile(rolled_case, "roll.csv") {}
 };
 
 const std::string inlet_case =
     required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\nfile = \"hydrograph.csv\"\n";
 
-class Hydrograph : public testing::Test {
+class Hydrograph : public LinkedFile {
  protected:
-  explicit Hydrograph(const std::string& text = inlet_case) : file_(text) {}
-
-  void write(const std::string& text) const { std::ofstream(path()) << text; }
-  std::filesystem::path path() const { return file_.path().parent_path() / "hydrograph.csv"; }
-
-  std::string message(const std::string& text) const {
-    write(text);
-    try {
-      read_case(file_.path());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "no InputError for\n" << text;
-    return {};
-  }
-
-  CaseFile file_;
+  Hydrograph() : LinkedFile(inlet_case, "hydrograph.csv") {}
 };
 
 TEST_F(MotionFile, IsReadWithAnyUnitAndOrderOfColumns) {
@@ -232,14 +208,14 @@ TEST_F(MotionFile, IsRefusedWithPlaceAndRemedy) {
     EXPECT_NE(message.find(bad.place), std::string::npos) << bad.text << message;
     for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << bad.text << message;
   }
-  std::filesystem::remove(motion());
+  std::filesystem::remove(linked_);
   EXPECT_THROW(read_case(file_.path()), InputError);
 }
 
 TEST_F(MotionFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
   write("t,x\n0,0\n1,0.5\n");
   const CaseSpec spec = read_case(file_.path());
-  EXPECT_EQ(spec.walls[0].motion, motion().string());
+  EXPECT_EQ(spec.walls[0].motion, linked_.string());
   const std::string written = effective_case(spec);
   EXPECT_EQ(read_case_text(written, "run"), spec);
   write("t,x\n0,0\n1,0.6\n");
