@@ -23,7 +23,10 @@ CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces
   }
   for (const Vec<Dim>& x : water) enclose(x);
   const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);
-  const double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
+  double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
+  // Where the case is thinner than such a cell, there would be more of them along its other extents.
+  const auto cells_in_all = [&] { return (extent / cell).cwiseMax(1.0).prod(); };
+  while (cells_in_all() > 1.001 * most) cell *= 2.0;
   std::size_t cells = 1;
   for (int axis = 0; axis < Dim; ++axis) {
     const std::vector<double>& range = periodic_range(spec.domain, axis);
@@ -97,6 +100,14 @@ bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, con
 }
 
 template <int Dim>
+bool CellSpace<Dim>::is_on_wall(const Cell& c) const {
+  const Vec<Dim> x = centre(c);
+  const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
+  const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
+  return std::any_of(begin, end, [&](int f) { return (closest_point(faces_[f], x) - x).norm() <= tolerance_; });
+}
+
+template <int Dim>
 int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
   const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
   const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
@@ -133,7 +144,8 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
       if (step * down[axis] < -0.5) continue;
       if (const int face = space.face_beside(c, axis, step); face >= 0) {
         found.met[face] = true;
-        if (space.faces()[face].height(space.centre(c)) < 0.0) found.behind[face] = space.centre(c);
+        const bool is_behind = space.faces()[face].height(space.centre(c)) < 0.0 && !space.is_on_wall(c);
+        if (is_behind) found.behind[face] = space.centre(c);
         ++found.sides;
       } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
         visit(*target);
