@@ -21,6 +21,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"wave-flume", templates::wave_flume},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
+    {"floating-box", templates::floating_box},
 };
 
 struct NewOptions {
@@ -51,7 +52,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
           "dam-break (a column collapses in a tank), tank (water at rest), weir (water runs over a thin plate), "
           "channel "
           "(an inlet, a tailwater and a discharge probe), pier (3D, a dam breaks against a pier from an STL file), "
-          "wave-flume (regular waves, gauges and a damping zone), solitary-wave or sloshing (a tank that rolls)")
+          "wave-flume (regular waves, gauges and a damping zone), solitary-wave, sloshing (a tank that rolls) or "
+          "floating-box (a body on two lines)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))
       ->type_name("NAME");

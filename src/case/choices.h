@@ -53,6 +53,7 @@ enum class ProbeType {
   discharge,
   force,
   pressure_map,
+  motion,
 };
 
 template <class Enumeration>
@@ -170,9 +171,9 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 12> names{
-      "depth",  "wall-pressure", "wall-pressure-mean", "front", "profile",     "pressure", "velocity",
-      "energy", "volume",        "discharge",          "force", "pressure-map"};
+  static constexpr std::array<std::string_view, 13> names{
+      "depth",  "wall-pressure", "wall-pressure-mean", "front", "profile",      "pressure", "velocity",
+      "energy", "volume",        "discharge",          "force", "pressure-map", "motion"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

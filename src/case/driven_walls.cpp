@@ -78,6 +78,11 @@ void append_driven_walls(CaseSpec& spec) {
     wall.drive = {Drive::By::wave_maker, k};
     spec.walls.push_back(std::move(wall));
   }
+  for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
+    for (const std::string& name : spec.bodies[k].walls) {
+      std::ranges::find(spec.walls, name, &WallTable::name)->drive = {Drive::By::body, k};
+    }
+  }
 }
 
 }  // namespace tailwater

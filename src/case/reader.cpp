@@ -323,6 +323,61 @@ void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, 
   add_names("wave_maker", spec.wave_makers);
 }
 
+/// A body is made of walls that nothing else moves.
+void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  std::map<std::string_view, std::string_view> body_of_wall;
+  for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
+    const BodyTable& body = spec.bodies[k];
+    const auto wrong = [&](const std::string& message) {
+      const toml::node& node = *root["body"][k]["walls"].node();
+      problems.add(&node.source(), fmt::format("body[{}].walls = {}: {}", k, value_text(node), message));
+    };
+    for (const std::string& name : body.walls) {
+      const auto wall = std::ranges::find(spec.walls, name, &WallTable::name);
+      if (wall == spec.walls.end()) {
+        std::vector<std::string_view> names;
+        for (const WallTable& other : spec.walls) names.push_back(other.name);
+        wrong(fmt::format("there is no wall \"{}\"; {}", name, unknown_name_hint(name, names)));
+        continue;
+      }
+      const auto varies = [](const Varying& value) { return value != Varying(0.0); };
+      const bool is_moved =
+          varies(wall->rotation) || std::ranges::any_of(wall->displacement, varies) || !wall->series.empty();
+      const bool is_closed = wall->shape == WallShape::polygon || wall->shape == WallShape::mesh ||
+                             (wall->shape == WallShape::box && wall->open.empty());
+      if (const auto [first, is_new] = body_of_wall.emplace(name, body.name); !is_new) {
+        wrong(fmt::format("wall '{}' is of body '{}' already; each wall is of one body", name, first->second));
+      } else if (is_moved) {
+        wrong(fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
+      } else if (!is_closed) {
+        wrong(fmt::format("wall '{}' is not closed; draw a polygon, a box without open faces, or a mesh", name));
+      } else if (wall->shape != WallShape::mesh && wall->fluid_side != FluidSide::outside) {
+        wrong(fmt::format("wall '{}' has the water inside; give it fluid_side = \"outside\"", name));
+      }
+    }
+  }
+  const SchemeTable& scheme = spec.scheme;
+  const bool is_robust =
+      scheme.name == SchemeName::farzin2014 && scheme.walls == WallTreatment::dummies &&
+      scheme.gradient == GradientKind::conservative && scheme.laplacian == LaplacianKind::morris &&
+      scheme.displacement == Displacement::new_velocity &&
+      (scheme.integrator == Integrator::explicit_projection || scheme.implicit_form == ImplicitForm::residual);
+  if (!spec.bodies.empty() && !is_robust) {
+    problems.add(&root["body"][0].node()->source(),
+                 "body[0]: bodies float only with the operators and walls of scheme.formulation = \"robust\" and "
+                 "scheme.name = \"farzin2014\": the force on a body must be the reaction of that on the water; "
+                 "choose these, or give the walls a motion");
+  }
+  for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
+    if (std::ranges::find(spec.bodies, spec.moorings[k].body, &BodyTable::name) != spec.bodies.end()) continue;
+    std::vector<std::string_view> names;
+    for (const BodyTable& body : spec.bodies) names.push_back(body.name);
+    const toml::node& node = *root["mooring"][k]["body"].node();
+    problems.add(&node.source(), fmt::format("mooring[{}].body = {}: there is no such body; {}", k, value_text(node),
+                                             unknown_name_hint(spec.moorings[k].body, names)));
+  }
+}
+
 /// Where the tables and keys are that messages about shapes, probes and steps name.
 CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
   CaseSources sources;
@@ -343,6 +398,8 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   add_tables("wall", spec.walls);
   add_tables("gate", spec.gates);
   add_tables("wave_maker", spec.wave_makers);
+  add_tables("body", spec.bodies);
+  add_tables("mooring", spec.moorings);
   add_tables("damping", spec.damping);
   add_tables("inlet", spec.inlets);
   add_tables("outlet", spec.outlets);
@@ -374,6 +431,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
     check_amount_of_output(spec, root, context.problems);
     check_ends_of_series(spec, root, context.problems);
     check_names_of_driven_walls(spec, root, context.problems);
+    check_bodies(spec, root, context.problems);
   }
   if (!context.problems.none()) {
     throw InputError(context.problems.text());

@@ -166,11 +166,11 @@ struct FluidTable {
   }
 };
 
-/// Which table says how a wall moves: its own, or that of a gate or a wave maker.
+/// Which table says how a wall moves: its own, or that of a gate, a wave maker or a floating body.
 struct Drive {
-  enum class By { wall, gate, wave_maker };
+  enum class By { wall, gate, wave_maker, body };
   By by = By::wall;
-  std::size_t index = 0;  ///< of the gate or wave maker
+  std::size_t index = 0;  ///< of the gate, wave maker or body
 
   bool operator==(const Drive&) const = default;
 };
@@ -359,6 +359,65 @@ struct WaveMakerTable {
     v.choice("absorption", self.absorption,
              "active: the plate gives way to waves that come, as the elevation in front of it says "
              "(docs/theory/waves.md)");
+  }
+};
+
+/// Names of the ways in which a body can be free; in 2D it turns about its one axis, "rotation".
+inline constexpr std::array<std::string_view, 7> freedom_names{"x",          "y",          "z",         "rotation",
+                                                               "rotation_x", "rotation_y", "rotation_z"};
+
+/// A rigid body that the water moves: after the case has been read its walls are driven by it.
+struct BodyTable {
+  std::string name;
+  std::vector<std::string> walls;
+  double mass = 0.0;
+  Coordinates centre;
+  std::vector<double> inertia;
+  std::vector<std::string> free;
+  Coordinates velocity;
+
+  bool operator==(const BodyTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages and by moorings (default: body1, body2, ...)");
+    v.texts("walls", self.walls, {}, "Names of the walls that are its surface: closed, with the water outside");
+    v.number("mass", self.mass, "kg", Range::above(0.0), "Its mass; in 2D per metre of width", Presence::required);
+    v.coordinates("centre", self.centre, "m", "Its centre of mass, where it is drawn", Presence::required);
+    v.numbers(
+        "inertia", self.inertia, "kg m^2",
+        "Its moments of inertia about the centre: [I] in 2D, per metre of width; [Ixx, Iyy, Izz] in 3D, about axes "
+        "along x, y and z as it is drawn, which must be its principal axes (needed where it is free to turn)");
+    v.texts("free", self.free, freedom_names,
+            "The ways in which it may move (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
+    v.coordinates("velocity", self.velocity, "m/s", "Its velocity at the start (default: at rest)");
+  }
+};
+
+/// A line that holds a body.
+struct MooringTable {
+  std::string name;
+  std::string body;
+  Coordinates at;
+  Coordinates anchor;
+  double stiffness = 0.0;
+  double length = 0.0;
+  double damping = 0.0;
+
+  bool operator==(const MooringTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages (default: mooring1, mooring2, ...)");
+    v.text("body", self.body, "Name of the body that it holds", Presence::required);
+    v.coordinates("at", self.at, "m", "Where it is fastened to the body, as it is drawn", Presence::required);
+    v.coordinates("anchor", self.anchor, "m", "Its other end, which rests", Presence::required);
+    v.number("stiffness", self.stiffness, "N/m", Range::above(0.0),
+             "Force per stretch beyond its length; in 2D per metre of width", Presence::required);
+    v.number("length", self.length, "m", Range::at_least(0.0),
+             "Length at which it begins to pull; it never pushes. 0: a spring that always pulls");
+    v.number("damping", self.damping, "N s/m", Range::at_least(0.0),
+             "Force per speed of stretching while it is stretched; in 2D per metre of width");
   }
 };
 
@@ -716,6 +775,7 @@ struct ProbeTable {
   Coordinates region_max;
   std::vector<Coordinates> region_points;
   Coordinates moment_about;
+  std::string body;
   std::vector<double> times;
   double interval = 0.0;
 
@@ -740,6 +800,7 @@ struct ProbeTable {
     v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
     v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
     v.coordinates("moment_about", self.moment_about, "m", "Point, which does not move, that the moment is taken about");
+    v.text("body", self.body, "Name of the body whose motion is written");
     v.numbers("times", self.times, "s", "Times at which a profile is taken");
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
   }
@@ -764,6 +825,8 @@ struct CaseSpec {
   std::vector<WallTable> walls;  ///< and, behind those of the file, what gates and wave makers are
   std::vector<GateTable> gates;
   std::vector<WaveMakerTable> wave_makers;
+  std::vector<BodyTable> bodies;
+  std::vector<MooringTable> moorings;
   std::vector<DampingTable> damping;
   std::vector<InletTable> inlets;
   std::vector<OutletTable> outlets;
@@ -788,6 +851,8 @@ struct CaseSpec {
     v.tables("wall", self.walls, "A solid wall; one table each");
     v.tables("gate", self.gates, "A plate that is pulled out of the water; one table each");
     v.tables("wave_maker", self.wave_makers, "A plate that makes waves, or absorbs them; one table each");
+    v.tables("body", self.bodies, "A rigid body that the water moves; one table each");
+    v.tables("mooring", self.moorings, "A line that holds a body; one table each");
     v.tables("damping", self.damping, "A zone in which waves die out; one table each");
     v.tables("inlet", self.inlets, "An open end through which water enters; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves; one table each");

@@ -109,6 +109,13 @@ void set_defaults(WaveMakerTable& maker, TableReader& reader) {
   maker.ramp = 2.0 * maker.period;
 }
 
+void set_defaults(BodyTable& body, TableReader& reader) {
+  const std::vector<std::string> in_plane{"x", "y", "rotation"};
+  const std::vector<std::string> in_space{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
+  body.free = reader.dimension() == 3 ? in_space : in_plane;
+  body.velocity.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+}
+
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
   if (probe.type == ProbeType::front || probe.type == ProbeType::discharge) probe.direction = along_x(reader);
@@ -311,6 +318,45 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
     reader.wrong("height", *reader.given("height"),
                  fmt::format("such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
                              highest_over_depth, highest_over_depth * maker.depth));
+  }
+}
+
+void check(const BodyTable& body, TableReader& reader) {
+  if (body.walls.empty() && !reader.is_wrong("walls")) {
+    reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
+  }
+  const bool is_flat = reader.dimension() == 2;
+  for (const std::string& way : body.free) {
+    const bool is_turn = way.starts_with("rotation");
+    if (way.find('z') != std::string::npos ? is_flat : is_turn && (way == "rotation") != is_flat) {
+      reader.wrong("free", *reader.given("free"),
+                   fmt::format("\"{}\" is none of the ways in {} dimensions; choose from {}", way, reader.dimension(),
+                               is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
+      return;
+    }
+  }
+  const bool turns = std::ranges::any_of(body.free, [](const std::string& way) { return way.starts_with("rotation"); });
+  const std::size_t needed = is_flat ? 1 : 3;
+  if (reader.is_wrong("inertia") || reader.is_wrong("free")) return;
+  if (body.inertia.empty()) {
+    if (turns) {
+      reader.missing("inertia",
+                     fmt::format("a body that is free to turn needs its moment{} of inertia; give {}, or leave the "
+                                 "rotation out of `free`",
+                                 is_flat ? "" : "s", is_flat ? "[I]" : "[Ixx, Iyy, Izz]"));
+    }
+  } else if (body.inertia.size() != needed ||
+             std::ranges::any_of(body.inertia, [](double moment) { return moment <= 0.0; })) {
+    reader.wrong(
+        "inertia", *reader.given("inertia"),
+        fmt::format("give {} above 0 in {} dimensions", is_flat ? "one number" : "three numbers", reader.dimension()));
+  }
+}
+
+void check(const MooringTable& mooring, TableReader& reader) {
+  if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
+    reader.wrong("anchor", *reader.given("anchor"),
+                 "is where the line is fastened to the body, so it has no direction; give another place");
   }
 }
 

@@ -78,8 +78,9 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   decomposition.share_out(particles, neighbourhood.work(particles));
   end_of.assign(particles.owned, -1);
   state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
-  state.wave_makers.resize(setup.wave_plates.size());
-  setup.wall_motion.get_velocity(0.0, state.wave_makers, state.wall_velocity);
+  state.motion.wave_makers.resize(setup.wave_plates.size());
+  for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
+  setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
   state.section_volumes.assign(setup.sections.size(), 0.0);
   pressure_rows.set_constant_is_free(setup.is_closed);

@@ -113,7 +113,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
                                  : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
       rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
-      finds_wall_forces(std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
+      finds_wall_forces(!spec.bodies.empty() || std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_model(drawing.wall_model),
       wall_traits(wall_model->traits()),
@@ -121,12 +121,18 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       open_ends(make_ends<Dim>(spec)),
       sections(make_sections<Dim>(spec)),
       wave_plates(make_wave_plates<Dim>(spec)),
+      bodies(make_bodies<Dim>(spec)),
+      contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       damping(make_damping<Dim>(spec)),
       kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),
       lattice(lattice_sums(kernel, spacing)),
       W_0(kernel_value(kernel, 0.0)),
       eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
       air_law(kernel, spacing) {
+  body_of_wall.assign(drawing.walls.boundary.walls.size(), -1);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
+  }
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,

@@ -10,6 +10,7 @@
 #include "closures/viscosity.h"
 #include "flow/damping.h"
 #include "flow/open_end.h"
+#include "geometry/body_contact.h"
 #include "geometry/sampling.h"
 #include "geometry/wall_motion.h"
 #include "neighbours/halo.h"
@@ -45,7 +46,7 @@ struct Setup {
   double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
-  bool finds_wall_forces;  ///< whether a probe asks for them
+  bool finds_wall_forces;  ///< whether a probe or a floating body asks for them
   bool is_closed;          ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   std::shared_ptr<const WallModel<Dim>> wall_model;
   WallTraits wall_traits;
@@ -53,6 +54,9 @@ struct Setup {
   std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet
   std::vector<Opening<Dim>> sections;       ///< one per discharge probe
   std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
+  std::vector<FloatingBody<Dim>> bodies;
+  std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
+  ContactSurfaces<Dim> contact;   ///< of the bodies
   std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;
   LatticeSums lattice;

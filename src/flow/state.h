@@ -21,7 +21,7 @@ struct State {
       wall_velocity;  ///< m/s; of each row of the table of wall particles, at the end of the last step
   std::vector<OpenEndState> open_ends;  ///< one per inlet, then one per outlet
   std::vector<double> section_volumes;  ///< m^Dim; one per discharge probe: what has passed its section, with sign
-  MakerStates wave_makers;              ///< one per wave maker
+  MotionState<Dim> motion;              ///< of wave makers and floating bodies
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
 };

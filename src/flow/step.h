@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/floating_body.h"
 
 namespace tailwater {
 
@@ -16,6 +17,7 @@ struct StepStart {
   std::vector<Vec<Dim>> velocity;       ///< m/s; u^n
   std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of the table of wall particles
   double energy = 0.0;                  ///< J; of this rank's fluid
+  std::vector<Twist<Dim>> body_velocity = {};
 };
 
 /// Where the walls are driven in a step, by row of the table of wall particles.

@@ -24,8 +24,8 @@ double next_time_step(const Flow<Dim>& flow) {
   dt = std::min(dt, longest_step_of_walls);
   const double longest_way = setup.time_step_rule.courant * setup.spacing;
   const double time = flow.state.time;
-  const MakerStates& makers = flow.state.wave_makers;
-  for (double way = 0.0; (way = setup.wall_motion.farthest_way(time, time + dt, makers)) > longest_way;) {
+  const MotionState<Dim>& motion = flow.state.motion;
+  for (double way = 0.0; (way = setup.wall_motion.farthest_way(time, time + dt, motion)) > longest_way;) {
     dt *= std::max(0.1, 0.99 * longest_way / way);
   }
   return dt;

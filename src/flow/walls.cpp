@@ -22,14 +22,14 @@ WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, d
   if (flow.setup.scheme.displacement == Displacement::mean_velocity) return drive_walls_to_end(flow, start, dt);
   std::vector<Vec<Dim>> velocity = start.wall_velocity;
   const double time = flow.state.time;
-  flow.setup.wall_motion.get_mean_velocity(time, time + dt, flow.state.wave_makers, velocity);
+  flow.setup.wall_motion.get_mean_velocity(time, time + dt, flow.state.motion, velocity);
   return drive_to(flow, start, std::move(velocity), dt);
 }
 
 template <int Dim>
 WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   std::vector<Vec<Dim>> velocity = start.wall_velocity;
-  flow.setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.wave_makers, velocity);
+  flow.setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.motion, velocity);
   return drive_to(flow, start, std::move(velocity), dt);
 }
 
@@ -37,7 +37,7 @@ template <int Dim>
 void place_walls(Flow<Dim>& flow, double time) {
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
   if (motion.moving().empty()) return;
-  motion.place(time, flow.state.wave_makers, flow.walls.boundary, flow.walls.particles);
+  motion.place(time, flow.state.motion, flow.walls.boundary, flow.walls.particles);
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i)) return;
@@ -55,9 +55,8 @@ WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt) {
   ways.dt = dt;
   ways.way.resize(flow.walls.boundary.walls.size());
   for (const auto& moving : motion.moving()) {
-    const MakerState maker = moving.state(flow.state.wave_makers);
     ways.way[moving.wall] =
-        way_between(moving.path.at(flow.state.time, maker), moving.path.at(flow.state.time + dt, maker));
+        way_between(moving.at(flow.state.time, flow.state.motion), moving.at(flow.state.time + dt, flow.state.motion));
   }
   return ways;
 }

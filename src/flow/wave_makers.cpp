@@ -30,7 +30,7 @@ void steer_wave_makers(Flow<Dim>& flow) {
   for (std::size_t m = 0; m < flow.setup.wave_plates.size(); ++m) {
     const WavePlate<Dim>& plate = flow.setup.wave_plates[m];
     if (!plate.absorbs) continue;
-    MakerState& maker = flow.state.wave_makers[m];
+    MakerState& maker = flow.state.motion.wave_makers[m];
     maker.correction = maker.at(time);
     maker.time = time;
     const Vec<Dim> face = plate.foot + plate.stroke(time, maker) * plate.forward;

@@ -36,6 +36,7 @@ std::string kind_of(const WallTable& wall) {
     case Drive::By::wave_maker:
       return "wave_maker";
     case Drive::By::wall:
+    case Drive::By::body:
       break;
   }
   return "wall";

@@ -15,6 +15,11 @@ namespace {
 /// and no path of a wall changes within it.
 constexpr double instant = 1e-6;
 
+template <int Dim>
+AffineMap<Dim> mean_velocity_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after, double duration) {
+  return {(after.linear - before.linear) / duration, (after.constant - before.constant) / duration};
+}
+
 /// Of a gate's motion; where its table gives none, against gravity.
 template <int Dim>
 Vec<Dim> unit_direction(const CaseSpec& spec, const GateTable& gate) {
@@ -149,10 +154,19 @@ AffineMap<Dim> WallPath<Dim>::at(double time, const MakerState& maker) const {
 }
 
 template <int Dim>
-AffineMap<Dim> WallPath<Dim>::mean_velocity(double from, double to, const MakerState& maker) const {
-  const AffineMap<Dim> before = at(from, maker);
-  const AffineMap<Dim> after = at(to, maker);
-  return {(after.linear - before.linear) / (to - from), (after.constant - before.constant) / (to - from)};
+AffineMap<Dim> WallPath<Dim>::mean_velocity(double from, double to) const {
+  return mean_velocity_between(at(from), at(to), to - from);
+}
+
+template <int Dim>
+AffineMap<Dim> WallMotion<Dim>::MovingWall::at(double time, const MotionState<Dim>& state) const {
+  if (body >= 0) return state.bodies.each[body].at(time);
+  return path.at(time, maker < 0 ? MakerState{} : state.wave_makers[maker]);
+}
+
+template <int Dim>
+AffineMap<Dim> WallMotion<Dim>::MovingWall::mean_velocity(double from, double to, const MotionState<Dim>& state) const {
+  return mean_velocity_between(at(from, state), at(to, state), to - from);
 }
 
 template <int Dim>
@@ -164,6 +178,7 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
     MovingWall& wall = moving_.emplace_back(
         MovingWall{static_cast<int>(w), WallPath<Dim>(spec, table, wall_label(boundary, static_cast<int>(w)))});
     if (table.drive.by == Drive::By::wave_maker) wall.maker = static_cast<int>(table.drive.index);
+    if (table.drive.by == Drive::By::body) wall.body = static_cast<int>(table.drive.index);
     for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, static_cast<int>(axis));
       const bool is_in_file = !table.series.empty() && !table.series.columns[axis].empty();
@@ -182,10 +197,10 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
 }
 
 template <int Dim>
-void WallMotion<Dim>::place(double time, const MakerStates& makers, Boundary<Dim>& boundary,
+void WallMotion<Dim>::place(double time, const MotionState<Dim>& state, Boundary<Dim>& boundary,
                             WallParticles<Dim>& particles) const {
   for (const MovingWall& moving : moving_) {
-    AffineMap<Dim> motion = moving.path.at(time, moving.state(makers));
+    AffineMap<Dim> motion = moving.at(time, state);
     for (int axis = 0; axis < Dim; ++axis) {
       const double period = moving.period[axis];
       if (period > 0.0) motion.constant[axis] -= period * std::floor(motion.constant[axis] / period);
@@ -204,10 +219,10 @@ void WallMotion<Dim>::place(double time, const MakerStates& makers, Boundary<Dim
 }
 
 template <int Dim>
-void WallMotion<Dim>::get_mean_velocity(double from, double to, const MakerStates& makers,
+void WallMotion<Dim>::get_mean_velocity(double from, double to, const MotionState<Dim>& state,
                                         std::span<Vec<Dim>> velocity) const {
   for (const MovingWall& moving : moving_) {
-    const AffineMap<Dim> map = moving.path.mean_velocity(from, to, moving.state(makers));
+    const AffineMap<Dim> map = moving.mean_velocity(from, to, state);
     for_each(drawn_particles_.size(), [&](std::size_t row) {
       if (drawn_particles_.wall[row] == moving.wall) velocity[row] = map(drawn_particles_.position[row]);
     });
@@ -215,16 +230,16 @@ void WallMotion<Dim>::get_mean_velocity(double from, double to, const MakerState
 }
 
 template <int Dim>
-void WallMotion<Dim>::get_velocity(double time, const MakerStates& makers, std::span<Vec<Dim>> velocity) const {
-  get_mean_velocity(std::max(0.0, time - instant), time + instant, makers, velocity);
+void WallMotion<Dim>::get_velocity(double time, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const {
+  get_mean_velocity(std::max(0.0, time - instant), time + instant, state, velocity);
 }
 
 template <int Dim>
-double WallMotion<Dim>::farthest_way(double from, double to, const MakerStates& makers) const {
+double WallMotion<Dim>::farthest_way(double from, double to, const MotionState<Dim>& state) const {
   double farthest = 0.0;
   for (const MovingWall& moving : moving_) {
-    const AffineMap<Dim> before = moving.path.at(from, moving.state(makers));
-    const AffineMap<Dim> after = moving.path.at(to, moving.state(makers));
+    const AffineMap<Dim> before = moving.at(from, state);
+    const AffineMap<Dim> after = moving.at(to, state);
     for (const WallFace<Dim>& face : drawn_faces_) {
       if (face.wall != moving.wall) continue;
       for (const Vec<Dim>& corner : face.corners) {

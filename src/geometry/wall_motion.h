@@ -1,4 +1,5 @@
-// Walls that move as rigid bodies on a prescribed path: the place and velocity of each at a given time.
+// Walls that move as rigid bodies, on a prescribed path or with the water: the place and velocity of each at a given
+// time.
 #pragma once
 
 #include <array>
@@ -11,29 +12,15 @@
 #include "base/vec.h"
 #include "case/expression.h"
 #include "case/spec.h"
+#include "geometry/affine_map.h"
 #include "geometry/boundary.h"
+#include "geometry/floating_body.h"
 #include "geometry/gate_law.h"
 #include "geometry/sampling.h"
 #include "geometry/spline.h"
 #include "geometry/wave_maker.h"
 
 namespace tailwater {
-
-/// x -> linear x + constant: a rigid motion where `linear` is a rotation, or the velocity field of one.
-template <int Dim>
-struct AffineMap {
-  Mat<Dim> linear = Mat<Dim>::Identity();
-  Vec<Dim> constant = Vec<Dim>::Zero();
-
-  Vec<Dim> operator()(const Vec<Dim>& x) const { return linear * x + constant; }
-};
-
-/// The motion of a body from its place under `before` to its place under `after`.
-template <int Dim>
-AffineMap<Dim> way_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
-  const Mat<Dim> turn = after.linear * before.linear.transpose();
-  return {turn, after.constant - turn * before.constant};
-}
 
 template <int Dim>
 WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
@@ -116,7 +103,7 @@ class WallPath {
   AffineMap<Dim> at(double time, const MakerState& maker = {}) const;
 
   /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
-  AffineMap<Dim> mean_velocity(double from, double to, const MakerState& maker = {}) const;
+  AffineMap<Dim> mean_velocity(double from, double to) const;
 
  private:
   using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>>;
@@ -127,8 +114,12 @@ class WallPath {
   Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; about which the wall turns
 };
 
-/// The states of all wave makers of a case, in the order of their tables.
-using MakerStates = std::vector<MakerState>;
+/// What the motion of walls depends on beside the time, in the order of the tables.
+template <int Dim>
+struct MotionState {
+  std::vector<MakerState> wave_makers;
+  BodyStates<Dim> bodies;
+};
 
 /// All walls of a case that move, as they are drawn.
 template <int Dim>
@@ -143,22 +134,25 @@ class WallMotion {
     WallPath<Dim> path;
     Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that do not repeat, or in which it does not move
     int maker = -1;                      ///< index into CaseSpec::wave_makers; -1: it is none
+    int body = -1;                       ///< index into CaseSpec::bodies; -1: it is of none
 
-    /// Its own among the states of all wave makers.
-    MakerState state(const MakerStates& makers) const { return maker < 0 ? MakerState{} : makers[maker]; }
+    /// From where it is drawn to where it is at `time` [s].
+    AffineMap<Dim> at(double time, const MotionState<Dim>& state) const;
+    /// From where it is drawn to its mean velocity [m/s] between two times [s].
+    AffineMap<Dim> mean_velocity(double from, double to, const MotionState<Dim>& state) const;
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
   /// Moves the faces and the particles of moving walls to their places at `time`.
-  void place(double time, const MakerStates& makers, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
+  void place(double time, const MotionState<Dim>& state, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
 
   /// Sets the entries of the particles of moving walls to their mean velocity [m/s] between two times [s].
-  void get_mean_velocity(double from, double to, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
+  void get_mean_velocity(double from, double to, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const;
   /// The same at an instant.
-  void get_velocity(double time, const MakerStates& makers, std::span<Vec<Dim>> velocity) const;
+  void get_velocity(double time, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const;
 
   /// The largest distance [m] that a corner of a wall moves from one time to the other.
-  double farthest_way(double from, double to, const MakerStates& makers) const;
+  double farthest_way(double from, double to, const MotionState<Dim>& state) const;
 
  private:
   std::vector<MovingWall> moving_;

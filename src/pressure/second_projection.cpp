@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "pressure/floating_bodies.h"
 #include "pressure/operators.h"
 #include "pressure/suction.h"
 #include "pressure/verbs.h"
@@ -133,6 +134,7 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   if (flow.setup.finds_wall_forces) {
     flow.halo().exchange(added);
     add_wall_forces(flow, added);
+    owe_to_bodies(flow, forces_on_bodies(flow, added, flow.state.time + dt), dt);
   }
   finish_pressure(flow, drive);
   return report;

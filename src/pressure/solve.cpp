@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "pressure/floating_bodies.h"
 #include "pressure/suction.h"
 #include "pressure/verbs.h"
 
@@ -48,21 +49,22 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
 }
 
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const WallDrive<Dim>& drive, const PosedEquation& equation) {
-  KrylovSolver& solver = flow.pressure_solver;
-  const std::span<double> pressure = std::span(flow.state.particles.pressure).first(flow.state.particles.owned);
+PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
+                     WallDrive<Dim>& drive) {
+  const double tolerance = flow.pressure_solver.tolerance();
+  BodyCoupling<Dim> coupling(flow, start, dt, drive);
   PressureReport report;
   if (flow.setup.has_air()) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const PressureReport rough =
-        report_of(solver.solve(flow.pressure_rows, pressure, std::pow(solver.tolerance(), roughness)));
+    const PressureReport rough = report_of(coupling.solve_roughly(std::pow(tolerance, roughness)));
     hold_suction(flow);
-    report = report_of(solver.solve(flow.pressure_rows, pressure));
+    report = report_of(coupling.solve(tolerance));
     report.iterations += rough.iterations;
     report.interventions += rough.interventions;
   } else {
-    report = report_of(solver.solve(flow.pressure_rows, pressure));
+    report = report_of(coupling.solve(tolerance));
   }
+  coupling.carry_over();
   report.interventions.fallback_rows = equation.fallback_rows;
   finish_pressure(flow, drive);
   return report;
@@ -70,7 +72,7 @@ PressureReport solve(Flow<Dim>& flow, const WallDrive<Dim>& drive, const PosedEq
 
 template void finish_pressure<2>(Flow<2>&, const WallDrive<2>&);
 template void finish_pressure<3>(Flow<3>&, const WallDrive<3>&);
-template PressureReport solve<2>(Flow<2>&, const WallDrive<2>&, const PosedEquation&);
-template PressureReport solve<3>(Flow<3>&, const WallDrive<3>&, const PosedEquation&);
+template PressureReport solve<2>(Flow<2>&, const StepStart<2>&, const PosedEquation&, double, WallDrive<2>&);
+template PressureReport solve<3>(Flow<3>&, const StepStart<3>&, const PosedEquation&, double, WallDrive<3>&);
 
 }  // namespace tailwater

@@ -32,9 +32,11 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
 /// (0 in the outermost rows, 1 inside; that of a wall that cannot pull by 0), and the system is solved again. With an
-/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md).
+/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). Where bodies
+/// float, finds how they move with this pressure, and drives their walls so (floating_bodies.h).
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const WallDrive<Dim>& drive, const PosedEquation& equation);
+PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
+                     WallDrive<Dim>& drive);
 
 /// After a change of the fluid's pressure: brings walls and ghosts up to date.
 template <int Dim>

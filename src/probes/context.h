@@ -13,6 +13,7 @@
 
 #include "base/vec.h"
 #include "geometry/boundary.h"
+#include "geometry/floating_body.h"
 #include "kernel/kernel.h"
 #include "neighbours/cell_grid.h"
 #include "neighbours/halo.h"
@@ -53,6 +54,7 @@ struct ProbeContext {
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
+  std::span<const BodyState<Dim>> bodies = {};   ///< that float
 };
 
 /// Whether a plate hides a particle from a place.

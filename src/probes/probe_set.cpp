@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "parallel/together.h"
+#include "probes/body_motion.h"
 #include "probes/discharge.h"
 #include "probes/front.h"
 #include "probes/gather.h"
@@ -62,6 +63,8 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
       return force_reading(probe, spec, boundary);
     case ProbeType::pressure_map:
       return pressure_map_reading(probe, spec, boundary);
+    case ProbeType::motion:
+      return motion_reading<Dim>(probe, spec);
     case ProbeType::volume:
       break;
   }

@@ -27,16 +27,7 @@ constexpr double weight_in_front = 1e-6;
 constexpr double patch_margin = 1.0;
 
 template <int Dim>
-using Moment = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
-
-template <int Dim>
-Moment<Dim> moment_of(const Vec<Dim>& arm, const Vec<Dim>& force) {
-  if constexpr (Dim == 2) {
-    return Moment<2>(arm[0] * force[1] - arm[1] * force[0]);
-  } else {
-    return arm.cross(force);
-  }
-}
+using Moment = Turn<Dim>;
 
 template <int Dim>
 struct Loads {
@@ -82,13 +73,18 @@ class WallForceProbe {
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
         about_(to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spec.particles.spacing),
-        paths_(boundary.walls.size()) {
+        paths_(boundary.walls.size()),
+        body_of_(boundary.walls.size(), -1) {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
       if (!boundary.walls[wall].moves()) continue;
+      if (const Drive& drive = spec.walls[wall].drive; drive.by == Drive::By::body) {
+        body_of_[wall] = static_cast<int>(drive.index);
+        continue;
+      }
       paths_[wall].emplace(spec, spec.walls[wall], wall_label(boundary, static_cast<int>(wall)));
     }
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      has_power_ = has_power_ || (chosen_[k] > 0.0 && paths_[boundary.faces[patches_[k].face].wall].has_value());
+      has_power_ = has_power_ || (chosen_[k] > 0.0 && moves(boundary.faces[patches_[k].face].wall));
     }
   }
 
@@ -109,10 +105,12 @@ class WallForceProbe {
   }
 
  private:
+  bool moves(std::size_t wall) const { return paths_[wall].has_value() || body_of_[wall] >= 0; }
   bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
 
   void place_patches(const Boundary<Dim>& boundary) {
-    const bool rest = std::ranges::none_of(paths_, [](const auto& path) { return path.has_value(); });
+    bool rest = true;
+    for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
     if (takes_all_and_rests() || (rest && !centres_.empty())) return;
     centres_.resize(patches_.size());
     for_each(patches_.size(), [&](std::size_t k) { centres_[k] = patches_[k].centre(boundary); });
@@ -123,6 +121,13 @@ class WallForceProbe {
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
+      if (body_of_[wall] >= 0) {
+        const BodyState<Dim>& body = context.bodies[body_of_[wall]];
+        for (int d = 0; d < Dim; ++d) {
+          maps[wall].linear.col(d) = velocity_about<Dim>(body.angular_velocity(), Vec<Dim>::Unit(d));
+        }
+        maps[wall].constant = body.linear_velocity() - maps[wall].linear * body.centre;
+      }
       if (!paths_[wall] || context.dt == 0.0) continue;
       const AffineMap<Dim> now = paths_[wall]->at(context.time);
       const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(context.time - context.dt, context.time);
@@ -174,7 +179,7 @@ class WallForceProbe {
       loads.pressure += p;
       loads.friction += f;
       const int wall = context.boundary.faces[patches_[share.patch].face].wall;
-      if (paths_[wall]) loads.power -= (p + f).dot(velocity[wall](x));
+      if (moves(wall)) loads.power -= (p + f).dot(velocity[wall](x));
     }
     loads.moment = moment(x, loads.pressure);
     if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
@@ -215,7 +220,8 @@ class WallForceProbe {
   bool takes_all_;
   Vec<Dim> about_;
   double reach_;                                     ///< m; R
-  std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move
+  std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
+  std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
   std::vector<Vec<Dim>> centres_;  ///< of the patches, where they are
   CellGrid<Dim> grid_;             ///< of these

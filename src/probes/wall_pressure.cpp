@@ -47,6 +47,12 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
                     "absorption = \"none\"",
                     label(probe), wall_label(boundary, wall)));
   }
+  if (drive.by == Drive::By::body) {
+    throw InputError(
+        fmt::format("{}: {} is of body '{}', which the water moves, and a probe cannot follow it: move the probe, or "
+                    "take type = \"force\" with a region",
+                    label(probe), wall_label(boundary, wall), spec.bodies[drive.index].name));
+  }
   return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 

@@ -106,12 +106,55 @@ nlohmann::json json_of(const MakerState& maker) {
 
 MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"), json.at("rate"), json.at("time")}; }
 
+void require_fit(bool condition, const char* part) {
+  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
+}
+
+template <class Numbers>
+std::vector<double> list_of(const Numbers& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+template <class Numbers>
+void take_list(const nlohmann::json& json, Numbers& numbers) {
+  const auto list = json.get<std::vector<double>>();
+  require_fit(list.size() == static_cast<std::size_t>(numbers.size()) &&
+                  std::ranges::all_of(list, [](double number) { return std::isfinite(number); }),
+              "bodies");
+  std::ranges::copy(list, numbers.data());
+}
+
+template <int Dim>
+nlohmann::json json_of(const BodyState<Dim>& body) {
+  const auto& [time, placement, centre, velocity, acceleration, owed] = body;
+  return {{"time", time},
+          {"turn", list_of(placement.linear)},
+          {"shift", list_of(placement.constant)},
+          {"centre", list_of(centre)},
+          {"velocity", list_of(velocity)},
+          {"acceleration", list_of(acceleration)},
+          {"owed", list_of(owed)}};
+}
+
+template <int Dim>
+BodyState<Dim> body_of(const nlohmann::json& json) {
+  BodyState<Dim> body;
+  body.time = json.at("time");
+  take_list(json.at("turn"), body.placement.linear);
+  take_list(json.at("shift"), body.placement.constant);
+  take_list(json.at("centre"), body.centre);
+  take_list(json.at("velocity"), body.velocity);
+  take_list(json.at("acceleration"), body.acceleration);
+  take_list(json.at("owed"), body.owed);
+  return body;
+}
+
 /// Everything that is the same on all ranks and not an array of numbers.
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, wave_makers, energy_rise,
-               density_share] = checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, energy_rise, density_share] =
+      checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
                       {"energy_rise", energy_rise},
@@ -119,10 +162,13 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
                       {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
                       {"wave_makers", nlohmann::json::array()},
+                      {"bodies", nlohmann::json::array()},
+                      {"inertia", motion.bodies.inertia},
                       {"section_volumes", section_volumes},
                       {"output", checkpoint.output}};
   for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
-  for (const MakerState& maker : wave_makers) json["wave_makers"].push_back(json_of(maker));
+  for (const MakerState& maker : motion.wave_makers) json["wave_makers"].push_back(json_of(maker));
+  for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(json_of(body));
   return json.dump(1);
 }
 
@@ -136,7 +182,9 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.density_share = json.at("density_share");
   checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
-  for (const nlohmann::json& maker : json.at("wave_makers")) state.wave_makers.push_back(maker_of(maker));
+  for (const nlohmann::json& maker : json.at("wave_makers")) state.motion.wave_makers.push_back(maker_of(maker));
+  for (const nlohmann::json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
+  json.at("inertia").get_to(state.motion.bodies.inertia);
   json.at("section_volumes").get_to(state.section_volumes);
   checkpoint.output = json.at("output");
 }
@@ -155,10 +203,6 @@ std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t
   std::vector<double> shares;
   for (std::size_t q = 0; q < readers; ++q) shares.insert(shares.end(), saved.begin(), first_end);
   return shares;
-}
-
-void require_fit(bool condition, const char* part) {
-  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
 }
 
 /// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.

@@ -226,7 +226,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .wall_of_row = flow.walls.particles.wall,
                   .domain = flow.setup.domain,
                   .dt = dt,
-                  .wall_forces = &flow.wall_forces});
+                  .wall_forces = &flow.wall_forces,
+                  .bodies = flow.state.motion.bodies.each});
 }
 
 template <int Dim>

@@ -32,7 +32,7 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
   double farthest = -1.0;
   int wall = 0;
   for (const auto& moving : flow.setup.wall_motion.moving()) {
-    const AffineMap<Dim> velocity = moving.path.mean_velocity(time, time + dt, moving.state(flow.state.wave_makers));
+    const AffineMap<Dim> velocity = moving.mean_velocity(time, time + dt, flow.state.motion);
     for (const WallFace<Dim>& face : boundary.faces) {
       if (face.wall != moving.wall) continue;
       const double speed = velocity(face.corners[0]).norm();

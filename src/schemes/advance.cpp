@@ -1,5 +1,6 @@
 #include "schemes/advance.h"
 
+#include "pressure/floating_bodies.h"
 #include "pressure/verbs.h"
 #include "schemes/projection.h"
 #include "schemes/two_step.h"
@@ -24,13 +25,16 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   hold_open_ends(flow, dt);
   steer_wave_makers(flow);
   const StepStart<Dim> start = remember(flow);
+  steer_bodies(flow, start, dt);
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;
   count_passing(flow, start);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);
+  owe_to_bodies_for_put_back(flow, dt);
   flow.state.time += dt;
+  for (BodyState<Dim>& body : flow.state.motion.bodies.each) body.go_on(flow.state.time);
   ++flow.state.step;
   return report;
 }

@@ -60,7 +60,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
   const SchemeTable& scheme = flow.setup.scheme;
   Particles<Dim>& particles = flow.state.particles;
   StepReport report;
-  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start, dt);
   const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
   std::vector<double> divergence_old;
   for (bool settled = false; !settled && report.passes < scheme.max_passes;) {
@@ -71,7 +71,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     locate(flow, report.passes >= passes_with_new_marks);               // derivatives at the positions of iterate k
     const Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F21)
     const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
-    report.add(solve(flow, drive, equation));
+    report.add(solve(flow, start, equation, dt, drive));
     correct(flow, predicted, drive, dt);  // (F24)
     report.work = book_works(flow, start, predicted, equation, dt);
     divergence_old = find_divergence(flow);

@@ -9,12 +9,12 @@ namespace tailwater {
 template <int Dim>
 StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
-  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start, dt);
   locate(flow);
   const Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
   const std::vector<double> target = aim(flow, predicted, dt);
   const PosedEquation equation = assemble(flow, predicted, target, drive, dt);  // (F15)
-  report.add(solve(flow, drive, equation));
+  report.add(solve(flow, start, equation, dt, drive));
   correct(flow, predicted, drive, dt);  // (F16)
   report.work = book_works(flow, start, predicted, equation, dt);
   return report;

@@ -14,7 +14,7 @@ void start(Flow<Dim>& flow) {
   locate(flow);
   if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
-  const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   if (flow.setup.scheme.name == SchemeName::farmani2020) {
     predict_pressure(flow, start, drive, dt);
     add_wall_forces(flow, flow.state.particles.pressure);
@@ -25,7 +25,11 @@ void start(Flow<Dim>& flow) {
     return;
   }
   const Prediction<Dim> predicted = predict(flow, start, drive, dt);
-  solve(flow, drive, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt));
+  solve(flow, start, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt), dt, drive);
+  for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {  // nothing has moved yet
+    flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
+    flow.state.motion.bodies.each[b].owed.setZero();
+  }
   add_wall_forces(flow, flow.state.particles.pressure);
 }
 

@@ -6,7 +6,7 @@
 namespace tailwater {
 
 template <int Dim>
-PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive,
+PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Dim>& drive,
                                         double dt) {
   PredictedPressure<Dim> found;
   locate(flow);                                       // rho (B6, B10)
@@ -15,14 +15,14 @@ PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& s
   locate(flow);                                       // rho_star (B14), surface (B21)
   const std::vector<double> no_target(flow.state.particles.owned, 0.0);
   found.equation = assemble(flow, found.predicted, no_target, drive, dt);  // (B17)
-  found.solved = solve(flow, drive, found.equation);
+  found.solved = solve(flow, start, found.equation, dt, drive);
   return found;
 }
 
 template <int Dim>
 StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
-  const WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start, dt);
   const PredictedPressure<Dim> found = predict_pressure(flow, start, drive, dt);
   report.add(found.solved);
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)
@@ -36,9 +36,8 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   return report;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                \
-  template PredictedPressure<Dim> predict_pressure<Dim>(Flow<Dim>&, const StepStart<Dim>&, const WallDrive<Dim>&, \
-                                                        double);                                                  \
+#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
+  template PredictedPressure<Dim> predict_pressure<Dim>(Flow<Dim>&, const StepStart<Dim>&, WallDrive<Dim>&, double); \
   template StepReport two_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

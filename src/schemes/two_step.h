@@ -18,8 +18,7 @@ struct PredictedPressure {
 /// (B10)-(B17): predicts, moves the particles to the predicted positions, and finds the pressure there. The particles
 /// stay there.
 template <int Dim>
-PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive,
-                                        double dt);
+PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Dim>& drive, double dt);
 
 /// Two fractional steps (B10)-(B19): the particles move as if there were no pressure; the pressure then undoes the
 /// compression this caused. Densities are summed again from the positions after every move.

@@ -8,6 +8,18 @@
 namespace tailwater {
 namespace {
 
+/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach.
+template <int Dim>
+double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i) {
+  const Pairs<Dim>& pairs = scene.pairs;
+  double sum = 0.0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (!scene.particles.is_fluid(pairs.j[k])) continue;
+    sum += pairs.W[k] / scene.here.wall_fluid_weight[i] * force.hydrostatic_difference(pairs, scene.particles, i, k);
+  }
+  return sum;
+}
+
 template <int Dim>
 void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i,
                         LinearSystem::Row row) {
@@ -15,14 +27,10 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
     row.finish_as_zero();
     return;
   }
-  double rhs = 0.0;
   row.set_weights([&](std::size_t k) {
-    if (!scene.particles.is_fluid(scene.pairs.j[k])) return 0.0;
-    const double share = scene.pairs.W[k] / scene.here.wall_fluid_weight[i];
-    rhs += share * force.hydrostatic_difference(scene.pairs, scene.particles, i, k);
-    return share;
+    return scene.particles.is_fluid(scene.pairs.j[k]) ? scene.pairs.W[k] / scene.here.wall_fluid_weight[i] : 0.0;
   });
-  row.finish(1.0, rhs);
+  row.finish(1.0, excess_over_water(scene, force, i));
 }
 
 template <int Dim>
@@ -69,6 +77,14 @@ class Dummies final : public WallModel<Dim> {
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (!scene.particles.is_fluid(i)) assemble_dummy_row(scene, force, i, system.row(i));
+    });
+  }
+
+  void set_sources(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
+      if (!scene.particles.is_fluid(i) && scene.here.is_wet[i]) {
+        system.set_rhs(i, excess_over_water(scene, force, i));
+      }
     });
   }
 

@@ -99,6 +99,10 @@ class WallModel {
   /// Writes the rows of owned wall particles, except those that have the fluid's equation.
   virtual void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const = 0;
 
+  /// Sets the right-hand sides of these rows again, for another acceleration of the walls; the weights stay. For
+  /// bodies that float, which only the dummies allow.
+  virtual void set_sources(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const = 0;
+
   /// Sets the pressure of owned wall particles again. Called where there is air, after the fluid's pressure has changed
   /// since the solve. Returns whether the model has anything to set.
   virtual bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,

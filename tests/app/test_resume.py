@@ -29,6 +29,11 @@ FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].veloci
          "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)'}]",
          "--set", "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2], level=0.5}]", "--set",
          "probe=[{name='middle', type='discharge', from=[0.6, 0], to=[0.6, 2]}, {name='volume', type='volume'}]")
+BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull', shape='box', min=[0.2, 0.3], "
+         "max=[1, 1.1], fluid_side='outside'}]", "--set", "body=[{name='barge', walls=['hull'], mass=160, "
+         "centre=[0.6, 0.6], inertia=[17]}]", "--set", "mooring=[{body='barge', at=[0.2, 0.3], anchor=[0, 0], "
+         "stiffness=100}]", "--set", "probe=[{name='barge', type='motion', body='barge'}, {name='energy', "
+         "type='energy'}]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -40,6 +45,7 @@ FEATURES = {
     "implicit integrator and a gate": ("--set", "scheme.integrator=implicit", *GATE),
     "a wave maker that absorbs, and a damping zone": WAVES,
     "a tank that a file rolls": ROLL,
+    "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater and a discharge probe": FLUME,
     "three dimensions, multigrid and the published shifting": (*CUBE, "--set", "pressure_solver.preconditioner=gamg",
@@ -235,7 +241,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 2", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 3", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")

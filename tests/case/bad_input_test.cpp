@@ -109,6 +109,47 @@ const std::vector<BadInput> table{
          "[[gate]]\nfrom = [1, 0]\nto = [1, 1]\nmotion = \"falling-weight\"\nweight = 2\ngate_mass = 3\n",
      "10:10",
      {"gate[0].weight", "does not lift a gate of 3 kg"}},
+    {"body_without_its_inertia",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\n",
+     "12:1",
+     {"body[0].inertia", "free to turn", "leave the rotation out"}},
+    {"body_of_no_wall",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hul\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"y\"]\n",
+     "13:9",
+     {"body[0].walls", "no wall \"hul\"", "did you mean \"hull\"?"}},
+    {"body_with_the_water_inside",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\n[[body]]\nwalls = [\"hull\"]\nmass = "
+         "1\ncentre = [2.5, 0.5]\nfree = []\n",
+     "12:9",
+     {"body[0].walls", "has the water inside", "fluid_side = \"outside\""}},
+    {"body_with_a_motion",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = \"outside\"\nrotation = "
+         "\"t\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n",
+     "14:9",
+     {"body[0].walls", "has a motion of its own"}},
+    {"body_that_turns_about_a_third_axis",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"rotation_x\"]\n",
+     "16:8",
+     {"body[0].free", "\"rotation_x\" is none of the ways in 2 dimensions", "x, y, rotation"}},
+    {"body_in_the_other_scheme",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n[scheme]\nname = "
+         "\"farmani2020\"\n",
+     "12:1",
+     {"body[0]", "bodies float only with"}},
+    {"mooring_of_no_body",
+     required_keys + water + "[[mooring]]\nbody = \"barge\"\nat = [0, 0]\nanchor = [0, 1]\nstiffness = 1\n",
+     "7:8",
+     {"mooring[0].body", "no such body"}},
     {"gate_with_the_name_of_a_wall",
      required_keys + water +
          "[[wall]]\nname = \"a\"\npoints = [[0, 0], [1, 0]]\n[[gate]]\nname = \"a\"\nfrom = [1, 0]\nto = [1, 1]\nspeed "

@@ -295,8 +295,8 @@ TEST(WaveMaker, GivesWayByTheElevationInFrontOfIt) {
   for (const double at : {0.0, 0.013}) {
     Flow<2> flow(absorber_case(at));
     steer_wave_makers(flow);
-    EXPECT_NEAR(flow.state.wave_makers[0].rate, -0.04 * std::sqrt(g / 0.4), 1e-12);
-    EXPECT_EQ(flow.state.wave_makers[0].correction, 0.0);
+    EXPECT_NEAR(flow.state.motion.wave_makers[0].rate, -0.04 * std::sqrt(g / 0.4), 1e-12);
+    EXPECT_EQ(flow.state.motion.wave_makers[0].correction, 0.0);
   }
 }
 
@@ -305,7 +305,7 @@ TEST(WaveMaker, MovesAsItWasSteered) {
   double expected = 0.0;
   for (int step = 0; step < 3; ++step) {
     advance(flow, 2e-3);
-    expected += 2e-3 * flow.state.wave_makers[0].rate;
+    expected += 2e-3 * flow.state.motion.wave_makers[0].rate;
     for (const WallFace<2>& face : flow.walls.boundary.faces) {
       if (face.wall == 1) {
         EXPECT_NEAR(face.corners[0][0], expected, 1e-12);

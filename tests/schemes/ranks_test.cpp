@@ -299,5 +299,31 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
   }
 }
 
+TYPED_TEST(RanksTest, BodyFloats) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = tank_case<Dim>(dx, 0.8, 0.3);
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::box;
+  hull.min = Coordinates(Dim, 0.3);
+  hull.max = Coordinates(Dim, 0.5);
+  hull.min[Dim - 1] = 0.2;
+  hull.max[Dim - 1] = 0.5;
+  hull.fluid_side = FluidSide::outside;
+  hull.drive = {Drive::By::body, 0};
+  spec.walls.push_back(hull);
+  BodyTable body;
+  body.name = "barge";
+  body.walls = {"hull"};
+  body.mass = Dim == 2 ? 30.0 : 6.0;
+  body.centre = Coordinates(Dim, 0.4);
+  body.inertia = std::vector<double>(Dim == 2 ? 1 : 3, 0.3);
+  body.velocity = Coordinates(Dim, 0.0);
+  body.free = Dim == 2 ? std::vector<std::string>{"x", "y", "rotation"}
+                       : std::vector<std::string>{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
+  spec.bodies = {body};
+  expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
 }  // namespace
 }  // namespace tailwater

@@ -32,9 +32,9 @@ constexpr double dt = 0.01;
 void reproject_here(Flow<2>& flow) {
   const StepStart<2> start = remember(flow);
   locate(flow);
-  const WallDrive<2> drive = drive_walls(flow, start, dt);
+  WallDrive<2> drive = drive_walls(flow, start, dt);
   const Prediction<2> predicted = predict(flow, start, drive, dt);
-  solve(flow, drive, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt));
+  solve(flow, start, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt), dt, drive);
   reproject(flow, drive, dt);
 }
 

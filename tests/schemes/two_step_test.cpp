@@ -66,7 +66,8 @@ TEST(TwoStep, PressesApartWhatIsTooDense) {
   Flow<2> flow(spec);
   for (Vec<2>& x : flow.state.particles.position) x *= 0.98;
   const StepStart<2> start = remember(flow);
-  predict_pressure(flow, start, drive_walls(flow, start, 1e-3), 1e-3);
+  WallDrive<2> drive = drive_walls(flow, start, 1e-3);
+  predict_pressure(flow, start, drive, 1e-3);
   double highest = 0.0;
   Vec<2> place = Vec<2>::Zero();
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {

@@ -1,0 +1,204 @@
+// Bodies that the water moves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "schemes/cases.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+BodyTable body_of(const std::string& wall, double mass, const Coordinates& centre, std::vector<double> inertia) {
+  BodyTable body;
+  body.name = "body";
+  body.walls = {wall};
+  body.mass = mass;
+  body.centre = centre;
+  body.inertia = std::move(inertia);
+  body.free = centre.size() == 2 ? std::vector<std::string>{"x", "y", "rotation"}
+                                 : std::vector<std::string>{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
+  body.velocity = Coordinates(centre.size(), 0.0);
+  return body;
+}
+
+/// Adds the body to a case that is built in code, as the reader does.
+void add_body(CaseSpec& spec, const WallTable& hull, const BodyTable& body) {
+  spec.walls.push_back(hull);
+  spec.walls.back().drive = {Drive::By::body, spec.bodies.size()};
+  spec.bodies.push_back(body);
+}
+
+/// A box whose centre of mass is its own.
+void add_box(CaseSpec& spec, const Coordinates& min, const Coordinates& max, double density) {
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::box;
+  hull.min = min;
+  hull.max = max;
+  hull.fluid_side = FluidSide::outside;
+  double mass = density;
+  Coordinates centre;
+  std::vector<double> squares;
+  for (std::size_t d = 0; d < min.size(); ++d) {
+    mass *= max[d] - min[d];
+    centre.push_back(0.5 * (min[d] + max[d]));
+    squares.push_back((max[d] - min[d]) * (max[d] - min[d]) / 12.0);
+  }
+  const std::vector<double> inertia =
+      min.size() == 2 ? std::vector<double>{mass * (squares[0] + squares[1])}
+                      : std::vector<double>{mass * (squares[1] + squares[2]), mass * (squares[0] + squares[2]),
+                                            mass * (squares[0] + squares[1])};
+  add_body(spec, hull, body_of("hull", mass, centre, inertia));
+}
+
+template <class D>
+class FloatingBodyTest : public testing::Test {};
+TYPED_TEST_SUITE(FloatingBodyTest, Dimensions);
+
+// Forces between particles are equal and opposite, and what is left undecided by the iteration is carried over, so the
+// momentum of water and body together changes by rounding only. Without gravity, a block of water hits a box off its
+// centre.
+TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
+  constexpr int Dim = TypeParam::value;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    constexpr double dx = 0.1;
+    CaseSpec spec = free_case(dx);
+    spec.general.dimension = Dim;
+    spec.physics.gravity = Coordinates(Dim, 0.0);
+    spec.scheme.integrator = integrator;
+    FluidTable water;
+    water.min = Coordinates(Dim, 0.0);
+    water.max = Coordinates(Dim, 0.8);
+    water.velocity = VectorField(Dim, 0.0);
+    water.velocity[0] = 1.0;
+    spec.fluid = {water};
+    Coordinates low(Dim, 0.3);
+    Coordinates high(Dim, 1.1);
+    low[0] = 0.9;
+    high[0] = 1.7;
+    add_box(spec, low, high, 500.0);
+    Flow<Dim> flow(spec);
+    const auto momentum = [&] {
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      const Particles<Dim>& particles = flow.state.particles;
+      for (std::size_t i = 0; i < particles.owned; ++i) {
+        if (particles.is_fluid(i)) sum += flow.setup.density * particles.volume[i] * particles.velocity[i];
+      }
+      const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
+      return Vec<Dim>(sum + flow.setup.bodies[0].mass * body.linear_velocity() + body.owed.template head<Dim>());
+    };
+    const Vec<Dim> before = momentum();
+    for (int n = 0; n < (Dim == 2 ? 40 : 12); ++n) step(flow);
+    EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm());
+    const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
+    EXPECT_GT(body.velocity[0], 0.1);  // it was hit
+    EXPECT_GT(body.angular_velocity().norm(), 0.01);
+  }
+}
+
+// A box at its draught, as heavy as half or a tenth of the water it could displace. Pressure is that of a tank at rest,
+// with errors of the density within a row; the box moves by less than a tenth of dx.
+TEST(FloatingBody, StaysAtItsDraught) {
+  constexpr double dx = 0.025;
+  for (const double lightness : {0.5, 0.1}) {
+    for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+      CaseSpec spec = tank_case<2>(dx, 1.0, 0.4);
+      spec.scheme.integrator = integrator;
+      const double height = 0.1 / lightness;
+      add_box(spec, {0.35, 0.3}, {0.65, 0.3 + height}, lightness * 1000.0);
+      Flow<2> flow(spec);
+      start(flow);
+      const Vec<2> drawn = flow.setup.bodies[0].drawn.centre;
+      while (flow.state.time < 0.5) {
+        step(flow);
+        const BodyState<2>& body = flow.state.motion.bodies.each[0];
+        ASSERT_LT((body.centre - drawn).norm(), 0.1 * dx) << "t = " << flow.state.time << ", " << lightness;
+      }
+    }
+  }
+}
+
+// A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
+// it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
+// pressure needs a few steps to be there (softness, weights.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
+// each.
+TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
+  constexpr double dx = 0.02;
+  constexpr double R = 0.12;
+  CaseSpec spec = tank_case<2>(dx, 1.6, 1.6);
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::polygon;
+  hull.fluid_side = FluidSide::outside;
+  for (int n = 0; n < 48; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / 48;
+    hull.points.push_back({0.8 + R * std::cos(angle), 0.8 + R * std::sin(angle)});
+  }
+  const double displaced = 1000.0 * std::numbers::pi * R * R;
+  BodyTable body = body_of("hull", 0.1 * displaced, {0.8, 0.8}, {});
+  body.free = {"x", "y"};
+  add_body(spec, hull, body);
+  Flow<2> flow(spec);
+  start(flow);
+  for (int n = 0; n < 10; ++n) step(flow);
+  const double expected = 0.9 / 1.1 * g;
+  EXPECT_NEAR(flow.state.motion.bodies.each[0].acceleration[1], expected, 0.04 * expected);
+  EXPECT_NEAR(flow.state.motion.bodies.each[0].acceleration[0], 0.0, 0.01 * expected);
+}
+
+// Four times as heavy as water. It goes through the water to the bed, and no further.
+TEST(FloatingBody, SinksToTheBedAndLiesThere) {
+  constexpr double dx = 0.05;
+  CaseSpec spec = tank_case<2>(dx, 1.2, 0.25);
+  add_box(spec, {0.4, 0.15}, {0.8, 0.55}, 4000.0);
+  Flow<2> flow(spec);
+  start(flow);
+  const BodyState<2>& body = flow.state.motion.bodies.each[0];
+  const auto lowest = [&] {
+    return std::min(body.placement(Vec<2>(0.4, 0.15))[1], body.placement(Vec<2>(0.8, 0.15))[1]);
+  };
+  while (flow.state.time < 1.0) {
+    step(flow);
+    ASSERT_GT(lowest(), -1e-9) << "t = " << flow.state.time;
+  }
+  EXPECT_LT(lowest(), 1e-9);
+  EXPECT_LT(std::abs(body.velocity[1]), 1e-6);
+  EXPECT_LT(std::abs(angle_of<2>(body.placement.linear)[0]), 1e-6);
+}
+
+// Beside a tank, in the air: the step is that of the water, of first order in time.
+TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
+  constexpr double dx = 0.05;
+  CaseSpec spec = tank_case<2>(dx, 0.4, 0.2);
+  add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0);
+  {
+    Flow<2> flow(spec);
+    double longest = 0.0;
+    while (flow.state.time < 0.3) longest = std::max(longest, step(flow).dt);
+    const BodyState<2>& body = flow.state.motion.bodies.each[0];
+    const double t = flow.state.time;
+    EXPECT_NEAR(body.velocity[1], -g * t, 1e-9);
+    EXPECT_NEAR(body.centre[1], 5.1 - 0.5 * g * t * t, 0.5 * g * t * longest * 1.001);
+  }
+  // A spring without length, fastened to the centre, so stiff that the period is 0.5 s.
+  const double mass = spec.bodies[0].mass;
+  const double omega = 2.0 * std::numbers::pi / 0.5;
+  spec.bodies[0].free = {"x"};
+  MooringTable line;
+  line.name = "line";
+  line.body = "body";
+  line.at = {2.1, 5.1};
+  line.anchor = {2.0, 5.1};
+  line.stiffness = mass * omega * omega;
+  spec.moorings = {line};
+  Flow<2> flow(spec);
+  double longest = 0.0;
+  while (flow.state.time < 0.5) longest = std::max(longest, step(flow).dt);
+  const double expected = 2.0 + 0.1 * std::cos(omega * flow.state.time);
+  EXPECT_NEAR(flow.state.motion.bodies.each[0].centre[0], expected, 0.1 * omega * longest);
+}
+
+}  // namespace
+}  // namespace tailwater
