@@ -21,7 +21,7 @@ DROPS = 0.1  # percent of the particles at each end of each axis that may be lef
 COARSER = 1.05
 REACH = 3.0  # widths of the Gaussian, beyond which it is cut off
 SHARE = 0.5  # c on the surface
-EVENING, PASS_BAND = 20, 0.05  # steps and pass band of the low-pass filter that takes the particles' own bumps off
+EVENING, PASS_BAND = 20, 0.1  # steps and pass band of the low-pass filter that takes the particles' own bumps off
 NEIGHBOURS = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]
 
 
