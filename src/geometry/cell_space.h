@@ -36,7 +36,8 @@ class CellSpace {
   /// Whether the way from one place to another passes the face. A place exactly on it counts as in front, so that no
   /// way can pass a wall by resting on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// A face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none.
+  /// The first face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none. A way that
+  /// cuts a corner off a body passes two: into it and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The same from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;

@@ -349,6 +349,18 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
 }
 
+TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0.0, 0.0, 0.0}, {1.6, 1.6, 2.0}, {"+z"}),
+                folder.wall(sphere_mesh({0.831, 0.812, 0.822}, 0.5, 48), FluidSide::outside)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {1.6, 1.6, 1.6})};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
+    EXPECT_EQ(finding.severity, Severity::warning) << finding.message;
+  }
+}
+
 TEST(Fill, OfABoxTankThatDxDoesNotDivideIsItsWholeVolume) {
   CaseSpec spec = empty_case(0.0275, 3);
   spec.walls = {box_wall({0.0, 0.0, 0.0}, {3.22, 1.0, 1.0}, {"+z"})};
