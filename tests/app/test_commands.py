@@ -117,6 +117,16 @@ class New(ProgramTest):
         self.assertIn("pier.preview.png", refused.stdout)
         self.assertIn("<circle", (self.folder / "pier.preview.svg").read_text())
 
+    def test_the_template_with_a_surveyed_bed_can_be_checked_and_run(self):
+        self.call("new", "river-reach", "reach.toml")
+        self.assertIn("bed.csv", self.call("check", "reach.toml", expect=2).stderr)
+        script = Path(__file__).resolve().parents[2] / "scripts/make_river_bed.py"
+        subprocess.run([sys.executable, script, self.folder / "bed.csv"], check=True)
+        self.assertEqual(self.call("check", "reach.toml").stderr, "")
+        self.call("run", "reach.toml", "--out", "reach", "--quiet", "--pictures", "1",
+                  "--set", "particles.spacing=0.08", "--set", "time.end=0.05")
+        self.assertEqual([path.name for path in (self.folder / "reach/pictures").iterdir()], ["picture_00000.png"])
+
     def test_refuses_to_overwrite(self):
         message = self.call("new", "tank", "small.toml", expect=2).stderr
         self.assertIn("small.toml", message)
