@@ -69,11 +69,15 @@ void draw_start(const std::filesystem::path& image, const std::string& title, do
     return path.string();
   };
   const WallFields<3> walls(boundary);
-  std::vector<std::string> options{"--walls",   write("walls.vtp", walls.view()),
-                                   "--water",   write("water.vtp", {.position = water, .fields = {}}),
-                                   "--spacing", fmt::format("{}", spacing),
-                                   "--title",   title,
-                                   "--image",   image.string()};
+  std::vector<std::string> options{"--title=" + title,
+                                   "--walls",
+                                   write("walls.vtp", walls.view()),
+                                   "--water",
+                                   write("water.vtp", {.position = water, .fields = {}}),
+                                   "--spacing",
+                                   fmt::format("{}", spacing),
+                                   "--image",
+                                   image.string()};
   for (const Vec<3>& x : marks) {
     options.push_back(fmt::format("--mark={},{},{}", x[0], x[1], x[2]));
   }

@@ -1,5 +1,6 @@
 #include "geometry/broken_case.h"
 
+#include <cstdlib>
 #include <regex>
 #include <string>
 
@@ -62,14 +63,14 @@ BrokenCase<Dim> draw_broken_case(const CaseSpec& spec) {
 
 template <int Dim>
 std::vector<Vec<Dim>> places_in(std::string_view message) {
-  const std::string number = R"(([-+0-9.e]+))";
+  const std::string number = R"((-?\d+(?:\.\d+)?(?:e[-+]\d+)?))";
   const std::regex pattern(R"(\()" + number + ", " + number + (Dim == 3 ? ", " + number : "") + R"(\))");
   const std::string text(message);
   std::vector<Vec<Dim>> places;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
     Vec<Dim> x;
-    for (int axis = 0; axis < Dim; ++axis) x[axis] = std::stod((*match)[axis + 1]);
-    places.push_back(x);
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = std::strtod((*match)[axis + 1].str().c_str(), nullptr);
+    if (x.allFinite()) places.push_back(x);  // not "(1e999, 0)", which a name may hold
   }
   return places;
 }

@@ -171,6 +171,8 @@ class Check(ProgramTest):
     def test_the_preview_of_a_wrong_geometry_shows_where(self):
         self.assertIn("preview:", self.call("check", "small.toml", "--set", "fluid.column.max=[1, 2.5]", expect=2).stdout)
         self.assertIn("<circle", (self.folder / "small.preview.svg").read_text())
+        error = self.call("check", "small.toml", "--set", "fluid.column.max=[1, 2.5]", "--preview", "no/p.svg", expect=2).stderr
+        self.assertIn("warning: no preview", error)
 
     def test_the_preview_does_not_replace_the_case(self):
         self.assertIn("small.toml", self.call("check", "small.toml", "--preview", "./small.toml", expect=2).stderr)

@@ -87,6 +87,7 @@ TEST(BrokenCase, MarksThePlacesThatTheMessageNames) {
   EXPECT_EQ(places_in<2>("points[1] is at (0.5, 1)").size(), 1u);
   EXPECT_TRUE(places_in<2>("at (0.5, 1, 2)").empty());
   EXPECT_TRUE(places_in<3>("too much memory").empty());
+  EXPECT_TRUE(places_in<2>("wall '(1e999, -)' or '(1e+999, 0)'").empty());
 }
 
 TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {

@@ -19,7 +19,7 @@ from tailwater_validation.run_folder import RunFolder
 DX = 0.1
 CASE = """\
 [case]
-title = "A block"
+title = "A block for $5_^$"
 dimension = {dimension}
 [physics]
 density = 1000.0
@@ -47,10 +47,11 @@ class Surface(unittest.TestCase):
         middle = np.abs(points[:, :2] - 0.6).max(1) < 0.3
         top = points[middle & (points[:, 2] > 0.5), 2]
         self.assertGreater(top.size, 100)
-        # The ripple of c, 2 exp(-2 (pi/2)^2) = 1.4 %, over its slope on the surface, 1/(sqrt(2 pi) dx/2), is 0.02 dx.
-        self.assertLess(np.abs(top - 1.0).max(), 0.02 * DX)
+        # Over the slope of c on the surface, 0.4/s with s = dx/2: its ripple, 2 exp(-2 (pi/2)^2) = 1.4 %, is 0.02 dx, and
+        # what a straight line between nodes s apart is off, s^2/8 of the second derivative 0.24/s^2, is 0.04 dx.
+        self.assertLess(np.abs(top - 1.0).max(), 0.06 * DX)
         bottom = points[middle & (points[:, 2] < 0.5), 2]
-        self.assertLess(np.abs(bottom).max(), 0.02 * DX)
+        self.assertLess(np.abs(bottom).max(), 0.06 * DX)
 
     def test_a_particle_alone_is_just_seen(self):
         grid = surface.colour_function(np.array([[0.3, 0.2, 0.1]]), DX)
@@ -124,7 +125,7 @@ class Pictures(PicturesTest):
         code, _, err = self.command(Path(self.folder) / "nothing")
         self.assertEqual((code, "is not the folder of a run" in err), (2, True), err)
         folder = self.run_of(3)
-        with unittest.mock.patch.object(scene, "_display", None), unittest.mock.patch("shutil.which", lambda _: None):
+        with unittest.mock.patch.object(scene, "_has_display", False), unittest.mock.patch("shutil.which", lambda _: None):
             code, _, err = self.command(folder)
         self.assertEqual((code, "remedy: install xvfb" in err), (2, True), err)
 
@@ -162,7 +163,7 @@ class Scene(PicturesTest):
         folder = self.run_of(3, frames=1)
         image = folder / "start.png"
         code = start_picture.main(["--walls", str(folder / "fields/walls_00000.vtp"), "--water",
-                                   str(folder / "fields/fields_00000.vtp"), "--spacing", "0.1", "--title", "A block", "--image",
+                                   str(folder / "fields/fields_00000.vtp"), "--spacing", "0.1", "--title", "$5_^$", "--image",
                                    str(image), "--mark=-0.5,1,0.5"])
         self.assertEqual(code, 0)
         shown = matplotlib.image.imread(image)

@@ -95,8 +95,13 @@ def bounds_of(frames, walls):
     return tuple(np.stack([low, high], axis=1).ravel())
 
 
+def plain(text):
+    """A text of a user, in which $ begins no formula."""
+    return text.replace("$", r"\$")
+
+
 def finish(figure, axes, run, time, mappable, path):
-    axes.set_title(f"{run.case['case']['title']}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
+    axes.set_title(f"{plain(run.case['case']['title'])}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
     if mappable is not None:
         bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")
         bar.set_label("speed (m/s)")

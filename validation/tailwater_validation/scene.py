@@ -6,7 +6,6 @@ memory; it is started here, and it ends with this process.
 
 import os
 import shutil
-import subprocess
 
 import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401
@@ -27,27 +26,30 @@ FROM = (1.0, -1.6, 0.9)  # where the pictures look from
 MARGIN = 0.02  # of the picture, around what it shows
 MARK_SIZE = 0.012  # radius of a mark over the diagonal of the scene
 
-_display = None
+_has_display = False
 
 
 def start_display():
     """Gives this process an X server of its own. Throws DataError if Xvfb is not there or does not start."""
-    global _display
-    if _display is not None:
+    global _has_display
+    if _has_display:
         return
     program = shutil.which("Xvfb")
     if program is None:
         raise DataError("pictures in 3D need Xvfb; remedy: install xvfb (scripts/install.sh pictures)")
     read, write = os.pipe()
-    # It chooses a free number and tells it. With -terminate it ends when its last client has gone, however that went.
-    _display = subprocess.Popen([program, "-displayfd", str(write), "-screen", "0", "64x64x24", "-nolisten", "tcp",
-                                 "-terminate"], pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.set_inheritable(write, True)
+    quiet = [(os.POSIX_SPAWN_OPEN, stream, os.devnull, os.O_WRONLY, 0) for stream in (1, 2)]
+    # It chooses a free number and tells it when it is ready. The system ends it when this process ends, however it does.
+    os.posix_spawn("/usr/bin/setpriv", ["setpriv", "--pdeathsig", "TERM", program, "-displayfd", str(write), "-screen", "0",
+                                        "64x64x24", "-nolisten", "tcp", "-noreset"], os.environ, file_actions=quiet)
     os.close(write)
     with os.fdopen(read) as told:
         number = told.readline().strip()
     if not number:
         raise DataError(f"{program} does not start")
     os.environ["DISPLAY"] = f":{number}"
+    _has_display = True
 
 
 def actor_of(data, colour):

@@ -9,7 +9,7 @@ import matplotlib
 from . import plots, scene
 from .curves import DataError
 from .particles import read_polydata, to_frame
-from .pictures import DPI, bounds_of, show_image, write_whole
+from .pictures import DPI, bounds_of, plain, show_image, write_whole
 from .surface import water_surface
 
 
@@ -35,7 +35,7 @@ def main(arguments):
         surface = water_surface(water, options.spacing) if water else None
         image = scene.Scene(bounds).draw(surface, walls, options.mark)
         with matplotlib.rc_context(plots.STYLE):
-            figure, _ = show_image(image, options.title)
+            figure, _ = show_image(image, plain(options.title))
             write_whole(options.image, lambda part: figure.savefig(part, dpi=DPI, format="png"))
     except (DataError, OSError) as error:
         print(error, file=sys.stderr)
