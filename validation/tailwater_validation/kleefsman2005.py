@@ -78,12 +78,18 @@ def excess(read, run, sensor):
     return 100 * (read(computed(run, sensor)) / read(laboratory(sensor)) - 1)
 
 
+def end_of(run):
+    """How far a run is compared, s: also one that was stopped."""
+    asked = run.case["time"]["end"]
+    return min(END, asked, run.summary.get("time_s", {}).get("reached", asked))
+
+
 def score_heights(run):
-    """Until the end of the run, if that is earlier than the measured curves'; then there is no bar."""
-    end = min(END, run.case["time"]["end"])
+    """A run that ends before END has no bar."""
+    end = end_of(run)
     bars = HEIGHT_BARS if end == END else {}
     return [
-        measure(Metric(f"mean error {gauge}{suffix}", f"water height {gauge}, {label}, mean error over t = 0..{end:g} s",
+        measure(Metric(f"mean error {gauge}{suffix}", f"water height {gauge}, {label}, mean error over t = 0..{end:.3g} s",
                        "% of H", "laboratory", high=bars.get(gauge) if not suffix else None,
                        peers=HEIGHT_PEERS.get(gauge) if end == END else None),
                 value=partial(mean_error, run, gauge, end, column))

@@ -45,7 +45,7 @@ def draw_height(axes, run, gauge, end):
 
 
 def draw_page(run, frames):
-    end = min(kleefsman2005.END, run.case["time"]["end"])
+    end = kleefsman2005.end_of(run)
     figure = plots.new_figure(11.0, 12.0)
     head, scenes, pressures, heights = figure.subfigures(4, 1, height_ratios=(0.35, 2.6, 2.6, 4.6))
     head.text(0.01, 0.7, "Dam break against a box, Kleefsman et al. (2005)", fontsize=12.5, va="center")
