@@ -12,7 +12,7 @@ namespace tailwater {
 namespace {
 
 constexpr std::size_t most_dots = 40000;
-constexpr std::size_t most_faces = 20000;
+constexpr std::size_t most_drawn_faces = 20000;
 constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
 constexpr double plot_height = 620.0;
 constexpr double margin = 24.0;
@@ -286,7 +286,7 @@ void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid
 
 template <int Dim>
 void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
-  if (boundary.faces.size() > most_faces) return;
+  if (boundary.faces.size() > most_drawn_faces) return;
   for (const WallFace<Dim>& face : boundary.faces) {
     for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
       const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
