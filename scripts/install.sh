@@ -8,7 +8,7 @@ build=(
   libpetsc-real-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
 )
-pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9)
+pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}")

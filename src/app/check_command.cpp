@@ -2,14 +2,19 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/pictures.h"
 #include "case/reader.h"
 #include "flow/flow.h"
+#include "geometry/broken_case.h"
 #include "geometry/preview.h"
+#include "io/messages.h"
 #include "io/write_file.h"
 #include "linear/session.h"
 #include "probes/probe_set.h"
@@ -24,20 +29,57 @@ struct CheckOptions {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
   std::filesystem::path preview;
+  bool draws_nothing = false;
 };
+
+/// Writes the previews, with the places that are wrong marked, and says where they are.
+template <int Dim>
+void write_previews(const CaseSpec& spec, const CheckOptions& options, const Boundary<Dim>& boundary,
+                    const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
+                    std::span<const Vec<Dim>> bad_places = {}) {
+  const std::filesystem::path preview = options.preview.empty()
+                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
+                                            : options.preview;
+  write_text_file(preview, preview_svg(spec, boundary, fluid, walls, bad_places));
+  fmt::print("preview:   {}\n", preview.string());
+  if constexpr (Dim == 3) {
+    const std::filesystem::path image = std::filesystem::path(preview).replace_extension(".png");
+    try {
+      draw_start(image, spec.general.title, spec.particles.spacing, boundary, fluid.position, bad_places);
+      fmt::print("           {}\n", image.string());
+    } catch (const IoError& error) {
+      warn(fmt::format("no picture in perspective: {}", error.what()));
+    }
+  }
+}
+
+/// Draws what can be drawn of a case whose shapes are wrong, if the message says where. That nothing can be drawn is no
+/// error beside the message itself.
+template <int Dim>
+void show_bad_places(const CaseSpec& spec, const CheckOptions& options, std::string_view message) {
+  const std::vector<Vec<Dim>> places = places_in<Dim>(message);
+  if (places.empty()) return;
+  try {
+    const BrokenCase<Dim> drawing = draw_broken_case<Dim>(spec);
+    write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, places);
+  } catch (const UserError& problem) {
+    warn(fmt::format("no preview: {}", problem.what()));
+  }
+}
 
 template <int Dim>
 void check_in(const CaseSpec& spec, const CheckOptions& options) {
+  try {
+    require_sound_geometry(spec);
+  } catch (const InputError& error) {
+    if (!options.draws_nothing) show_bad_places<Dim>(spec, options, error.what());
+    throw;
+  }
+  const LinearSession session;
   Flow<Dim> flow(spec);
   make_probes<Dim>(spec, flow.walls.boundary);
   require_reachable_end(spec, flow.setup.time_step_rule);
   fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
-  const std::string picture =
-      preview_svg(spec, flow.walls.boundary, make_fluid_particles(spec, flow.walls.boundary), flow.walls.particles);
-  const std::filesystem::path preview = options.preview.empty()
-                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
-                                            : options.preview;
-  write_text_file(preview, picture);
   const RunEstimate estimate = estimate_run(spec, flow);
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
              estimate.particles.wall, spec.particles.spacing);
@@ -47,7 +89,9 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       "smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
       estimate.is_from_tank ? "a tank of about 10000 particles, because the case is large: a first guess" : "the case");
-  fmt::print("preview:   {}\n", preview.string());
+  if (options.draws_nothing) return;
+  write_previews<Dim>(spec, options, flow.walls.boundary, make_fluid_particles(spec, flow.walls.boundary),
+                      flow.walls.particles);
 }
 
 void check_case(const CheckOptions& options) {
@@ -57,10 +101,14 @@ void check_case(const CheckOptions& options) {
     throw InputError(
         fmt::format("--preview {} is the case file itself; remedy: another name", options.preview.string()));
   }
+  if (options.preview.extension() == ".png") {
+    throw InputError(
+        fmt::format("--preview {}: the preview is an SVG file, beside which a picture in perspective is "
+                    "written as a PNG file; remedy: a name that ends with .svg",
+                    options.preview.string()));
+  }
   try {
     with_places(spec, [&] {
-      require_sound_geometry(spec);
-      const LinearSession session;
       if (spec.general.dimension == 2) {
         check_in<2>(spec, options);
       } else {
@@ -82,8 +130,13 @@ void add_check_command(CLI::App& app, ExitCode&) {
   command->add_option("--set", options->overrides, "Override a key, as in --set particles.spacing=0.01")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--preview", options->preview, "Picture to write (default: CASE.preview.svg in this folder)")
+  command
+      ->add_option(
+          "--preview", options->preview,
+          "Picture to write (default: CASE.preview.svg in this folder); in 3D also one in perspective beside it, "
+          "with the ending .png; of a wrong geometry both mark the places")
       ->type_name("FILE");
+  command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
   command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
   command->callback([options] { check_case(*options); });
 }

@@ -21,5 +21,6 @@ void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
 void add_validate_command(CLI::App& app, ExitCode& code);
 void add_waves_command(CLI::App& app, ExitCode& code);
+void add_pictures_command(CLI::App& app, ExitCode& code);
 
 }  // namespace tailwater

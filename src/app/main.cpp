@@ -100,6 +100,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_bench_command(app, code);
   add_validate_command(app, code);
   add_waves_command(app, code);
+  add_pictures_command(app, code);
 
   try {
     if (argc == 1) {

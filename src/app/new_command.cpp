@@ -18,6 +18,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"pier", templates::pier},
     {"weir", templates::weir},
     {"channel", templates::channel},
+    {"river-reach", templates::river_reach},
     {"wave-flume", templates::wave_flume},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
@@ -51,7 +52,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
           "template", options->kind,
           "dam-break (a column collapses in a tank), tank (water at rest), weir (water runs over a thin plate), "
           "channel "
-          "(an inlet, a tailwater and a discharge probe), pier (3D, a dam breaks against a pier from an STL file), "
+          "(an inlet, a tailwater and a discharge probe), river-reach (the same over a surveyed bed from a CSV file), "
+          "pier (3D, a dam breaks against a pier from an STL file), "
           "wave-flume (regular waves, gauges and a damping zone), solitary-wave, sloshing (a tank that rolls) or "
           "floating-box (a body on two lines)")
       ->required()

@@ -1,11 +1,15 @@
 #include "app/python_package.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "app/processes.h"
@@ -27,21 +31,72 @@ std::filesystem::path validation_folder(const std::string& module) {
   return folder;
 }
 
-}  // namespace
-
-void become_python(const std::string& module, const std::vector<std::string>& options) {
+/// The command line of a program of the package, which is found by PYTHONPATH from now on.
+std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
   const std::string folder = validation_folder(module).string();
   const char* path = std::getenv("PYTHONPATH");
-  setenv("PYTHONPATH", path == nullptr ? folder.c_str() : fmt::format("{}:{}", folder, path).c_str(), 1);
+  if (path == nullptr) {
+    setenv("PYTHONPATH", folder.c_str(), 1);
+  } else if (!std::string_view(path).starts_with(folder)) {
+    setenv("PYTHONPATH", fmt::format("{}:{}", folder, path).c_str(), 1);
+  }
   std::vector<std::string> words{python, "-m", "tailwater_validation." + module, "--program", this_program()};
   words.insert(words.end(), options.begin(), options.end());
+  return words;
+}
+
+std::vector<char*> as_arguments(std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  execv(python, arguments.data());
+  return arguments;
+}
+
+[[noreturn]] void throw_cannot_start(int error) {
   throw IoError(
       fmt::format("cannot start {}: {}; remedy: install python3 with numpy, matplotlib and VTK (scripts/install.sh)",
-                  python, std::generic_category().message(errno)));
+                  python, std::generic_category().message(error)));
+}
+
+}  // namespace
+
+void become_python(const std::string& module, const std::vector<std::string>& options) {
+  std::vector<std::string> words = python_command(module, options);
+  execv(python, as_arguments(words).data());
+  throw_cannot_start(errno);
+}
+
+void run_python(const std::string& module, const std::vector<std::string>& options) {
+  std::vector<std::string> words = python_command(module, options);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw_cannot_start(errno);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, python, &actions, nullptr, as_arguments(words).data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::string told;
+  if (error == 0) {
+    char buffer[4096];
+    for (ssize_t count = 0; (count = read(ends[0], buffer, sizeof buffer)) != 0;) {
+      if (count > 0) told.append(buffer, static_cast<std::size_t>(count));
+      if (count < 0 && errno != EINTR) break;
+    }
+  }
+  close(ends[0]);
+  if (error != 0) throw_cannot_start(error);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status == 0) return;
+  // Of a traceback the last line says what is wrong.
+  const std::size_t last = told.find_last_not_of(" \n");
+  const std::size_t begin = last == std::string::npos ? 0 : told.rfind('\n', last) + 1;
+  throw IoError(last == std::string::npos ? fmt::format("{} ended with status {}", module, status)
+                                          : told.substr(begin, last + 1 - begin));
 }
 
 }  // namespace tailwater

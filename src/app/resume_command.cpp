@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/pictures.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
 #include "app/sweep.h"
@@ -22,6 +23,7 @@ struct ResumeArguments {
   std::string wall_time;
   std::vector<std::string> overrides;
   std::optional<int> jobs;
+  int pictures = 0;
   bool quiet = false;
 };
 
@@ -29,6 +31,9 @@ ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (is_sweep(arguments.run.out)) {
+    if (arguments.pictures > 0) {
+      throw InputError("--pictures: a sweep; remedy: tailwater pictures DIR/MEMBER, when a member is done");
+    }
     if (arguments.ranks.count) require_possible(*arguments.ranks.count);
     if (!arguments.overrides.empty()) {
       throw InputError(
@@ -49,6 +54,7 @@ ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = resume_run(arguments.run, arguments.overrides, ranks);
   tell_end(code, arguments.run.out);
+  if (arguments.pictures > 0) draw_pictures(arguments.run.out, arguments.pictures, ranks);
   return code;
 }
 
@@ -66,6 +72,7 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks; default: as many as wrote the checkpoint");
   add_jobs_option(*command, arguments->jobs);
+  add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->footer(
       "Examples: tailwater resume my_run\n"

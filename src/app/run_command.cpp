@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/pictures.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
 #include "app/sweep.h"
@@ -26,6 +27,7 @@ struct RunArguments {
   RankArguments ranks;
   std::string wall_time;
   std::string help_case;
+  int pictures = 0;
   bool quiet = false;
 };
 
@@ -41,6 +43,9 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (arguments.ranks.count) require_possible(*arguments.ranks.count);
   if (!arguments.sweep.empty()) {
+    if (arguments.pictures > 0) {
+      throw InputError("--pictures and --sweep: remedy: tailwater pictures DIR/MEMBER, when a member is done");
+    }
     if (arguments.run.force) {
       throw InputError("--force and --sweep: a sweep goes on with what is not done; remedy: another --out");
     }
@@ -59,6 +64,7 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = run_case(spec, arguments.run, ranks);
   tell_end(code, arguments.run.out);
+  if (arguments.pictures > 0) draw_pictures(arguments.run.out, arguments.pictures, ranks);
   return code;
 }
 
@@ -82,6 +88,7 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
                             "Number of ranks, which this program starts by mpirun; default 1");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
+  add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
       ->expected(0, 1)
@@ -90,7 +97,7 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"
-      "          tailwater run my.toml --out my_run -n 8\n"
+      "          tailwater run my.toml --out my_run -n 8 --pictures 12\n"
       "          tailwater run my.toml --out fine --set particles.spacing=0.01 --set scheme.integrator=implicit\n"
       "          tailwater run my.toml --out sweep --sweep particles.spacing=0.02,0.015,0.01 --jobs 2\n"
       "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"

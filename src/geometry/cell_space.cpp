@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "geometry/from_spec.h"
@@ -109,10 +110,18 @@ bool CellSpace<Dim>::is_on_wall(const Cell& c) const {
 
 template <int Dim>
 int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
-  const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
-  const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
-  const auto face = std::find_if(begin, end, [&](int f) { return passes(faces_[f], from, to); });
-  return face == end ? -1 : *face;
+  int first = -1;
+  double way = std::numeric_limits<double>::infinity();  // share of the way to the first face
+  for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
+    const WallFace<Dim>& face = faces_[near_list_[k]];
+    if (!passes(face, from, to)) continue;
+    const double share = face.height(from) / (face.height(from) - face.height(to));
+    if (share < way) {
+      way = share;
+      first = near_list_[k];
+    }
+  }
+  return first;
 }
 
 template <int Dim>

@@ -38,7 +38,8 @@ class CellSpace {
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// Whether the centre of a cell is on a wall, and so on neither side of it.
   bool is_on_wall(const Cell& c) const;
-  /// A face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none.
+  /// The first face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none. A way that
+  /// cuts a corner off a body passes two: into it and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The same from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;

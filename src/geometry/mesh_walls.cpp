@@ -40,6 +40,14 @@ Eigen::Matrix3d rotation_of(const WallTable& table, const std::string& owner) {
   return turn;
 }
 
+/// From the file's coordinates to those of the case.
+void put_in_place(const WallTable& table, const std::string& owner, TriangleMesh& mesh) {
+  const Eigen::Matrix3d turn = table.scale * rotation_of(table, owner);
+  const Vec<3> shift =
+      table.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(table.translate, owner, "translate");
+  for (Vec<3>& x : mesh.points) x = turn * x + shift;
+}
+
 /// Refuses a mesh, with the words that begin every message about it.
 class Refusal {
  public:
@@ -180,6 +188,12 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
 
 }  // namespace
 
+TriangleMesh read_placed_mesh(const WallTable& table, const std::string& owner) {
+  TriangleMesh mesh = read_mesh(table.file, owner);
+  put_in_place(table, owner, mesh);
+  return mesh;
+}
+
 TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const std::string& owner) {
   TriangleMesh mesh = read_mesh(table.file, owner);
   const Refusal refuse(mesh, fmt::format("{}: file {}: ", owner, table.file));
@@ -192,10 +206,7 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
         "beside a spacing of {:.6g} m: move the mesh to the origin before it is exported, or correct scale = {:g}",
         farthest, round_off, spec.particles.spacing, table.scale);
   }
-  const Eigen::Matrix3d turn = table.scale * rotation_of(table, owner);
-  const Vec<3> shift =
-      table.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(table.translate, owner, "translate");
-  for (Vec<3>& x : mesh.points) x = turn * x + shift;
+  put_in_place(table, owner, mesh);
   const double torn = torn_points * farthest * table.scale;
   weld(mesh, torn);
 

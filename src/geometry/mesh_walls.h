@@ -9,6 +9,10 @@
 
 namespace tailwater {
 
+/// The triangles of a wall's file where they stand in the case, whether they can be a wall or not. Throws InputError
+/// for a file that read_mesh refuses.
+TriangleMesh read_placed_mesh(const WallTable& table, const std::string& owner);
+
 /// The mesh of a wall's table where it stands in the case: scaled, turned, moved and welded, with its front towards the
 /// water. Throws InputError, which names the wall (`owner`), the file, triangles and places, and the remedy, for a file
 /// that read_mesh refuses, degenerate or double triangles, edges of more than two, neighbours that face opposite sides,

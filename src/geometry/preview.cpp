@@ -12,6 +12,7 @@ namespace tailwater {
 namespace {
 
 constexpr std::size_t most_dots = 40000;
+constexpr std::size_t most_drawn_faces = 20000;
 constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
 constexpr double plot_height = 620.0;
 constexpr double margin = 24.0;
@@ -215,7 +216,8 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
 /// The extent of all that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
-                 const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers) {
+                 const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers,
+                 std::span<const Vec<Dim>> bad_places) {
   Extent extent;
   const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
     for (const WallFace<Dim>& face : faces) {
@@ -231,6 +233,7 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
       if (!marker.is_vertical) extent.include(x);
     }
   }
+  for (const Vec<Dim>& x : bad_places) extent.include(project(x));
   if (extent.low[0] > extent.high[0]) extent.include(Vec<2>::Zero());
   return extent;
 }
@@ -283,6 +286,7 @@ void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid
 
 template <int Dim>
 void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
+  if (boundary.faces.size() > most_drawn_faces) return;
   for (const WallFace<Dim>& face : boundary.faces) {
     for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
       const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
@@ -313,11 +317,11 @@ void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
 
 template <int Dim>
 std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
-                        const WallParticles<Dim>& walls) {
+                        const WallParticles<Dim>& walls, std::span<const Vec<Dim>> bad_places) {
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  View view = fitted_view(extent_of(boundary, fluid, walls, ends, markers), dx);
+  View view = fitted_view(extent_of(boundary, fluid, walls, ends, markers, bad_places), dx);
 
   std::vector<double> label_x;
   std::vector<std::string> names;
@@ -354,13 +358,18 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
   svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");
   for (std::size_t i = 0; i < markers.size(); ++i) draw_marker(svg, markers[i], rows[i], view);
+  for (const Vec<Dim>& x : bad_places) {
+    const Vec<2> p = view(project(x));
+    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="10" fill="none" stroke="{}" stroke-width="2.5"/>)", p[0], p[1],
+            probe_colour);
+  }
   svg.add("</svg>");
   return svg.str();
 }
 
-template std::string preview_svg(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&,
-                                 const WallParticles<2>&);
-template std::string preview_svg(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&,
-                                 const WallParticles<3>&);
+template std::string preview_svg(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&, const WallParticles<2>&,
+                                 std::span<const Vec<2>>);
+template std::string preview_svg(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&, const WallParticles<3>&,
+                                 std::span<const Vec<3>>);
 
 }  // namespace tailwater

@@ -189,7 +189,11 @@ Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, 
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
     const double missing = least_wall_distance * dx - wall.signed_distance;
     if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) break;
-    x += missing * boundary.faces[wall.face].normal;
+    const WallFace<Dim>& face = boundary.faces[wall.face];
+    // From the edge of a mesh straight away: the normal of one of its faces leads along the other.
+    const bool is_at_edge = boundary.mesh_of(wall.face) != nullptr && wall.signed_distance > corner_tolerance * dx &&
+                            face.height(x) < wall.signed_distance - corner_tolerance * dx;
+    x += missing * (is_at_edge ? Vec<Dim>((x - wall.point) / wall.signed_distance) : face.normal);
   }
   return x;
 }

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 7> result_files{
     effective_case_name, "steps.csv", "ranks.csv", summary_name, "log.txt", stop_file_name, checkpoint_file_name};
 constexpr std::array<std::string_view, 2> failure_files{"last_good.vtp", "report.txt"};
-/// The series of field files that a run may write: NAME.pvd and NAME_00000.vtp, ...
-constexpr std::array<std::string_view, 2> series_names{"fields", "walls"};
+/// The series of field files that a run, or its pictures, may write: NAME.pvd and NAME_00000.vtp, ...
+constexpr std::array<std::string_view, 3> series_names{"fields", "walls", "surface"};
 /// Folders that are made only when there is something to put into them.
-constexpr std::array<std::string_view, 2> rare_folders{"failure", "checkpoints"};
+constexpr std::array<std::string_view, 3> rare_folders{"failure", "checkpoints", "pictures"};
 constexpr std::string_view checkpoint_start = "step_";
 constexpr std::string_view checkpoint_ending = ".h5";
 
@@ -83,6 +83,11 @@ bool is_field_file(const fs::path& name) {
   });
 }
 
+/// picture_00012.png
+bool is_picture(const fs::path& name) {
+  return name.extension() == ".png" && is_numbered(name.stem().string(), "picture_", 5);
+}
+
 /// step_000000000012.h5
 bool is_checkpoint(const fs::path& name) {
   return name.extension() == checkpoint_ending && is_numbered(name.stem().string(), checkpoint_start, 1);
@@ -126,6 +131,7 @@ std::vector<fs::path> earlier_results(const fs::path& folder) {
   add_files(
       folder / "failure", [](const fs::path& name) { return is_one_of(failure_files, name); }, found);
   add_files(folder / "checkpoints", is_checkpoint, found);
+  add_files(folder / "pictures", is_picture, found);
   add_files(
       folder, [](const fs::path& name) { return is_one_of(result_files, name); }, found);
   return found;

@@ -199,7 +199,9 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
   last_fields_time_ = flow.state.time;
   const FluidFields<Dim> fields(flow, flow.state.particles, spec_.output.fields);
   series_.write(flow.state.time, fields.view(), ranks_);
-  if (!flow.setup.wall_motion.moving().empty()) {
+  // Walls at rest are written once, in 3D: a picture needs them, and no chain of points in the case tells of a mesh.
+  const bool is_first = Dim == 3 && series_.size() == 1;
+  if (is_first || !flow.setup.wall_motion.moving().empty()) {
     do_on_root(ranks_, [&] { wall_series_.write(flow.state.time, WallFields<Dim>(flow.walls.boundary).view()); });
   }
 }

@@ -98,9 +98,34 @@ class New(ProgramTest):
         subprocess.run([sys.executable, script, self.folder / "pier.stl"], check=True)
         coarse = ("--set", "particles.spacing=0.06", "--set", "time.end=0.02")
         self.assertEqual(self.call("check", "pier.toml", *coarse).stderr, "")
-        self.call("run", "pier.toml", "--out", "pier", "--quiet", *coarse)
-        (self.folder / "pier.stl").write_text("solid\n")
+        self.assertTrue((self.folder / "pier.preview.png").read_bytes().startswith(b"\x89PNG"))
+        self.call("run", "pier.toml", "--out", "pier", "--quiet", "--pictures", "1", *coarse)
+        self.assertEqual([path.name for path in (self.folder / "pier/pictures").iterdir()], ["picture_00000.png"])
+        self.assertEqual(sorted(path.name for path in (self.folder / "pier/fields").glob("*.pvd")),
+                         ["fields.pvd", "surface.pvd", "walls.pvd"])
+        self.call("run", "pier.toml", "--out", "pier", "--quiet", "--force", *coarse)
+        self.assertFalse((self.folder / "pier/pictures").exists() or (self.folder / "pier/fields/surface.pvd").exists(),
+                         "pictures of the earlier run")
+        with open(self.folder / "pier.stl", encoding="utf-8") as stl:
+            lines = stl.readlines()
+        (self.folder / "pier.stl").write_text("".join(lines[:-8] + lines[-1:]))
         self.assertIn("has changed", self.call("resume", "pier", "--set", "time.end=0.03", expect=2).stderr)
+        for picture in (self.folder / "pier.preview.svg", self.folder / "pier.preview.png"):
+            picture.unlink()
+        refused = self.call("check", "pier.toml", *coarse, expect=2)
+        self.assertIn("is not watertight", refused.stderr)
+        self.assertIn("pier.preview.png", refused.stdout)
+        self.assertIn("<circle", (self.folder / "pier.preview.svg").read_text())
+
+    def test_the_template_with_a_surveyed_bed_can_be_checked_and_run(self):
+        self.call("new", "river-reach", "reach.toml")
+        self.assertIn("bed.csv", self.call("check", "reach.toml", expect=2).stderr)
+        script = Path(__file__).resolve().parents[2] / "scripts/make_river_bed.py"
+        subprocess.run([sys.executable, script, self.folder / "bed.csv"], check=True)
+        self.assertEqual(self.call("check", "reach.toml").stderr, "")
+        self.call("run", "reach.toml", "--out", "reach", "--quiet", "--pictures", "1",
+                  "--set", "particles.spacing=0.08", "--set", "time.end=0.05")
+        self.assertEqual([path.name for path in (self.folder / "reach/pictures").iterdir()], ["picture_00000.png"])
 
     def test_refuses_to_overwrite(self):
         message = self.call("new", "tank", "small.toml", expect=2).stderr
@@ -137,6 +162,17 @@ class Check(ProgramTest):
     def test_the_preview_goes_where_it_is_told(self):
         self.assertIn("picture.svg", self.call("check", "small.toml", "--preview", "picture.svg").stdout)
         self.assertEqual(sorted(self.listing()), ["picture.svg", "small.toml"])
+
+    def test_nothing_is_drawn_if_nothing_is_to_be(self):
+        self.call("check", "small.toml", "--no-preview")
+        self.assertEqual(list(self.listing()), ["small.toml"])
+        self.assertIn("a name that ends with .svg", self.call("check", "small.toml", "--preview", "a.png", expect=2).stderr)
+
+    def test_the_preview_of_a_wrong_geometry_shows_where(self):
+        self.assertIn("preview:", self.call("check", "small.toml", "--set", "fluid.column.max=[1, 2.5]", expect=2).stdout)
+        self.assertIn("<circle", (self.folder / "small.preview.svg").read_text())
+        error = self.call("check", "small.toml", "--set", "fluid.column.max=[1, 2.5]", "--preview", "no/p.svg", expect=2).stderr
+        self.assertIn("warning: no preview", error)
 
     def test_the_preview_does_not_replace_the_case(self):
         self.assertIn("small.toml", self.call("check", "small.toml", "--preview", "./small.toml", expect=2).stderr)

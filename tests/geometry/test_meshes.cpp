@@ -349,6 +349,35 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
 }
 
+TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0.0, 0.0, 0.0}, {1.6, 1.6, 2.0}, {"+z"}),
+                folder.wall(sphere_mesh({0.831, 0.812, 0.822}, 0.5, 48), FluidSide::outside)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {1.6, 1.6, 1.6})};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
+    EXPECT_EQ(finding.severity, Severity::warning) << finding.message;
+  }
+}
+
+TEST(MeshWall, HoldsWaterOffAtItsEdgesAsFarAsAtItsFaces) {
+  const MeshFolder folder;
+  for (const double tilt : {0.2, 0.5, 0.8, 1.1}) {
+    TriangleMesh cube = box_mesh(Vec<3>::Constant(-0.5), Vec<3>::Constant(0.5));
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(0.6 * tilt, Vec<3>::UnitX()) * Eigen::AngleAxisd(tilt, Vec<3>::UnitZ())).toRotationMatrix();
+    for (Vec<3>& x : cube.points) x = turn * x + Vec<3>(0.53, 0.51, 0.52);
+    CaseSpec spec = case_with(folder.wall(cube, FluidSide::outside));
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    double nearest = infinite;
+    for (const Vec<3>& x : make_fluid_particles(spec, boundary).position) {
+      nearest = std::min(nearest, boundary.nearest(x, infinite).signed_distance);
+    }
+    EXPECT_GE(nearest, (0.25 - 1e-6) * spec.particles.spacing) << "tilt " << tilt;
+  }
+}
+
 TEST(Fill, OfABoxTankThatDxDoesNotDivideIsItsWholeVolume) {
   CaseSpec spec = empty_case(0.0275, 3);
   spec.walls = {box_wall({0.0, 0.0, 0.0}, {3.22, 1.0, 1.0}, {"+z"})};

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
-#include "cases.h"
+#include "geometry/broken_case.h"
 #include "geometry/preview.h"
+#include "meshes.h"
 
 namespace tailwater {
 namespace {
@@ -58,6 +60,56 @@ TEST(Preview, ShowsOutlets) {
   EXPECT_NE(preview<2>(spec).find(">weir &amp; end</text>"), std::string::npos);
   spec.outlets.clear();
   EXPECT_EQ(preview<2>(spec).find("weir"), std::string::npos);
+}
+
+TEST(Preview, CirclesBadPlaces) {
+  const CaseSpec spec = tank();
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const std::array<Vec<2>, 2> places{Vec<2>(0.5, 0.1), Vec<2>(2.5, 0.1)};
+  const std::string svg = preview_svg<2>(spec, boundary, make_fluid_particles<2>(spec, boundary), {}, places);
+  EXPECT_EQ(occurrences(svg, "<circle"), 2u);
+  EXPECT_NE(svg.find(">2.5</text>"), std::string::npos) << "the picture reaches to the second place";
+}
+
+TEST(Preview, OfAFineMeshDoesNotDrawItsFaces) {
+  CaseSpec spec = empty_case(0.1, 3);
+  const MeshFolder folder;
+  spec.walls = {folder.wall(sheet_mesh(110, [](double x, double y) { return 0.1 * x * y; }), FluidSide::above)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.3}, {0.4, 0.5, 0.4})};
+  EXPECT_LT(preview<3>(spec).size(), 1'000'000u) << "24 200 triangles would be 8 MB";
+}
+
+TEST(BrokenCase, MarksThePlacesThatTheMessageNames) {
+  const auto found = places_in<3>("wall 'pier': the edge from (0, -1.5, 2e-05) to (1, 2, 3.25) of triangle 3 (of 12)");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0], Vec<3>(0.0, -1.5, 2e-05));
+  EXPECT_EQ(found[1], Vec<3>(1.0, 2.0, 3.25));
+  EXPECT_EQ(places_in<2>("points[1] is at (0.5, 1)").size(), 1u);
+  EXPECT_TRUE(places_in<2>("at (0.5, 1, 2)").empty());
+  EXPECT_TRUE(places_in<3>("too much memory").empty());
+  EXPECT_TRUE(places_in<2>("wall '(1e999, -)' or '(1e+999, 0)'").empty());
+}
+
+TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {2.0, 1.0, 1.0}, {"+z"}),
+                folder.wall(box_mesh({0.5, 0.0, 0.0}, {1.0, 0.5, 0.5}), FluidSide::outside)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {0.5, 1.0, 0.5})};
+  EXPECT_EQ(draw_broken_case<3>(spec).fluid.position.size(), 5u * 10u * 5u) << "nothing is wrong";
+
+  TriangleMesh open = box_mesh({0.5, 0.0, 0.0}, {1.0, 0.5, 0.5});
+  open.triangles.pop_back();
+  spec.walls[1] = folder.wall(open, FluidSide::outside);
+  spec.walls[1].translate = {0.0, 0.0, 3.0};
+  const BrokenCase<3> drawing = draw_broken_case<3>(spec);
+  EXPECT_EQ(drawing.boundary.faces.size(), 5u * 2u + 11u);
+  EXPECT_EQ(drawing.boundary.faces.back().wall, 1);
+  EXPECT_GE(drawing.boundary.faces.back().corners[0][2], 3.0) << "where it stands in the case";
+  EXPECT_TRUE(drawing.fluid.position.empty()) << "without all walls nobody knows where water can be";
+
+  spec.walls[1].file = "nowhere.stl";
+  EXPECT_EQ(draw_broken_case<3>(spec).boundary.faces.size(), 5u * 2u);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ import matplotlib.image
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from tailwater_validation import compare, zhou1999
@@ -63,29 +63,53 @@ def water_below(level, length, height, spacing):
     return np.stack([x[wet], z[wet]], axis=1), 9810.0 * (level(x) - z)[wet]
 
 
-def write_frame(path, position, pressure):
+def write_frame(path, position, **fields):
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.pad(position, ((0, 0), (0, 1))), deep=True))
+    points.SetData(numpy_to_vtk(np.pad(position, ((0, 0), (0, 3 - position.shape[1]))), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    pressure = numpy_to_vtk(pressure.astype(np.float32), deep=True)
-    pressure.SetName("pressure")
-    data.GetPointData().AddArray(pressure)
+    for name, values in fields.items():
+        array = numpy_to_vtk(values.astype(np.float32), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
     writer.SetInputData(data)
     writer.Write()
 
 
-def write_frames(folder, frames):
-    """Field files of [(time in s, positions, pressures)]."""
-    entries = []
-    for k, (time, position, pressure) in enumerate(frames):
-        write_frame(folder / "fields" / f"fields_{k:05}.vtp", position, pressure)
-        entries.append(f'<DataSet timestep="{time}" file="fields_{k:05}.vtp"/>')
-    (folder / "fields" / "fields.pvd").write_text(
+def write_series(folder, name, times):
+    entries = [f'<DataSet timestep="{time}" file="{name}_{k:05}.vtp"/>' for k, time in enumerate(times)]
+    (folder / "fields" / f"{name}.pvd").write_text(
         '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0"><Collection>\n'
         + "\n".join(entries) + "\n</Collection></VTKFile>\n")
+
+
+def write_frames(folder, frames):
+    """Field files of [(time in s, positions, pressures)]."""
+    for k, (_, position, pressure) in enumerate(frames):
+        write_frame(folder / "fields" / f"fields_{k:05}.vtp", position, pressure=pressure)
+    write_series(folder, "fields", [time for time, *_ in frames])
+
+
+def write_frames_3d(folder, frames):
+    """Field files of [(time in s, positions)], of water that moves along x at 1 m/s; and walls, one triangle below."""
+    for k, (_, position) in enumerate(frames):
+        write_frame(folder / "fields" / f"fields_{k:05}.vtp", position,
+                    velocity=np.tile([1.0, 0.0, 0.0], (len(position), 1)), pressure=np.zeros(len(position)))
+    write_series(folder, "fields", [time for time, _ in frames])
+    floor = vtkPolyData()
+    points, faces = vtkPoints(), vtkCellArray()
+    for corner in ((0, 0, 0), (4, 0, 0), (4, 4, 0)):
+        points.InsertNextPoint(corner)
+    faces.InsertNextCell(3, (0, 1, 2))
+    floor.SetPoints(points)
+    floor.SetPolys(faces)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(folder / "fields" / "walls_00000.vtp"))
+    writer.SetInputData(floor)
+    writer.Write()
+    write_series(folder, "walls", [0.0])
 
 
 def make_folder(folder, effective_case):

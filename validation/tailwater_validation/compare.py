@@ -12,9 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import (janosi2004, janosi2004_picture, martin_moyce1952, martin_moyce1952_picture, ozmen_cagatay2014,
-               ozmen_cagatay2014_picture, picture, soares_frazao2002, soares_frazao2002_picture,
-               zhou1999)
+from . import (janosi2004, janosi2004_picture, kleefsman2005, kleefsman2005_picture, martin_moyce1952,
+               martin_moyce1952_picture, ozmen_cagatay2014, ozmen_cagatay2014_picture, picture, soares_frazao2002,
+               soares_frazao2002_picture, zhou1999)
 from .curves import DataError
 from .metric import bar
 from .run_folder import RunFolder
@@ -32,6 +32,7 @@ class Case:
 
 CASES = {
     "janosi2004": Case(janosi2004.TITLE, janosi2004.score, janosi2004_picture.draw),
+    "kleefsman2005": Case(kleefsman2005.TITLE, kleefsman2005.score, kleefsman2005_picture.draw),
     "martin_moyce1952": Case(martin_moyce1952.TITLE, martin_moyce1952.score, martin_moyce1952_picture.draw),
     "ozmen_cagatay2014": Case(ozmen_cagatay2014.TITLE, ozmen_cagatay2014.score, ozmen_cagatay2014_picture.draw),
     "soares_frazao2002": Case(soares_frazao2002.TITLE, soares_frazao2002.score, soares_frazao2002_picture.draw),

@@ -21,9 +21,9 @@ class Frame:
     fields: dict
 
 
-def list_frames(run_folder):
-    """[(time in s, path)] of fields/fields.pvd, in its order. Throws DataError."""
-    series = Path(run_folder) / "fields" / "fields.pvd"
+def list_frames(run_folder, name="fields"):
+    """[(time in s, path)] of fields/NAME.pvd, in its order. Throws DataError."""
+    series = Path(run_folder) / "fields" / f"{name}.pvd"
     try:
         entries = ElementTree.parse(series).getroot().iter("DataSet")
         return [(float(entry.get("timestep")), series.parent / entry.get("file")) for entry in entries]
@@ -33,19 +33,29 @@ def list_frames(run_folder):
         raise DataError(f"{series}: is not a ParaView series ({error})") from error
 
 
-def read_frame(time, path):
-    """Throws DataError if VTK cannot read the file."""
+def read_polydata(path):
+    """As vtkPolyData. Throws DataError if VTK cannot read the file."""
     reader = vtkXMLPolyDataReader()
     if not Path(path).is_file() or not reader.CanReadFile(str(path)):
         raise DataError(f"{path}: is not a VTK polydata file")
     reader.SetFileName(str(path))
     reader.Update()
-    data = reader.GetOutput()
+    return reader.GetOutput()
+
+
+def to_frame(time, data):
+    """The points and their fields, which borrow the memory of `data`."""
     arrays = data.GetPointData()
-    if data.GetNumberOfPoints() == 0:
-        raise DataError(f"{path}: holds no particles")
     fields = {arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k)) for k in range(arrays.GetNumberOfArrays())}
     return Frame(time, vtk_to_numpy(data.GetPoints().GetData()), fields)
+
+
+def read_frame(time, path):
+    """Throws DataError if VTK cannot read the file, or if there are no particles in it."""
+    data = read_polydata(path)
+    if data.GetNumberOfPoints() == 0:
+        raise DataError(f"{path}: holds no particles")
+    return to_frame(time, data)
 
 
 def nearest_frames(run_folder, times):

@@ -130,7 +130,7 @@ def settings_of(run):
 
 def require_accepted(run, program, out):
     """Throws DataError, with what the program says, if it does not accept the case with these settings."""
-    command = [program.path, "check", run.case, "--preview", out / "check.svg", *settings_of(run)]
+    command = [program.path, "check", run.case, "--no-preview", *settings_of(run)]
     result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if result.returncode != 0:
         raise DataError(result.stderr.strip().removeprefix("error: ") or f"{run.name}: exit code {result.returncode}")

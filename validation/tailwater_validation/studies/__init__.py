@@ -3,10 +3,10 @@
 from . import comparisons, exact, laboratory, operators, shallow, zhou
 
 FUNCTIONS = (zhou.study, laboratory.martin_moyce, laboratory.janosi, laboratory.ozmen_cagatay, laboratory.soares_frazao,
-             operators.operators, operators.poisson, exact.tank, exact.taylor_green, exact.standing_wave, exact.drop,
-             exact.poiseuille, exact.couette, shallow.ritter, shallow.stoker, comparisons.integrators, comparisons.wet_bed,
-             comparisons.schemes, comparisons.devices, comparisons.slip, comparisons.time_step, comparisons.sill_time_step,
-             comparisons.starts)
+             laboratory.kleefsman, operators.operators, operators.poisson, exact.tank, exact.taylor_green,
+             exact.standing_wave, exact.drop, exact.poiseuille, exact.couette, shallow.ritter, shallow.stoker,
+             comparisons.integrators, comparisons.wet_bed, comparisons.schemes, comparisons.devices, comparisons.slip,
+             comparisons.time_step, comparisons.sill_time_step, comparisons.starts)
 
 
 def studies(plan):

@@ -1,0 +1,27 @@
+// Pictures that the program leaves by itself; the Python package in validation/ draws them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "geometry/boundary.h"
+#include "parallel/communicator.h"
+
+namespace tailwater {
+
+/// --pictures N of the commands that make runs.
+void add_pictures_option(CLI::App& command, int& pictures);
+
+/// Draws so many pictures of a run that has ended. Without Python, VTK or Xvfb there is a warning instead: what was
+/// computed is there. The root alone draws.
+void draw_pictures(const std::filesystem::path& run, int count, const Communicator& ranks);
+
+/// Draws walls, water of the given spacing (m) and places marked in red, in perspective, into the PNG file `image`.
+/// Throws IoError if it cannot.
+void draw_start(const std::filesystem::path& image, const std::string& title, double spacing,
+                const Boundary<3>& boundary, std::span<const Vec<3>> water, std::span<const Vec<3>> marks);
+
+}  // namespace tailwater

@@ -1,0 +1,122 @@
+"""The laboratory's curves and the scores of a made-up run of cases/kleefsman2005."""
+
+import tomllib
+import unittest
+
+import numpy as np
+
+import synthetic_run
+from tailwater_validation import kleefsman2005, kleefsman2005_picture
+from tailwater_validation.curves import DataError, read_table
+
+CASE = kleefsman2005.DATA.parents[1] / "case.toml"
+
+EFFECTIVE_CASE = """\
+[case]
+title = "{title}"
+dimension = 3
+[physics]
+density = 1000.0
+gravity = [0.0, 0.0, -9.81]
+[particles]
+spacing = 0.1
+[time]
+end = {end}
+[scheme]
+integrator = "explicit"
+"""
+
+
+def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
+    """Repeats the laboratory's curves: heights `too_high` (m), pressures `late` (s) and `factor` times as large after the
+    impact. Before it a run's sensors are dry."""
+    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(title=kleefsman2005.TITLE, end=end))
+    for gauge in kleefsman2005.GAUGES:
+        curve = kleefsman2005.laboratory(gauge).window(0, end + 0.01)
+        synthetic_run.write_probe(folder, gauge, {"time_s": curve.time, "connected_m": curve.value + too_high,
+                                                  "highest_m": curve.value + too_high + 0.01})
+    for sensor in (*kleefsman2005.SENSORS, *kleefsman2005.TOP_SENSORS):
+        curve = kleefsman2005.laboratory(sensor).window(0, end + 0.01)
+        pressure = np.where(curve.time > kleefsman2005.NOT_BEFORE, factor * curve.value, 0)
+        synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure})
+    cells = np.stack(np.meshgrid(*(np.arange(0.05, length, 0.1) for length in (1.2, 1.0, 0.5))), -1).reshape(-1, 3)
+    synthetic_run.write_frames_3d(folder, [(time, cells + (2.0 - time, 0, 0)) for time in kleefsman2005_picture.MOMENTS])
+    return folder
+
+
+class Data(unittest.TestCase):
+    def test_the_file_says_where_it_comes_from(self):
+        text = kleefsman2005.DATA.read_text()
+        for word in ("# WHAT:", "# PAPER:", "# SOURCE:", "# CAVEATS:"):
+            self.assertIn(word, text)
+
+    def test_curves_span_what_is_scored(self):
+        for name in (*kleefsman2005.GAUGES, *kleefsman2005.SENSORS, *kleefsman2005.TOP_SENSORS):
+            curve = kleefsman2005.laboratory(name)
+            self.assertLess(curve.time[0], 0.01)
+            self.assertGreater(curve.time[-1], kleefsman2005.END)
+
+    def test_heights_are_named_by_who_gets_wet_first(self):
+        table = read_table(kleefsman2005.DATA)
+        wet = [table["time_s"][np.argmax(table[f"{gauge}_m"] > 0.05)] for gauge in ("H3", "H2", "H1")]
+        self.assertEqual(wet, sorted(wet))
+        self.assertAlmostEqual(table["H4_m"][:20].mean(), kleefsman2005.DEPTH, delta=0.01)
+
+    def test_the_case_has_the_probes_that_are_scored(self):
+        with open(CASE, "rb") as file:
+            case = tomllib.load(file)
+        self.assertEqual(case["case"]["title"], kleefsman2005.TITLE)
+        probes = {probe["name"]: probe for probe in case["probe"]}
+        for gauge in kleefsman2005.GAUGES:
+            self.assertEqual(probes[gauge]["type"], "depth")
+        for sensor, height in kleefsman2005.SENSORS.items():
+            self.assertEqual((probes[sensor]["type"], probes[sensor]["at"][2]), ("wall-pressure", height))
+            self.assertNotIn("interval", probes[sensor])  # impacts are shorter than any
+
+
+class Scores(synthetic_run.CaseTest):
+    def score(self, **options):
+        result = kleefsman2005.score(write_run(self.folder, **options))
+        return {metric["name"]: metric for metric in result["metrics"]}
+
+    def test_a_run_that_repeats_the_laboratory_meets_all_bars(self):
+        metrics = self.score()
+        for name, metric in metrics.items():
+            if not name.startswith("energy"):  # the made-up summary's rise is 2e-4
+                self.assertIn(metric["verdict"], ("met", ""), name)
+        self.assertEqual(metrics["energy rise"]["verdict"], "missed")
+        self.assertAlmostEqual(metrics["mean error H2"]["value"], 0, places=9)
+        self.assertAlmostEqual(metrics["mean error H2 highest"]["value"], 100 * 0.01 / 0.55, places=6)
+
+    def test_known_errors_are_found(self):
+        metrics = self.score(too_high=0.0165, factor=1.12)
+        self.assertAlmostEqual(metrics["mean error H4"]["value"], 3.0, places=6)
+        self.assertEqual([metrics[f"mean error {gauge}"]["verdict"] for gauge in ("H2", "H4")], ["met", "missed"])
+        self.assertAlmostEqual(metrics["impulse P3"]["value"], 12.0, places=6)
+        self.assertEqual(metrics["impulse P3"]["verdict"], "missed")
+        self.assertAlmostEqual(metrics["largest P1"]["value"], 12.0, places=6)
+        self.assertEqual(metrics["largest P1"]["verdict"], "met")
+
+    def test_a_late_arrival_is_found(self):
+        self.assertAlmostEqual(self.score(late=0.02)["arrival P2"]["value"], 0.02, places=9)
+
+    def test_a_short_run_is_scored_as_far_as_it_goes_and_without_bars_of_the_whole(self):
+        metrics = self.score(end=1.0)
+        self.assertIn("0..1 s", metrics["mean error H2"]["what"])
+        self.assertEqual(metrics["mean error H2"]["verdict"], "")
+        self.assertAlmostEqual(metrics["impulse P1"]["value"], 0, places=9)
+
+    def test_a_sensor_that_stays_dry_is_told(self):
+        metrics = self.score(factor=0.0)
+        self.assertIsNone(metrics["arrival P1"]["value"])
+        self.assertIn("never exceeds", metrics["arrival P1"]["note"])
+        with self.assertRaises(DataError):
+            kleefsman2005.over_impact(kleefsman2005.laboratory("P1").window(0, 0.9))
+
+    def test_recognised_and_drawn(self):
+        write_run(self.folder)
+        self.assert_recognised_and_drawn("kleefsman2005", kleefsman2005_picture.draw)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,186 @@
+"""The water's surface as a mesh, and pictures of runs: what they show and which files they leave."""
+
+import contextlib
+import io
+import unittest
+import unittest.mock
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import synthetic_run
+from tailwater_validation import pictures, scene, start_picture, surface
+from tailwater_validation.curves import DataError
+from tailwater_validation.particles import Frame, list_frames, read_polydata
+from tailwater_validation.run_folder import RunFolder
+
+DX = 0.1
+CASE = """\
+[case]
+title = "A block for $5_^$"
+dimension = {dimension}
+[physics]
+density = 1000.0
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.1
+[scheme]
+integrator = "explicit"
+"""
+
+
+def block(*counts):
+    """Centres of so many cells along each axis, from the origin."""
+    return DX * (np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), -1).reshape(-1, len(counts)) + 0.5)
+
+
+def points_of(mesh):
+    return vtk_to_numpy(mesh.GetPoints().GetData())
+
+
+class Surface(unittest.TestCase):
+    def test_stands_on_the_flat_surface_of_a_lattice(self):
+        mesh = surface.water_surface(Frame(0.0, block(12, 12, 10), {}), DX)
+        points = points_of(mesh)
+        middle = np.abs(points[:, :2] - 0.6).max(1) < 0.3
+        top = points[middle & (points[:, 2] > 0.5), 2]
+        self.assertGreater(top.size, 100)
+        # Over the slope of c on the surface, 0.4/s with s = dx/2: its ripple, 2 exp(-2 (pi/2)^2) = 1.4 %, is 0.02 dx, and
+        # what a straight line between nodes s apart is off, s^2/8 of the second derivative 0.24/s^2, is 0.04 dx.
+        self.assertLess(np.abs(top - 1.0).max(), 0.06 * DX)
+        bottom = points[middle & (points[:, 2] < 0.5), 2]
+        self.assertLess(np.abs(bottom).max(), 0.06 * DX)
+
+    def test_a_particle_alone_is_just_seen(self):
+        grid = surface.colour_function(np.array([[0.3, 0.2, 0.1]]), DX)
+        values = vtk_to_numpy(grid.GetPointData().GetScalars())
+        # (dx/(sqrt(2 pi) s))^3 = 0.508 with s = dx/2 at the particle; the grid samples it every s.
+        self.assertGreater(values.max(), 0.4)
+        self.assertLess(values.max(), 0.54)
+        cell = grid.GetSpacing()[0]
+        self.assertAlmostEqual(values.sum() * cell**3, DX**3, delta=0.01 * DX**3)
+
+    def test_memory_is_bounded_wherever_the_water_is(self):
+        far = np.concatenate([block(6, 6, 6), block(6, 6, 6) + 20.0])
+        grid = surface.colour_function(far, DX, most_nodes=100_000)
+        self.assertLessEqual(np.prod(grid.GetDimensions()), 100_000)
+        self.assertGreater(grid.GetSpacing()[0], 4 * surface.CELL * DX)
+        # A drop far away does not make the rest coarse.
+        one_drop = np.concatenate([block(12, 12, 12), [[20.0, 20.0, 20.0]]])
+        grid = surface.colour_function(one_drop, DX, most_nodes=100_000)
+        self.assertEqual(grid.GetSpacing()[0], surface.CELL * DX)
+        self.assertLess(grid.GetBounds()[1], 2.0)
+
+    def test_fields_are_those_of_the_particles_around(self):
+        position = block(8, 8, 8)
+        velocity = np.stack([position[:, 2], 0 * position[:, 2], 0 * position[:, 2]], axis=1)
+        mesh = surface.water_surface(Frame(0.0, position, {"velocity": velocity}), DX)
+        found = vtk_to_numpy(mesh.GetPointData().GetArray("velocity"))
+        # A mean of particles on the inner side, within their reach of two spacings.
+        self.assertLess(np.abs(found[:, 0] - points_of(mesh)[:, 2]).max(), 2 * DX)
+        self.assertLess(np.abs(found[:, 1:]).max(), 1e-6)
+
+
+class PicturesTest(synthetic_run.CaseTest):
+    def run_of(self, dimension, frames=3):
+        folder = synthetic_run.make_folder(self.folder, CASE.format(dimension=dimension))
+        if dimension == 3:
+            synthetic_run.write_frames_3d(folder, [(0.5 * k, block(6, 5, 4) + (0.5 + 0.2 * k, 0.5, 0)) for k in range(frames)])
+        else:
+            synthetic_run.write_frames(folder, [(0.5 * k, block(6, 4), np.zeros(24)) for k in range(frames)])
+        return folder
+
+    def command(self, *arguments):
+        """Exit code, output and messages."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = pictures.main(["--program", "tailwater", *map(str, arguments)])
+        return code, out.getvalue(), err.getvalue()
+
+
+class Pictures(PicturesTest):
+    def test_a_run_in_3d_gets_pictures_and_a_mesh_for_each_field_file(self):
+        folder = self.run_of(3)
+        self.assertEqual(self.command(folder, "--count", "2")[0], 0)
+        self.assertEqual(sorted(path.name for path in (folder / "pictures").iterdir()),
+                         ["picture_00000.png", "picture_00002.png"])
+        meshes = list_frames(folder, "surface")
+        self.assertEqual([time for time, _ in meshes], [0.0, 0.5, 1.0])
+        for k, (_, path) in enumerate(meshes):
+            self.assertAlmostEqual(points_of(read_polydata(path))[:, 0].min(), 0.5 + 0.2 * k, delta=0.2 * DX)  # rounded
+        made = [path.stat().st_mtime_ns for _, path in meshes]
+        self.assertEqual(self.command(folder, "--times", "0.4")[0], 0)
+        self.assertTrue((folder / "pictures/picture_00001.png").is_file())
+        self.assertEqual([path.stat().st_mtime_ns for _, path in meshes], made)
+
+    def test_a_run_in_2d_gets_pictures(self):
+        folder = self.run_of(2)
+        self.assertEqual(self.command(folder, "--count", "1")[0], 0)
+        self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00000.png"])
+        self.assertFalse((folder / "fields/surface.pvd").exists())
+
+    def test_what_cannot_be_drawn_is_told(self):
+        code, _, err = self.command(Path(self.folder) / "nothing")
+        self.assertEqual((code, "is not the folder of a run" in err), (2, True), err)
+        folder = self.run_of(3)
+        with unittest.mock.patch.object(scene, "_has_display", False), unittest.mock.patch("shutil.which", lambda _: None):
+            code, _, err = self.command(folder)
+        self.assertEqual((code, "remedy: install xvfb" in err), (2, True), err)
+
+
+class Scene(PicturesTest):
+    def test_shows_water_faces_that_look_here_and_marks_on_top(self):
+        folder = self.run_of(3, frames=1)
+        walls = pictures.walls_at(RunFolder(folder), 0.0)
+        water = surface.water_surface(Frame(0.0, block(6, 5, 4) + (0.5, 0.5, 0), {}), DX)
+        bounds = (0, 4, 0, 4, 0, 1)
+
+        def share(image, is_shown):
+            return np.mean(is_shown(*(image[:, :, k].astype(int) for k in range(3))))
+
+        def is_blue(red, green, blue):
+            return blue > red + 60
+
+        def is_red(red, green, blue):
+            return red > blue + 60
+
+        def is_wall(red, green, blue):
+            return (red < 250) & (np.abs(red - blue) < 40)
+
+        above = scene.Scene(bounds, (0.5, -1, 1), width=200)
+        image = above.draw(water, walls)
+        self.assertGreater(share(image, is_blue), 0.005)
+        self.assertGreater(share(image, is_wall), 0.2)  # the floor looks up
+        self.assertEqual(share(image, is_red), 0)
+        # Behind the water, and yet seen.
+        self.assertGreater(share(above.draw(water, walls, [(0.8, 1.1, 0.1)]), is_red), 1e-4)
+        below = scene.Scene(bounds, (0.5, -1, -1), width=200)
+        self.assertLess(share(below.draw(None, walls), is_wall), 0.05)  # only its edges
+
+    def test_the_start_with_a_place_marked(self):
+        folder = self.run_of(3, frames=1)
+        image = folder / "start.png"
+        code = start_picture.main(["--walls", str(folder / "fields/walls_00000.vtp"), "--water",
+                                   str(folder / "fields/fields_00000.vtp"), "--spacing", "0.1", "--title", "$5_^$", "--image",
+                                   str(image), "--mark=-0.5,1,0.5"])
+        self.assertEqual(code, 0)
+        shown = matplotlib.image.imread(image)
+        self.assertGreater(np.mean((shown[:, :, 0] > shown[:, :, 2] + 0.25)), 1e-4)
+
+
+class Frames(unittest.TestCase):
+    def test_equal_distances_or_the_nearest_times(self):
+        frames = [(0.1 * k, None) for k in range(11)]
+        self.assertEqual([number for number, *_ in pictures.choose_frames(frames, (), 3)], [0, 5, 10])
+        self.assertEqual([number for number, *_ in pictures.choose_frames(frames, (0.72, 0.19, 0.21), 3)], [2, 7])
+        self.assertEqual(len(pictures.choose_frames(frames, (), 99)), 11)
+
+    def test_an_empty_series_is_told(self):
+        with self.assertRaisesRegex(DataError, "no walls|cannot be read"):
+            list_frames(Path("/nowhere"), "walls")
+
+
+if __name__ == "__main__":
+    unittest.main()

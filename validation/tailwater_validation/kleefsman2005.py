@@ -1,0 +1,140 @@
+"""Scores a run of cases/kleefsman2005 against the laboratory data beside the case (its README says what was measured).
+
+Times in s, heights over the water's depth at the start, pressures in Pa.
+"""
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from .curves import DataError, arrival_time, differences, read_curve
+from .metric import Metric, measure
+from .run_folder import RunFolder
+from .scoring import result
+
+TITLE = "Dam break against a box, Kleefsman et al. (2005)"  # of the case file: how a run is recognised
+DATA = Path(__file__).resolve().parents[2] / "cases" / "kleefsman2005" / "data" / "kleefsman2005.csv"
+DEPTH = 0.55  # m
+END = 6.0  # s
+GRID = 0.01  # s, between the instants at which heights are compared
+
+GAUGES = ("H1", "H2", "H3", "H4")
+HEIGHT_BARS = {"H2": 4.0, "H4": 2.0}  # percent of the depth, mean over END
+HEIGHT_PEERS = {"H2": (("interFoam", 4.3, 4.3),), "H4": (("interFoam", 2.1, 2.1),)}
+
+SENSORS = {"P1": 0.021, "P2": 0.061, "P3": 0.101, "P4": 0.141}  # m, heights on the face towards the water
+TOP_SENSORS = ("P5", "P6", "P7", "P8")
+# The sensors drift by some 50 Pa before the impact; ten times that is a tenth of the hydrostatic pressure at the start.
+THRESHOLD = 500.0  # Pa
+NOT_BEFORE = 0.3  # s; the door's own shocks are over
+IMPACT = (0.4, 1.0)  # s; the window of largest pressures and impulses
+ARRIVAL_BAR, PEAK_BAR, IMPULSE_BAR = 0.01, 15.0, 10.0  # s, percent, percent
+RISE_BAR, DENSITY_BAR = 1e-4, 0.01  # of the energy at the start; rms
+
+
+def laboratory(name):
+    """Measured height (m) or pressure (Pa), as a curve over s."""
+    return read_curve(DATA, f"{name}_m" if name in GAUGES else f"{name}_Pa")
+
+
+def computed(run, name, column="connected_m"):
+    return run.probe(name, column if name in GAUGES else "pressure_Pa")
+
+
+def mean_error(run, gauge, end, column="connected_m"):
+    """Mean distance of the heights until `end` (s), percent of the depth."""
+    return 100 * float(np.abs(differences(laboratory(gauge), computed(run, gauge, column), 0, end, GRID)).mean()) / DEPTH
+
+
+def arrival(curve):
+    """s. Throws DataError if the pressure never exceeds the threshold."""
+    time = arrival_time(curve, THRESHOLD, NOT_BEFORE)
+    if time is None:
+        raise DataError(f"the pressure never exceeds {THRESHOLD:g} Pa")
+    return time
+
+
+def over_impact(curve):
+    """The part in the window, with its ends by interpolation. Throws DataError if the curve does not cover it."""
+    start, end = IMPACT
+    if curve.time[0] > start or curve.time[-1] < end:
+        raise DataError(f"the curve does not cover {start:g}..{end:g} s")
+    times = np.union1d(curve.window(start, end).time, IMPACT)
+    return times, np.interp(times, curve.time, curve.value)
+
+
+def largest(curve):
+    return float(over_impact(curve)[1].max())
+
+
+def impulse(curve):
+    """Pa s."""
+    return float(np.trapz(*over_impact(curve)[::-1]))
+
+
+def excess(read, run, sensor):
+    """By how much what is read of the computed pressure is more than of the measured one, percent."""
+    return 100 * (read(computed(run, sensor)) / read(laboratory(sensor)) - 1)
+
+
+def end_of(run):
+    """How far a run is compared, s: also one that was stopped."""
+    asked = run.case["time"]["end"]
+    return min(END, asked, run.summary.get("time_s", {}).get("reached", asked))
+
+
+def score_heights(run):
+    """A run that ends before END has no bar."""
+    end = end_of(run)
+    bars = HEIGHT_BARS if end == END else {}
+    return [
+        measure(Metric(f"mean error {gauge}{suffix}", f"water height {gauge}, {label}, mean error over t = 0..{end:.3g} s",
+                       "% of H", "laboratory", high=bars.get(gauge) if not suffix else None,
+                       peers=HEIGHT_PEERS.get(gauge) if end == END else None),
+                value=partial(mean_error, run, gauge, end, column))
+        for gauge in GAUGES
+        for suffix, label, column in (("", "joined with the bed", "connected_m"), (" highest", "highest water", "highest_m"))
+    ]
+
+
+def score_pressures(run):
+    found = []
+    for sensor, height in SENSORS.items():
+        measured = laboratory(sensor)
+        found += [
+            measure(Metric(f"arrival {sensor}", f"arrival at {sensor}, z = {height:g} m, later than measured", "s",
+                           f"laboratory: {arrival(measured):.3f}", -ARRIVAL_BAR, ARRIVAL_BAR),
+                    value=lambda sensor=sensor, measured=measured: arrival(computed(run, sensor)) - arrival(measured)),
+            measure(Metric(f"largest {sensor}", f"largest pressure at {sensor}, more than measured", "%",
+                           f"laboratory: {largest(measured):.0f} Pa", -PEAK_BAR, PEAK_BAR),
+                    value=partial(excess, largest, run, sensor)),
+            measure(Metric(f"impulse {sensor}", f"impulse at {sensor}, t = {IMPACT[0]:g}..{IMPACT[1]:g} s, more than measured",
+                           "%", f"laboratory: {impulse(measured):.0f} Pa s", -IMPULSE_BAR, IMPULSE_BAR),
+                    value=partial(excess, impulse, run, sensor)),
+        ]
+    return found
+
+
+def of_summary(run, block, name):
+    try:
+        return run.summary[block][name]
+    except KeyError as error:
+        raise DataError(f"the run's summary has no {block}.{name}") from error
+
+
+def score_health(run):
+    return [
+        measure(Metric("energy rise", "largest rise of the total energy", "of the start", "0", high=RISE_BAR),
+                value=lambda: of_summary(run, "energy", "largest_rise_over_start")),
+        measure(Metric("density rms", "density error, rms over the bulk and time", "", "0", high=DENSITY_BAR),
+                value=lambda: of_summary(run, "volume", "density_error_rms")),
+        measure(Metric("outside", "most particles outside the walls", "particles", "0", 0, 0),
+                value=lambda: of_summary(run, "volume", "outside_the_walls_most")),
+    ]
+
+
+def score(run_folder):
+    """Scores a run; returns the result of `scoring`. Throws DataError if the folder is not that of a run."""
+    run = RunFolder(run_folder)
+    return result("kleefsman2005", run, score_heights(run) + score_pressures(run) + score_health(run))

@@ -1,0 +1,47 @@
+"""The picture in perspective that `tailwater check` leaves: walls, water, and places that are wrong."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import matplotlib
+
+from . import plots, scene
+from .curves import DataError
+from .particles import read_polydata, to_frame
+from .pictures import DPI, bounds_of, plain, show_image, write_whole
+from .surface import water_surface
+
+
+def point(text):
+    x, y, z = map(float, text.split(","))
+    return x, y, z
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="tailwater_validation.start_picture", description=__doc__)
+    parser.add_argument("--program", help=argparse.SUPPRESS)
+    parser.add_argument("--walls", type=Path, required=True, help="VTP file of faces")
+    parser.add_argument("--water", type=Path, required=True, help="VTP file of particles")
+    parser.add_argument("--spacing", type=float, required=True, help="m")
+    parser.add_argument("--title", required=True)
+    parser.add_argument("--image", type=Path, required=True, help="PNG file to write")
+    parser.add_argument("--mark", type=point, action="append", default=[], metavar="X,Y,Z", help="a place to be marked")
+    options = parser.parse_args(arguments)
+    try:
+        walls, particles = read_polydata(options.walls), read_polydata(options.water)
+        water = to_frame(0.0, particles) if particles.GetNumberOfPoints() else None
+        bounds = bounds_of([water] if water else [], walls)
+        surface = water_surface(water, options.spacing) if water else None
+        image = scene.Scene(bounds).draw(surface, walls, options.mark)
+        with matplotlib.rc_context(plots.STYLE):
+            figure, _ = show_image(image, plain(options.title))
+            write_whole(options.image, lambda part: figure.savefig(part, dpi=DPI, format="png"))
+    except (DataError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 4
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
