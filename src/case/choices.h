@@ -53,6 +53,9 @@ enum class ProbeType {
   discharge,
   force,
   pressure_map,
+  run_up,
+  level_map,
+  velocity_profile,
 };
 
 template <class Enumeration>
@@ -170,9 +173,10 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 12> names{
-      "depth",  "wall-pressure", "wall-pressure-mean", "front", "profile",     "pressure", "velocity",
-      "energy", "volume",        "discharge",          "force", "pressure-map"};
+  static constexpr std::array<std::string_view, 15> names{
+      "depth",           "wall-pressure", "wall-pressure-mean", "front", "profile",      "pressure", "velocity",
+      "energy",          "volume",        "discharge",          "force", "pressure-map", "run-up",   "level-map",
+      "velocity-profile"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.
