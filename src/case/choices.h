@@ -54,6 +54,9 @@ enum class ProbeType {
   force,
   pressure_map,
   motion,
+  run_up,
+  level_map,
+  velocity_profile,
 };
 
 template <class Enumeration>
@@ -171,9 +174,10 @@ struct Choices<DecompositionMethod> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 13> names{
-      "depth",  "wall-pressure", "wall-pressure-mean", "front", "profile",      "pressure", "velocity",
-      "energy", "volume",        "discharge",          "force", "pressure-map", "motion"};
+  static constexpr std::array<std::string_view, 16> names{
+      "depth",     "wall-pressure",   "wall-pressure-mean", "front", "profile",      "pressure", "velocity",
+      "energy",    "volume",          "discharge",          "force", "pressure-map", "motion",   "run-up",
+      "level-map", "velocity-profile"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

@@ -69,6 +69,9 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "force", {"moment_about"}, {"walls", "region_min", "region_max", "region_points", "interval"}},
       {"probe", "type", "pressure-map", {}, {"walls", "region_min", "region_max", "region_points", "interval"}},
       {"probe", "type", "motion", {"body"}, {"interval"}},
+      {"probe", "type", "run-up", {}, {"walls", "region_min", "region_max", "region_points", "interval"}},
+      {"probe", "type", "level-map", {"from", "to"}, {"step", "interval"}},
+      {"probe", "type", "velocity-profile", {"at"}, {"step", "times", "interval"}},
   };
   return uses;
 }

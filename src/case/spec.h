@@ -776,6 +776,7 @@ struct ProbeTable {
   std::vector<Coordinates> region_points;
   Coordinates moment_about;
   std::string body;
+  double step = 0.0;
   std::vector<double> times;
   double interval = 0.0;
 
@@ -787,21 +788,28 @@ struct ProbeTable {
     v.choice("type", self.type, "What is measured", Presence::required);
     v.coordinates(
         "at", self.at, "m",
-        "Position of a depth probe (its height is ignored) or of a wall-pressure, pressure or velocity probe");
-    v.coordinates("from", self.from, "m", "Start of a stretch of wall, of a profile or of a section");
+        "Position of a depth or velocity-profile probe (its height is ignored) or of a wall-pressure, pressure or "
+        "velocity probe");
+    v.coordinates(
+        "from", self.from, "m",
+        "Start of a stretch of wall, of a profile, of a level map (its height is ignored) or of a section; of "
+        "what overtops a crest: the crest");
     v.coordinates("to", self.to, "m",
-                  "End of a stretch of wall, of a profile or of a section: a segment (2D), or the opposite corner of a "
-                  "flat axis-parallel rectangle (3D)");
+                  "End of a stretch of wall or of a profile; of a level map or a section: that of a segment (2D), or "
+                  "the opposite corner of a flat axis-parallel rectangle (3D)");
     v.coordinates("direction", self.direction, "",
                   "Direction in which a front probe looks, or in which a discharge counts as positive (default: +x)");
-    v.texts("walls", self.walls, {}, "Names of the walls that a force or pressure-map probe is for (default: all)");
+    v.texts("walls", self.walls, {},
+            "Names of the walls that a force, pressure-map or run-up probe is for (default: all)");
     v.coordinates("region_min", self.region_min, "m",
                   "Lowest corner of a box; only what is inside of these walls, as drawn, counts");
     v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
     v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
     v.coordinates("moment_about", self.moment_about, "m", "Point, which does not move, that the moment is taken about");
     v.text("body", self.body, "Name of the body whose motion is written");
-    v.numbers("times", self.times, "s", "Times at which a profile is taken");
+    v.number("step", self.step, "m", Range::at_least(0.0),
+             "Distance between the places of a level map or a velocity profile; 0: dx");
+    v.numbers("times", self.times, "s", "Times at which a profile or velocity profile is taken");
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
   }
 };

@@ -104,7 +104,7 @@ std::vector<std::string> probe_files(const fs::path& folder) {
     if (line.starts_with('[')) is_in_probe = line == "[[probe]]";
     if (is_in_probe && line.starts_with(key)) {
       const std::string name = line.substr(key.size(), line.find('"', key.size()) - key.size());
-      for (const char* ending : {".csv", ".vtp"}) names.push_back(name + ending);
+      for (const char* ending : {".csv", ".vtp", ".map.csv"}) names.push_back(name + ending);
     }
   }
   return names;

@@ -57,29 +57,34 @@ std::function<bool(const Vec<Dim>&)> region_of(const ProbeTable& probe, double t
 }  // namespace
 
 template <int Dim>
+ChosenWalls<Dim>::ChosenWalls(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
+    : named_(named_walls(probe, boundary)),
+      is_inside_(region_of<Dim>(probe, corner_tolerance * spec.particles.spacing)) {}
+
+template <int Dim>
 std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
                                   std::span<const WallPatch<Dim>> patches) {
   if (patches.empty()) throw InputError(fmt::format("{}: the case has no wall; remove the probe", label(probe)));
-  const std::vector<std::uint8_t> named = named_walls(probe, boundary);
+  const ChosenWalls<Dim> chosen(probe, spec, boundary);
   const double spacing = spec.particles.spacing;
-  const auto is_inside = region_of<Dim>(probe, corner_tolerance * spacing);
   std::vector<double> shares(patches.size(), 0.0);
   for_each(patches.size(), [&](std::size_t k) {
     const WallPatch<Dim>& patch = patches[k];
-    if (!named[boundary.faces[patch.face].wall]) return;
-    if (!is_inside) {
+    const int wall = boundary.faces[patch.face].wall;
+    if (!chosen.is_named(wall)) return;
+    if (!chosen.has_region()) {
       shares[k] = 1.0;
       return;
     }
     const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_piece_edge * spacing);
     const std::size_t inside =
-        count_each(pieces.size(), [&](std::size_t p) { return is_inside(pieces[p].centre(boundary)); });
+        count_each(pieces.size(), [&](std::size_t p) { return chosen.contains(wall, pieces[p].centre(boundary)); });
     shares[k] = static_cast<double>(inside) / static_cast<double>(pieces.size());
   });
   if (std::ranges::all_of(shares, [](double share) { return share == 0.0; })) {
     Eigen::AlignedBox<double, Dim> box;
     for (const WallFace<Dim>& face : boundary.faces) {
-      if (named[face.wall]) box.extend(face.box());
+      if (chosen.is_named(face.wall)) box.extend(face.box());
     }
     throw InputError(fmt::format(
         "{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn; choose "
@@ -89,6 +94,8 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
   return shares;
 }
 
+template class ChosenWalls<2>;
+template class ChosenWalls<3>;
 template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<2>&,
                                            std::span<const WallPatch<2>>);
 template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<3>&,

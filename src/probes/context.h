@@ -115,12 +115,12 @@ struct Reading {
   /// On several ranks the root takes the measurement, from the particles of all ranks within the kernel's support of
   /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
   std::function<Region<Dim>(double time)> region = {};
-  /// What it remembers from reading to reading, the same on all ranks; null: nothing. A checkpoint keeps it, and a run
-  /// that goes on puts as many numbers back.
+  /// What it remembers from reading to reading; null: nothing. The root's counts: a checkpoint keeps it, and a run that
+  /// goes on puts as many numbers back.
   std::shared_ptr<std::vector<double>> memory = {};
   /// Its lines in the summary of the run, from its memory: name and value.
   std::function<std::vector<std::pair<std::string, double>>()> summary = {};
-  /// Writes its map at `time` [s] as VTP, from its memory. Throws IoError.
+  /// Writes its map at `time` [s] as VTP, or beside `path` as CSV, from its memory. Throws IoError.
   std::function<void(const std::filesystem::path& path, double time)> write_map = {};
 };
 

@@ -8,7 +8,6 @@
 #include "probes/places.h"
 
 namespace tailwater {
-namespace {
 
 template <int Dim>
 bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
@@ -18,6 +17,8 @@ bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
   });
   return neighbours >= Dim + 3;
 }
+
+namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::max();
 
@@ -75,6 +76,8 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
           }};
 }
 
+template bool is_connected<2>(const ProbeContext<2>&, std::int32_t);
+template bool is_connected<3>(const ProbeContext<3>&, std::int32_t);
 template Reading<2> front_reading<2>(const ProbeTable&);
 template Reading<3> front_reading<3>(const ProbeTable&);
 

@@ -7,6 +7,10 @@
 
 namespace tailwater {
 
+/// Whether fluid particle `i` has at least D + 3 others in its support.
+template <int Dim>
+bool is_connected(const ProbeContext<Dim>& context, std::int32_t i);
+
 /// Columns front_m, front_connected_m: coordinates along `direction`, 0 if there is no such fluid. Throws InputError
 /// for a direction of length 0.
 template <int Dim>

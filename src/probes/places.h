@@ -11,14 +11,30 @@ namespace tailwater {
 
 inline std::string label(const ProbeTable& probe) { return fmt::format("probe '{}'", probe.name); }
 
+/// The key `step`, which is dx if it is 0. Throws InputError where it is so small that particles cannot tell its places
+/// apart.
+inline double step_of(const ProbeTable& probe, double spacing) {
+  constexpr double least = 0.1;  // dx
+  if (probe.step > 0.0 && probe.step < least * spacing) {
+    throw InputError(
+        fmt::format("{}: step = {} m is below {} dx = {:.4g} m, which particles cannot tell: make it larger",
+                    label(probe), probe.step, least, least * spacing));
+  }
+  return probe.step > 0.0 ? probe.step : spacing;
+}
+
+/// The number of equal pieces of at most `step` [m]. A whole number of steps keeps that number despite rounding.
+inline int pieces_of_at_most(double step, double length) {
+  return std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
+}
+
 /// Places from `from` to `to` at equal distances of at most `step` [m]. They are the midpoints of equal pieces, so that
 /// their mean is the mean over the stretch.
 template <int Dim>
 std::vector<Vec<Dim>> places_between(const ProbeTable& probe, double step) {
   const Vec<Dim> from = to_vec<Dim>(probe.from, label(probe), "from");
   const Vec<Dim> to = to_vec<Dim>(probe.to, label(probe), "to");
-  // A stretch of a whole number of steps keeps that number despite rounding.
-  const int count = std::max(1, static_cast<int>(std::ceil((to - from).norm() / step - 1e-6)));
+  const int count = pieces_of_at_most(step, (to - from).norm());
   std::vector<Vec<Dim>> places;
   for (int k = 0; k < count; ++k) {
     places.push_back(from + (k + 0.5) / count * (to - from));

@@ -52,6 +52,14 @@ Value interpolate(const ProbeContext<Dim>& context, const Vec<Dim>& x, const std
 }  // namespace
 
 template <int Dim>
+Vec<Dim> velocity_at(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
+  bool has_fluid = false;
+  for_each_weight(context, x, [&](std::int32_t j, double) { has_fluid |= context.particles.is_fluid(j); });
+  const Vec<Dim> zero = Vec<Dim>::Zero();
+  return has_fluid ? interpolate(context, x, context.particles.velocity, zero) : zero;
+}
+
+template <int Dim>
 Reading<Dim> pressure_reading(const ProbeTable& probe) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
   return {{"pressure_Pa", "wet"},
@@ -74,8 +82,7 @@ Reading<Dim> velocity_reading(const ProbeTable& probe) {
           [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
             Row row(Dim + 1, 0.0);
             if (water_share(context, at) > surface_share) {
-              const Vec<Dim> zero = Vec<Dim>::Zero();
-              const Vec<Dim> u = interpolate(context, at, context.particles.velocity, zero);
+              const Vec<Dim> u = velocity_at(context, at);
               std::copy(u.begin(), u.end(), row.begin());
               row.back() = 1.0;
             }
@@ -86,6 +93,8 @@ Reading<Dim> velocity_reading(const ProbeTable& probe) {
           }};
 }
 
+template Vec<2> velocity_at<2>(const ProbeContext<2>&, const Vec<2>&);
+template Vec<3> velocity_at<3>(const ProbeContext<3>&, const Vec<3>&);
 template Reading<2> pressure_reading<2>(const ProbeTable&);
 template Reading<3> pressure_reading<3>(const ProbeTable&);
 template Reading<2> velocity_reading<2>(const ProbeTable&);

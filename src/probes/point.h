@@ -12,6 +12,10 @@
 
 namespace tailwater {
 
+/// The velocity at `x` [m/s]; zero where no fluid is within the support.
+template <int Dim>
+Vec<Dim> velocity_at(const ProbeContext<Dim>& context, const Vec<Dim>& x);
+
 /// Columns pressure_Pa, wet.
 template <int Dim>
 Reading<Dim> pressure_reading(const ProbeTable& probe);

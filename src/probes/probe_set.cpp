@@ -10,8 +10,11 @@
 #include "probes/discharge.h"
 #include "probes/front.h"
 #include "probes/gather.h"
+#include "probes/level_map.h"
 #include "probes/point.h"
 #include "probes/pressure_map.h"
+#include "probes/run_up.h"
+#include "probes/velocity_profile.h"
 #include "probes/wall_force.h"
 #include "probes/wall_pressure.h"
 #include "probes/water_column.h"
@@ -65,6 +68,12 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
       return pressure_map_reading(probe, spec, boundary);
     case ProbeType::motion:
       return motion_reading<Dim>(probe, spec);
+    case ProbeType::run_up:
+      return run_up_reading(probe, spec, boundary);
+    case ProbeType::level_map:
+      return level_map_reading(probe, spec, boundary);
+    case ProbeType::velocity_profile:
+      return velocity_profile_reading(probe, spec, boundary);
     case ProbeType::volume:
       break;
   }

@@ -46,7 +46,7 @@ class ProbeSet {
   /// Of each probe.
   std::vector<ProbeMark> marks() const;
 
-  /// What the probes remember, one after the other; the same on all ranks.
+  /// What the probes remember, one after the other; that of the root counts.
   std::vector<double> memory() const;
   /// Takes it up again. Throws IoError if it is not of these probes.
   void restore(std::span<const double> memory);

@@ -12,13 +12,6 @@
 namespace tailwater {
 namespace {
 
-/// A wall face that the line crosses.
-template <int Dim>
-struct Crossing {
-  double height;  ///< m above the origin
-  Vec<Dim> normal;
-};
-
 /// The faces that the line through `place` along `up` meets, highest first.
 template <int Dim>
 std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, const Vec<Dim>& up,
@@ -36,20 +29,13 @@ std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const V
   return crossings;
 }
 
-/// A vertical line and the walls on it.
-template <int Dim>
-struct Line {
-  Vec<Dim> foot;  ///< its point at height 0
-  Vec<Dim> up;
-  std::vector<Crossing<Dim>> crossings;
-};
-
 /// Where the straight line from (0, `low`) to (`step`, `high`) passes the surface share.
 double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
 
 /// The water column on `bed`; c is sampled up to the height `top`.
 template <int Dim>
-WaterColumn column_on(const ProbeContext<Dim>& context, const Line<Dim>& line, const Crossing<Dim>& bed, double top) {
+WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, const Crossing<Dim>& bed,
+                      double top) {
   const Vec<Dim> bed_point = line.foot + bed.height * line.up;
   const bool bed_is_wet = water_share(context, bed_point) > surface_share;
   const auto share_at = [&](double depth) {
@@ -80,8 +66,10 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const Line<Dim>& line, c
   return column;
 }
 
+}  // namespace
+
 template <int Dim>
-WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line, double top) {
+WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double top) {
   WaterColumn column;
   double ceiling = top;
   bool found_bed = false;
@@ -99,7 +87,6 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const Line<Dim>& line,
   return column;
 }
 
-/// A height [m] above all water in the context.
 template <int Dim>
 double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
   constexpr double nowhere = -std::numeric_limits<double>::max();
@@ -122,24 +109,21 @@ Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec) {
 }
 
 template <int Dim>
-Line<Dim> make_line(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& up, const Boundary<Dim>& boundary,
-                    double spacing) {
-  Line<Dim> line{at - at.dot(up) * up, up, find_crossings(boundary, at, up, spacing)};
-  const bool has_bed = std::any_of(line.crossings.begin(), line.crossings.end(),
+UprightLine<Dim>::UprightLine(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& direction,
+                              const Boundary<Dim>& boundary, double spacing)
+    : foot(at - at.dot(direction) * direction), up(direction), crossings(find_crossings(boundary, at, up, spacing)) {
+  const bool has_bed = std::any_of(crossings.begin(), crossings.end(),
                                    [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(up) > 0.0; });
   if (!has_bed) {
     throw InputError(fmt::format("{}: the vertical line through {} meets no wall that looks up: move it over a bed",
                                  label(probe), place(at)));
   }
-  return line;
 }
-
-}  // namespace
 
 template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  const Line<Dim> line = make_line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
+  const UprightLine<Dim> line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
   return {{"connected_m", "highest_m"},
           [line](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
@@ -154,10 +138,10 @@ template <int Dim>
 Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> up = upwards<Dim>(probe, spec);
   std::vector<Vec<Dim>> places;
-  std::vector<Line<Dim>> lines;
+  std::vector<UprightLine<Dim>> lines;
   for (const Vec<Dim>& at : places_between<Dim>(probe, spec.particles.spacing)) {
     places.push_back(at);
-    lines.push_back(make_line(probe, at, up, boundary, spec.particles.spacing));
+    lines.emplace_back(probe, at, up, boundary, spec.particles.spacing);
   }
   std::vector<std::string> columns{"x_m", "bed_m", "connected_m", "highest_m"};
   if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
@@ -176,6 +160,14 @@ Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, cons
           [region = Region<Dim>{places.front(), places.back(), up}](double) { return region; }};
 }
 
+template struct UprightLine<2>;
+template struct UprightLine<3>;
+template Vec<2> upwards<2>(const ProbeTable&, const CaseSpec&);
+template Vec<3> upwards<3>(const ProbeTable&, const CaseSpec&);
+template double top_of_water<2>(const ProbeContext<2>&, const Vec<2>&);
+template double top_of_water<3>(const ProbeContext<3>&, const Vec<3>&);
+template WaterColumn read_column<2>(const ProbeContext<2>&, const UprightLine<2>&, double);
+template WaterColumn read_column<3>(const ProbeContext<3>&, const UprightLine<3>&, double);
 template Reading<2> depth_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
 template Reading<3> depth_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
 template Reading<2> profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);

@@ -7,6 +7,8 @@
 // lattice is on the surface, not dx/2 below it, and depths come out dx/2 too large.
 #pragma once
 
+#include <vector>
+
 #include "case/spec.h"
 #include "probes/context.h"
 
@@ -17,6 +19,37 @@ struct WaterColumn {
   double connected = 0.0;  ///< m; from the bed to the first surface
   double highest = 0.0;    ///< m; from the bed to the last surface
 };
+
+/// A wall face that an upright line crosses.
+template <int Dim>
+struct Crossing {
+  double height;  ///< m above the origin
+  Vec<Dim> normal;
+};
+
+/// A line against gravity and the walls on it.
+template <int Dim>
+struct UprightLine {
+  Vec<Dim> foot;  ///< its point at height 0
+  Vec<Dim> up;
+  std::vector<Crossing<Dim>> crossings;  ///< highest first
+
+  /// Throws InputError, which names the probe, if there is no bed on the line.
+  UprightLine(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& direction, const Boundary<Dim>& boundary,
+              double spacing);
+};
+
+/// Against gravity. Throws InputError, which names the probe, if there is none.
+template <int Dim>
+Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec);
+
+/// A height [m] above all water in the context.
+template <int Dim>
+double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up);
+
+/// The water on the line; `top` [m] is a height above all water.
+template <int Dim>
+WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double top);
 
 /// A depth probe: columns connected_m, highest_m. Throws InputError if there is no gravity or no bed below the place.
 template <int Dim>

@@ -28,7 +28,10 @@ ROLL = ("--set", "wall[0].motion='roll.csv'")
 FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].velocity=[1, 0]", "--set",
          "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)'}]",
          "--set", "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2], level=0.5}]", "--set",
-         "probe=[{name='middle', type='discharge', from=[0.6, 0], to=[0.6, 2]}, {name='volume', type='volume'}]")
+         "probe=[{name='middle', type='discharge', from=[0.6, 0], to=[0.6, 2]}, {name='volume', type='volume'}, "
+         "{name='level', type='level-map', from=[0, 0], to=[1.3, 0], step=0.1}, "
+         "{name='wetted', type='run-up', region_min=[0, 0], region_max=[1, 1]}, "
+         "{name='speeds', type='velocity-profile', at=[0.6, 0], interval=0.02}]")
 BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull', shape='box', min=[0.2, 0.3], "
          "max=[1, 1.1], fluid_side='outside'}]", "--set", "body=[{name='barge', walls=['hull'], mass=160, "
          "centre=[0.6, 0.6], inertia=[17]}]", "--set", "mooring=[{body='barge', at=[0.2, 0.3], anchor=[0, 0], "
@@ -38,7 +41,9 @@ CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
         "probe=[{name='energy', type='energy'}, {name='force', type='force', moment_about=[0, 0, 0]}, "
-        "{name='map', type='pressure-map'}]")
+        "{name='map', type='pressure-map'}, {name='run_up', type='run-up'}, "
+        "{name='level', type='level-map', from=[0, 0, 0], to=[0.8, 0.3, 0], step=0.1}, "
+        "{name='speeds', type='velocity-profile', at=[0.2, 0.1, 0], interval=0.02}]")
 
 # Every feature whose memory a run carries from step to step; all runs have warned before their first checkpoint.
 FEATURES = {

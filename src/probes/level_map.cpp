@@ -1,0 +1,189 @@
+#include "probes/level_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "base/for_each.h"
+#include "io/csv_writer.h"
+#include "io/vtp_writer.h"
+#include "probes/places.h"
+#include "probes/water_column.h"
+
+namespace tailwater {
+namespace {
+
+/// Of a line; a checkpoint keeps these numbers.
+enum LevelValue { largest, time_of_largest, integral, last, values_per_line };
+constexpr std::size_t values_before_lines = 2;  // the time of the last reading, and the time that all cover
+
+constexpr double most_places = 1e6;
+
+template <int Dim>
+struct LevelMap {
+  Vec<Dim> up;
+  std::array<double, Dim - 1> piece;  ///< m; in x (and y)
+  std::vector<Vec<Dim>> places;
+  std::vector<UprightLine<Dim>> lines;
+  std::shared_ptr<std::vector<double>> memory;
+
+  LevelMap(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
+      : up(upwards<Dim>(probe, spec)) {
+    const Vec<Dim> from = to_vec<Dim>(probe.from, label(probe), "from");
+    const Vec<Dim> to = to_vec<Dim>(probe.to, label(probe), "to");
+    const double step = step_of(probe, spec.particles.spacing);
+    std::array<int, Dim - 1> count;
+    double places_asked_for = 1.0;
+    for (int d = 0; d < Dim - 1; ++d) {
+      if (from[d] == to[d]) {
+        throw InputError(fmt::format("{}: from and to have the same {}, so the map has no extent: give two corners",
+                                     label(probe), "xy"[d]));
+      }
+      places_asked_for *= std::max(1.0, std::abs(to[d] - from[d]) / step);
+      if (places_asked_for > most_places) {
+        throw InputError(
+            fmt::format("{}: has {:.3g} places; at most {:.3g} are possible: give a larger step, or a smaller "
+                        "part of the channel",
+                        label(probe), places_asked_for, most_places));
+      }
+      count[d] = pieces_of_at_most(step, std::abs(to[d] - from[d]));
+      piece[d] = (to[d] - from[d]) / count[d];
+    }
+    for (int j = 0; j < (Dim == 3 ? count.back() : 1); ++j) {
+      for (int i = 0; i < count[0]; ++i) {
+        Vec<Dim> place = from;
+        place[0] += (i + 0.5) * piece[0];
+        if (Dim == 3) place[1] += (j + 0.5) * piece.back();
+        places.push_back(place);
+        lines.emplace_back(probe, place, up, boundary, spec.particles.spacing);
+      }
+    }
+    memory = std::make_shared<std::vector<double>>(values_before_lines + values_per_line * lines.size(), 0.0);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      of(k, largest) = of(k, last) = bed(k);
+    }
+  }
+
+  double& time_of_last_reading() const { return (*memory)[0]; }
+  double& duration() const { return (*memory)[1]; }
+  double& of(std::size_t k, LevelValue value) const {
+    return (*memory)[values_before_lines + values_per_line * k + value];
+  }
+  double mean(std::size_t k) const { return duration() > 0.0 ? of(k, integral) / duration() : of(k, last); }
+
+  /// The highest bed on the line.
+  double bed(std::size_t k) const {
+    return std::ranges::find_if(lines[k].crossings, [&](const auto& c) { return c.normal.dot(up) > 0.0; })->height;
+  }
+
+  template <class Of>
+  double mean_over_places(Of&& level) const {
+    return sum_over(lines.size(), 0.0, level) / static_cast<double>(lines.size());
+  }
+
+  Row read(const ProbeContext<Dim>& context) const {
+    const double top = top_of_water(context, up);
+    const double since_last = context.time - time_of_last_reading();
+    time_of_last_reading() = context.time;
+    duration() += since_last;
+    for_each(lines.size(), [&](std::size_t k) {
+      const WaterColumn column = read_column(context, lines[k], top);
+      const double level = column.bed + column.connected;
+      of(k, last) = level;
+      of(k, integral) += since_last * level;
+      if (level <= of(k, largest)) return;
+      of(k, largest) = level;
+      of(k, time_of_largest) = context.time;
+    });
+    const auto level = [&](std::size_t k) { return of(k, last); };
+    return {largest_over(lines.size(), level(0), level), mean_over_places(level)};
+  }
+
+  void write(const std::filesystem::path& path, double time, int compression) const {
+    if constexpr (Dim == 2) {
+      CsvWriter csv(std::filesystem::path(path).replace_extension(".map.csv"),
+                    {"x_m", "bed_m", "largest_m", "time_of_largest_s", "mean_m", "last_m"});
+      for (std::size_t k = 0; k < lines.size(); ++k) {
+        csv.write(Row{places[k][0], bed(k), of(k, largest), of(k, time_of_largest), mean(k), of(k, last)});
+      }
+    } else {
+      write_vtp(path, time, encode_piece(FieldsOfPlan(*this).view(), compression), compression);
+    }
+  }
+
+  /// Two triangles for each piece of the plan.
+  struct FieldsOfPlan {
+    std::vector<Vec<Dim>> corners;
+    std::array<std::vector<double>, 5> values;
+
+    explicit FieldsOfPlan(const LevelMap& map) {
+      constexpr std::array<std::array<double, 2>, 6> shifts{
+          {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+      for (std::size_t k = 0; k < map.lines.size(); ++k) {
+        for (const auto& shift : shifts) {
+          Vec<Dim> corner = map.places[k];
+          for (int d = 0; d < Dim - 1; ++d) corner[d] += shift[d] * map.piece[d];
+          corners.push_back(corner + (map.of(k, largest) - corner.dot(map.up)) * map.up);
+          const std::array<double, 5> here{map.of(k, largest), map.of(k, time_of_largest), map.mean(k), map.of(k, last),
+                                           map.bed(k)};
+          for (std::size_t v = 0; v < here.size(); ++v) values[v].push_back(here[v]);
+        }
+      }
+    }
+
+    ParticleFields<Dim> view() const {
+      return {.position = corners,
+              .fields = {{"largest_level", values[0]},
+                         {"time_of_largest", values[1]},
+                         {"mean_level", values[2]},
+                         {"last_level", values[3]},
+                         {"bed", values[4]}},
+              .corners = 3};
+    }
+  };
+
+  std::vector<std::pair<std::string, double>> summary() const {
+    // Levels that differ by rounding alone are equal, so the place does not depend on the number of ranks.
+    const double rounding = 1e-9 * std::abs(piece[0]);
+    const double top = largest_over(lines.size(), of(0, largest), [&](std::size_t k) { return of(k, largest); });
+    std::size_t highest = 0;
+    while (of(highest, largest) < top - rounding) ++highest;
+    std::vector<std::pair<std::string, double>> summary{{"largest_m", top},
+                                                        {"time_of_largest_s", of(highest, time_of_largest)}};
+    constexpr std::array names{"x_m", "y_m"};
+    for (int d = 0; d < Dim - 1; ++d) summary.emplace_back(names[d], places[highest][d]);
+    summary.emplace_back("mean_m", mean_over_places([&](std::size_t k) { return mean(k); }));
+    summary.emplace_back("last_mean_m", mean_over_places([&](std::size_t k) { return of(k, last); }));
+    return summary;
+  }
+
+  /// Around all places.
+  Region<Dim> region() const {
+    Region<Dim> region{places.front(), places.back(), up};
+    for (const Vec<Dim>& place : places) region.margin = std::max(region.margin, region.distance(place));
+    return region;
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const auto map = std::make_shared<const LevelMap<Dim>>(probe, spec, boundary);
+  Reading<Dim> reading;
+  reading.columns = {"highest_m", "mean_m"};
+  reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
+  reading.region = [region = map->region()](double) { return region; };
+  reading.memory = map->memory;
+  reading.summary = [map] { return map->summary(); };
+  reading.write_map = [map, compression = spec.output.compression](const std::filesystem::path& path, double time) {
+    map->write(path, time, compression);
+  };
+  return reading;
+}
+
+template Reading<2> level_map_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> level_map_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,81 @@
+#include "probes/velocity_profile.h"
+
+#include <array>
+#include <memory>
+
+#include "probes/places.h"
+#include "probes/point.h"
+#include "probes/water_column.h"
+
+namespace tailwater {
+namespace {
+
+/// Sums over the time between readings; a checkpoint keeps these numbers.
+enum ProfileSum { time_of_last_reading, duration, depth_integral, velocity_integral };
+
+constexpr std::array velocity_names{"u_m_s", "v_m_s", "w_m_s"};
+
+template <int Dim>
+std::vector<Row> read_profile(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double step,
+                              std::vector<double>& memory) {
+  const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
+  Vec<Dim> flux = Vec<Dim>::Zero();
+  std::vector<Row> rows;
+  const int pieces = column.connected > 0.0 ? pieces_of_at_most(step, column.connected) : 0;
+  for (int k = 0; k < pieces; ++k) {
+    const double low = k * step;
+    const double high = k + 1 < pieces ? low + step : column.connected;
+    const double height = 0.5 * (low + high);
+    const Vec<Dim> u = velocity_at<Dim>(context, line.foot + (column.bed + height) * line.up);
+    flux += (high - low) * u;
+    rows.push_back({height});
+    rows.back().insert(rows.back().end(), u.begin(), u.end());
+  }
+  const Vec<Dim> mean = pieces > 0 ? Vec<Dim>(flux / column.connected) : flux;
+  if (rows.empty()) rows.emplace_back(1 + Dim, 0.0);
+  for (Row& row : rows) {
+    row.push_back(column.connected);
+    row.insert(row.end(), mean.begin(), mean.end());
+  }
+  const double since_last = context.time - memory[time_of_last_reading];
+  memory[time_of_last_reading] = context.time;
+  memory[duration] += since_last;
+  memory[depth_integral] += since_last * column.connected;
+  for (int d = 0; d < Dim; ++d) memory[velocity_integral + d] += since_last * mean[d];
+  return rows;
+}
+
+}  // namespace
+
+template <int Dim>
+Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
+  const UprightLine<Dim> line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
+  const double step = step_of(probe, spec.particles.spacing);
+  const auto memory = std::make_shared<std::vector<double>>(velocity_integral + Dim, 0.0);
+  Reading<Dim> reading;
+  reading.columns = {"height_m"};
+  for (int d = 0; d < Dim; ++d) reading.columns.emplace_back(velocity_names[d]);
+  reading.columns.emplace_back("depth_m");
+  for (int d = 0; d < Dim; ++d) reading.columns.push_back(fmt::format("mean_{}", velocity_names[d]));
+  reading.take = [line, step, memory](const ProbeContext<Dim>& context) {
+    return read_profile(context, line, step, *memory);
+  };
+  reading.region = [region = Region<Dim>{line.foot, line.foot, line.up}](double) { return region; };
+  reading.memory = memory;
+  reading.summary = [memory] {
+    const std::vector<double>& sums = *memory;
+    const double time = sums[duration] > 0.0 ? sums[duration] : 1.0;
+    std::vector<std::pair<std::string, double>> lines{{"mean_depth_m", sums[depth_integral] / time}};
+    for (int d = 0; d < Dim; ++d) {
+      lines.emplace_back(fmt::format("mean_{}", velocity_names[d]), sums[velocity_integral + d] / time);
+    }
+    return lines;
+  };
+  return reading;
+}
+
+template Reading<2> velocity_profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
+template Reading<3> velocity_profile_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,18 @@
+// Velocities over the depth at a place: probe "velocity-profile".
+//
+// From the bed (water_column.h) to the surface of the connected water, the velocity is read (point.h) in the middle of
+// pieces of equal height, the topmost of which is what is left. So places have the same heights at all times, and the
+// mean over the pieces is exact where the velocity is linear over the height.
+#pragma once
+
+#include "case/spec.h"
+#include "probes/context.h"
+
+namespace tailwater {
+
+/// A row per piece: height_m above the bed, u_m_s, v_m_s (w_m_s), then of the whole column depth_m, mean_u_m_s,
+/// mean_v_m_s (mean_w_m_s). One row of zeros where it is dry. Throws InputError as depth_reading does.
+template <int Dim>
+Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+}  // namespace tailwater

@@ -1,0 +1,106 @@
+#include "probes/level_map.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "io/temporary_folder.h"
+#include "probes/tank.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+template <class Dimension>
+class LevelMapTest : public testing::Test {
+ public:
+  static constexpr int Dim = Dimension::value;
+  using T = Tank<Dim>;
+  /// A depth on a flat surface is right to 0.05 dx (water_column_test.cpp).
+  static constexpr double bound = 0.05 * T::dx;
+
+  static ProbeTable over_the_tank() {
+    ProbeTable probe = probe_along(ProbeType::level_map, Coordinates(Dim, 0.0), Coordinates(Dim, T::width));
+    probe.step = 0.26;  // makes four pieces of 0.25 m
+    return probe;
+  }
+};
+TYPED_TEST_SUITE(LevelMapTest, Dimensions);
+
+TYPED_TEST(LevelMapTest, KeepsTheLargestTheMeanAndTheLastLevel) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T first = T::filled(0.6);
+  const Reading<Dim> reading = level_map_reading<Dim>(TestFixture::over_the_tank(), first.spec, first.boundary);
+  EXPECT_EQ(reading.columns, (std::vector<std::string>{"highest_m", "mean_m"}));
+  reading.take(first.context(0.0));
+  const Row high = reading.take(T::filled(0.8).context(1.0)).at(0);
+  EXPECT_NEAR(high[0], 0.8, TestFixture::bound);
+  EXPECT_NEAR(high[1], 0.8, TestFixture::bound);
+  reading.take(T::filled(0.4).context(3.0));
+
+  const auto summary = reading.summary();
+  ASSERT_EQ(summary.size(), Dim + 3u);
+  EXPECT_EQ(summary[0].first, "largest_m");
+  EXPECT_NEAR(summary[0].second, 0.8, TestFixture::bound);
+  EXPECT_EQ(summary[1].second, 1.0);
+  EXPECT_NEAR(summary[2].second, 0.125, 1e-12);  // x of the first of equally high places
+  EXPECT_NEAR(summary[Dim + 1].second, (0.8 * 1.0 + 0.4 * 2.0) / 3.0, TestFixture::bound);
+  EXPECT_NEAR(summary[Dim + 2].second, 0.4, TestFixture::bound);
+
+  // A restart has the same memory.
+  const Reading<Dim> again = level_map_reading<Dim>(TestFixture::over_the_tank(), first.spec, first.boundary);
+  ASSERT_EQ(again.memory->size(), reading.memory->size());
+  *again.memory = *reading.memory;
+  EXPECT_EQ(again.summary(), summary);
+
+  const TemporaryFolder folder;
+  reading.write_map(folder.path() / "map.vtp", 3.0);
+  if (Dim == 3) {
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "map.vtp"), 1000u);
+    return;
+  }
+  std::ifstream csv(folder.path() / "map.map.csv");
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "x_m,bed_m,largest_m,time_of_largest_s,mean_m,last_m");
+  int rows = 0;
+  while (std::getline(csv, line)) ++rows;
+  EXPECT_EQ(rows, 4);
+}
+
+TYPED_TEST(LevelMapTest, OfADryTankIsItsBed) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T dry = T::filled(0.0);
+  const Reading<Dim> reading = level_map_reading<Dim>(TestFixture::over_the_tank(), dry.spec, dry.boundary);
+  EXPECT_EQ(reading.take(dry.context()).at(0), (Row{0.0, 0.0}));
+}
+
+TYPED_TEST(LevelMapTest, NeedsAnExtentAndPlacesThatParticlesCanTell) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T tank = T::filled(0.4);
+  const auto message = [&](const ProbeTable& probe) -> std::string {
+    try {
+      level_map_reading<Dim>(probe, tank.spec, tank.boundary);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  ProbeTable upright = TestFixture::over_the_tank();
+  upright.to[Dim - 2] = 0.0;
+  EXPECT_NE(message(upright).find(Dim == 2 ? "the same x" : "the same y"), std::string::npos) << message(upright);
+  ProbeTable fine = TestFixture::over_the_tank();
+  fine.step = 1e-4;
+  EXPECT_NE(message(fine).find("0.1 dx"), std::string::npos) << message(fine);
+  ProbeTable large = TestFixture::over_the_tank();
+  large.to[0] = 1e12;
+  EXPECT_NE(message(large).find("larger step"), std::string::npos) << message(large);
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,117 @@
+#include "probes/velocity_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "probes/discharge.h"
+#include "probes/tank.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace {
+
+template <class Dimension>
+class VelocityProfileTest : public testing::Test {
+ public:
+  static constexpr int Dim = Dimension::value;
+  using T = Tank<Dim>;
+
+  /// Water up to 0.6 m that shears, (1 + 2 z, .., -3), or moves along x.
+  static T shearing() {
+    T tank = T::filled(0.6);
+    for (std::size_t i = 0; i < tank.particles.size(); ++i) {
+      tank.particles.velocity[i][0] = 1.0 + 2.0 * tank.particles.position[i][Dim - 1];
+      tank.particles.velocity[i][Dim - 1] = -3.0;
+    }
+    return tank;
+  }
+  static T moving(double level, double speed) {
+    T tank = T::filled(level);
+    for (Vec<Dim>& u : tank.particles.velocity) u[0] = speed;
+    return tank;
+  }
+};
+TYPED_TEST_SUITE(VelocityProfileTest, Dimensions);
+
+/// The interpolation is exact for linear fields, and so is the mean over pieces that are read in their middle.
+TYPED_TEST(VelocityProfileTest, OfALinearShearIsExact) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T tank = TestFixture::shearing();
+  ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.3));
+  probe.step = 0.25;
+  const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
+  ASSERT_EQ(reading.columns.size(), 2u + 2u * Dim);
+  EXPECT_EQ(reading.columns.back(), Dim == 2 ? "mean_v_m_s" : "mean_w_m_s");
+  const std::vector<Row> rows = reading.take(tank.context(0.0));
+  ASSERT_EQ(rows.size(), 3u);
+  const double depth = rows[0][1 + Dim];
+  EXPECT_NEAR(depth, 0.6, 0.05 * T::dx);
+  const std::vector<double> heights{0.125, 0.375, 0.5 * (0.5 + depth)};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_NEAR(rows[k][0], heights[k], 1e-12);
+    EXPECT_NEAR(rows[k][1], 1.0 + 2.0 * heights[k], 1e-10);
+    EXPECT_NEAR(rows[k][Dim], -3.0, 1e-10);
+    EXPECT_NEAR(rows[k][2 + Dim], 1.0 + depth, 1e-10);
+    EXPECT_NEAR(rows[k].back(), -3.0, 1e-10);
+  }
+}
+
+TYPED_TEST(VelocityProfileTest, SumsUpTheMeanOverTime) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T tank = T::filled(0.6);
+  const ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.0));
+  const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
+  reading.take(tank.context(0.0));
+  reading.take(TestFixture::moving(0.6, 2.0).context(1.0));
+  reading.take(TestFixture::moving(0.6, 5.0).context(4.0));
+  const auto summary = reading.summary();
+  ASSERT_EQ(summary.size(), 1u + Dim);
+  EXPECT_EQ(summary[0].first, "mean_depth_m");
+  EXPECT_NEAR(summary[0].second, 0.6, 0.05 * T::dx);
+  EXPECT_EQ(summary[1].first, "mean_u_m_s");
+  EXPECT_NEAR(summary[1].second, (2.0 * 1.0 + 5.0 * 3.0) / 4.0, 1e-10);
+}
+
+TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  const T tank = T::filled(0.0);
+  const ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.0));
+  const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
+  EXPECT_EQ(reading.take(tank.context()), std::vector<Row>{Row(2 + 2 * Dim, 0.0)});
+}
+
+/// What overtops a crest 0.4 m high: a section from the crest up. Water 0.8 m high is a whole number of rows, which the
+/// tent counts exactly.
+TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
+  constexpr int Dim = TestFixture::Dim;
+  using T = typename TestFixture::T;
+  T tank = T::filled(0.8);
+  ProbeTable crest = probe_along(ProbeType::discharge, Coordinates(Dim, 0.0), Coordinates(Dim, T::width));
+  crest.from[0] = crest.to[0] = 0.5;
+  crest.from.back() = 0.4;
+  crest.to.back() = 1.4;
+  crest.direction.assign(Dim, 0.0);
+  crest.direction[0] = 1.0;
+  tank.spec.probes = {crest};
+  const Reading<Dim> reading = discharge_reading<Dim>(crest, tank.spec);
+  const auto discharge_at = [&](double time, double speed) {
+    const T flow = TestFixture::moving(0.8, speed);
+    ProbeContext<Dim> context = flow.context(time);
+    context.totals.section_volumes = {0.0};
+    return reading.take(context).at(0)[0];
+  };
+  EXPECT_NEAR(discharge_at(0.0, 0.5), 0.4 * 0.5, 1e-12);
+  EXPECT_NEAR(discharge_at(1.0, 2.0), 0.4 * 2.0, 1e-12);
+  EXPECT_NEAR(discharge_at(2.0, -3.0), -0.4 * 3.0, 1e-12);
+  const auto summary = reading.summary();
+  EXPECT_EQ(summary[0].first, "largest_m3_per_s");
+  EXPECT_NEAR(summary[0].second, 0.8, 1e-12);
+  EXPECT_EQ(summary[1].second, 1.0);
+}
+
+}  // namespace
+}  // namespace tailwater
