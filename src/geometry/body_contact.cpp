@@ -43,8 +43,8 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
       if (std::ranges::find(bodies[b].walls, boundary.faces[patch.face].wall) == bodies[b].walls.end()) continue;
       for (int c = 0; c < Dim; ++c) points.push_back(patch.corner(boundary, c));
     }
-    const auto is_before = [](const Vec<Dim>& a, const Vec<Dim>& b) {
-      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    const auto is_before = [](const Vec<Dim>& one, const Vec<Dim>& other) {
+      return std::lexicographical_compare(one.begin(), one.end(), other.begin(), other.end());
     };
     std::ranges::sort(points, is_before);
     points.erase(std::unique(points.begin(), points.end()), points.end());

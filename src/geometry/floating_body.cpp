@@ -121,16 +121,6 @@ Twist<Dim> FloatingBody<Dim>::load(const BodyState<Dim>& state, const Vec<Dim>& 
 }
 
 template <int Dim>
-double FloatingBody<Dim>::energy(const BodyState<Dim>& state, const Vec<Dim>& gravity) const {
-  double energy = 0.5 * state.velocity.dot(force_of(state, state.velocity)) - mass * gravity.dot(state.centre);
-  for (const Mooring<Dim>& mooring : moorings) {
-    const double stretch = std::max(0.0, Line<Dim>(mooring, state).stretch);
-    energy += 0.5 * mooring.stiffness * stretch * stretch;
-  }
-  return energy;
-}
-
-template <int Dim>
 std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec) {
   std::vector<FloatingBody<Dim>> bodies;
   for (const BodyTable& table : spec.bodies) bodies.emplace_back(spec, table);

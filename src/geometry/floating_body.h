@@ -125,8 +125,6 @@ struct FloatingBody {
   Twist<Dim> scale() const;
   /// Of weight, gyration and moorings.
   Twist<Dim> load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
-  /// J; of motion and in the lines.
-  double energy(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
 
  private:
   Mat<Dim == 2 ? 1 : 3> inertia_of(const BodyState<Dim>& state) const;

@@ -25,7 +25,7 @@ constexpr int passes_with_old_inertia = 6;
 /// More are needed only where many points of a body touch at once.
 constexpr int contact_sweeps = 100;
 
-/// m/s^2, m/s^2 over the radius of inertia; of the probing acceleration over that of gravity, or by itself without.
+/// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
 constexpr double probing_share = 0.1;
 
 /// Sum over the owned wall particles of bodies of what `force(i)` does to the body of each.
