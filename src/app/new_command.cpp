@@ -16,8 +16,11 @@ const std::map<std::string, const char*> templates_by_name{
     {"dam-break", templates::dam_break},
     {"tank", templates::tank},
     {"pier", templates::pier},
-    {"weir", templates::weir},
     {"channel", templates::channel},
+    {"weir", templates::weir},
+    {"broad-weir", templates::broad_weir},
+    {"sluice-gate", templates::sluice_gate},
+    {"hydraulic-jump", templates::hydraulic_jump},
     {"wave-flume", templates::wave_flume},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
@@ -48,10 +51,11 @@ void add_new_command(CLI::App& app, ExitCode&) {
   command
       ->add_option(
           "template", options->kind,
-          "dam-break (a column collapses in a tank), tank (water at rest), weir (water runs over a thin plate), "
-          "channel "
-          "(an inlet, a tailwater and a discharge probe), pier (3D, a dam breaks against a pier from an STL file), "
-          "wave-flume (regular waves, gauges and a damping zone), solitary-wave or sloshing (a tank that rolls)")
+          "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
+          "discharge probe), weir, broad-weir, sluice-gate and hydraulic-jump (steady flow in a flume), pier (3D, a "
+          "dam "
+          "breaks against a pier from an STL file), wave-flume (regular waves, gauges and a damping zone), "
+          "solitary-wave or sloshing (a tank that rolls)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))
       ->type_name("NAME");
