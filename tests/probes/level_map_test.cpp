@@ -16,13 +16,14 @@ namespace {
 template <class Dimension>
 class LevelMapTest : public testing::Test {
  public:
-  static constexpr int Dim = Dimension::value;
-  using T = Tank<Dim>;
+  static constexpr int dimension = Dimension::value;
+  using TankOf = Tank<dimension>;
   /// A depth on a flat surface is right to 0.05 dx (water_column_test.cpp).
-  static constexpr double bound = 0.05 * T::dx;
+  static constexpr double bound = 0.05 * TankOf::dx;
 
   static ProbeTable over_the_tank() {
-    ProbeTable probe = probe_along(ProbeType::level_map, Coordinates(Dim, 0.0), Coordinates(Dim, T::width));
+    ProbeTable probe =
+        probe_along(ProbeType::level_map, Coordinates(dimension, 0.0), Coordinates(dimension, TankOf::width));
     probe.step = 0.26;  // makes four pieces of 0.25 m
     return probe;
   }
@@ -30,8 +31,8 @@ class LevelMapTest : public testing::Test {
 TYPED_TEST_SUITE(LevelMapTest, Dimensions);
 
 TYPED_TEST(LevelMapTest, KeepsTheLargestTheMeanAndTheLastLevel) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T first = T::filled(0.6);
   const Reading<Dim> reading = level_map_reading<Dim>(TestFixture::over_the_tank(), first.spec, first.boundary);
   EXPECT_EQ(reading.columns, (std::vector<std::string>{"highest_m", "mean_m"}));
@@ -72,16 +73,16 @@ TYPED_TEST(LevelMapTest, KeepsTheLargestTheMeanAndTheLastLevel) {
 }
 
 TYPED_TEST(LevelMapTest, OfADryTankIsItsBed) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T dry = T::filled(0.0);
   const Reading<Dim> reading = level_map_reading<Dim>(TestFixture::over_the_tank(), dry.spec, dry.boundary);
   EXPECT_EQ(reading.take(dry.context()).at(0), (Row{0.0, 0.0}));
 }
 
 TYPED_TEST(LevelMapTest, NeedsAnExtentAndPlacesThatParticlesCanTell) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.4);
   const auto message = [&](const ProbeTable& probe) -> std::string {
     try {

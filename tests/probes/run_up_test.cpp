@@ -13,17 +13,17 @@ namespace {
 template <class Dimension>
 class RunUpTest : public testing::Test {
  public:
-  static constexpr int Dim = Dimension::value;
-  using T = Tank<Dim>;
+  static constexpr int dimension = Dimension::value;
+  using TankOf = Tank<dimension>;
 
-  static Row read(const T& tank, const ProbeTable& probe = probe_at(ProbeType::run_up, {})) {
-    return run_up_reading<Dim>(probe, tank.spec, tank.boundary).take(tank.context()).at(0);
+  static Row read(const TankOf& tank, const ProbeTable& probe = probe_at(ProbeType::run_up, {})) {
+    return run_up_reading<dimension>(probe, tank.spec, tank.boundary).take(tank.context()).at(0);
   }
 
   /// Water up to 0.6 m, and between these heights within 0.3 m of the left wall.
-  static T with_tongue(double low, double high) {
-    return T(0.6, [=](const Vec<Dim>& x) {
-      return x[Dim - 1] < 0.6 || (x[0] < 0.3 && x[Dim - 1] > low && x[Dim - 1] < high);
+  static TankOf with_tongue(double low, double high) {
+    return TankOf(0.6, [=](const Vec<dimension>& x) {
+      return x[dimension - 1] < 0.6 || (x[0] < 0.3 && x[dimension - 1] > low && x[dimension - 1] < high);
     });
   }
 };
@@ -31,15 +31,15 @@ TYPED_TEST_SUITE(RunUpTest, Dimensions);
 
 /// The highest row stands half a spacing below the level and beside upright walls, so nothing is left of the spacing.
 TYPED_TEST(RunUpTest, OnAnUprightWallIsTheLevel) {
-  using T = typename TestFixture::T;
+  using T = typename TestFixture::TankOf;
   const Row row = TestFixture::read(T::filled(0.6));
   EXPECT_NEAR(row[0], 0.6, 1e-12);
   EXPECT_NEAR(row[1], 0.6, 1e-12);
 }
 
 TYPED_TEST(RunUpTest, TellsConnectedFromHighestWater) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const Row tongue = TestFixture::read(TestFixture::with_tongue(0.5, 1.1));
   EXPECT_NEAR(tongue[0], 1.1, 1e-12);
   // A gap of 0.25 m = 5 dx.
@@ -59,7 +59,7 @@ TYPED_TEST(RunUpTest, TellsConnectedFromHighestWater) {
 }
 
 TYPED_TEST(RunUpTest, CountsOnlyTheWallsInItsRegion) {
-  constexpr int Dim = TestFixture::Dim;
+  constexpr int Dim = TestFixture::dimension;
   ProbeTable right = probe_at(ProbeType::run_up, {});
   right.region_min.assign(Dim, -1.0);
   right.region_min[0] = 0.5;
@@ -68,13 +68,13 @@ TYPED_TEST(RunUpTest, CountsOnlyTheWallsInItsRegion) {
 }
 
 TYPED_TEST(RunUpTest, OfADryWallIsItsLowestPoint) {
-  using T = typename TestFixture::T;
+  using T = typename TestFixture::TankOf;
   EXPECT_EQ(TestFixture::read(T::filled(0.0)), (Row{0.0, 0.0}));
 }
 
 TYPED_TEST(RunUpTest, RemembersTheLargest) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.6);
   const auto probe = probe_at(ProbeType::run_up, {});
   const Reading<Dim> reading = run_up_reading<Dim>(probe, tank.spec, tank.boundary);

@@ -14,21 +14,21 @@ namespace {
 template <class Dimension>
 class VelocityProfileTest : public testing::Test {
  public:
-  static constexpr int Dim = Dimension::value;
-  using T = Tank<Dim>;
+  static constexpr int dimension = Dimension::value;
+  using TankOf = Tank<dimension>;
 
   /// Water up to 0.6 m that shears, (1 + 2 z, .., -3), or moves along x.
-  static T shearing() {
-    T tank = T::filled(0.6);
+  static TankOf shearing() {
+    TankOf tank = TankOf::filled(0.6);
     for (std::size_t i = 0; i < tank.particles.size(); ++i) {
-      tank.particles.velocity[i][0] = 1.0 + 2.0 * tank.particles.position[i][Dim - 1];
-      tank.particles.velocity[i][Dim - 1] = -3.0;
+      tank.particles.velocity[i][0] = 1.0 + 2.0 * tank.particles.position[i][dimension - 1];
+      tank.particles.velocity[i][dimension - 1] = -3.0;
     }
     return tank;
   }
-  static T moving(double level, double speed) {
-    T tank = T::filled(level);
-    for (Vec<Dim>& u : tank.particles.velocity) u[0] = speed;
+  static TankOf moving(double level, double speed) {
+    TankOf tank = TankOf::filled(level);
+    for (Vec<dimension>& u : tank.particles.velocity) u[0] = speed;
     return tank;
   }
 };
@@ -36,8 +36,8 @@ TYPED_TEST_SUITE(VelocityProfileTest, Dimensions);
 
 /// The interpolation is exact for linear fields, and so is the mean over pieces that are read in their middle.
 TYPED_TEST(VelocityProfileTest, OfALinearShearIsExact) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T tank = TestFixture::shearing();
   ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.3));
   probe.step = 0.25;
@@ -59,8 +59,8 @@ TYPED_TEST(VelocityProfileTest, OfALinearShearIsExact) {
 }
 
 TYPED_TEST(VelocityProfileTest, SumsUpTheMeanOverTime) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.6);
   const ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.0));
   const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
@@ -76,8 +76,8 @@ TYPED_TEST(VelocityProfileTest, SumsUpTheMeanOverTime) {
 }
 
 TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.0);
   const ProbeTable probe = probe_at(ProbeType::velocity_profile, T::at(0.5, 0.0));
   const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
@@ -87,8 +87,8 @@ TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
 /// What overtops a crest 0.4 m high: a section from the crest up. Water 0.8 m high is a whole number of rows, which the
 /// tent counts exactly.
 TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
-  constexpr int Dim = TestFixture::Dim;
-  using T = typename TestFixture::T;
+  constexpr int Dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
   T tank = T::filled(0.8);
   ProbeTable crest = probe_along(ProbeType::discharge, Coordinates(Dim, 0.0), Coordinates(Dim, T::width));
   crest.from[0] = crest.to[0] = 0.5;
