@@ -16,9 +16,12 @@ const std::map<std::string, const char*> templates_by_name{
     {"dam-break", templates::dam_break},
     {"tank", templates::tank},
     {"pier", templates::pier},
-    {"weir", templates::weir},
     {"channel", templates::channel},
     {"river-reach", templates::river_reach},
+    {"weir", templates::weir},
+    {"broad-weir", templates::broad_weir},
+    {"sluice-gate", templates::sluice_gate},
+    {"hydraulic-jump", templates::hydraulic_jump},
     {"wave-flume", templates::wave_flume},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
@@ -50,10 +53,9 @@ void add_new_command(CLI::App& app, ExitCode&) {
   command
       ->add_option(
           "template", options->kind,
-          "dam-break (a column collapses in a tank), tank (water at rest), weir (water runs over a thin plate), "
-          "channel "
-          "(an inlet, a tailwater and a discharge probe), river-reach (the same over a surveyed bed from a CSV file), "
-          "pier (3D, a dam breaks against a pier from an STL file), "
+          "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
+          "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, sluice-gate "
+          "and hydraulic-jump (steady flow in a flume), pier (3D, a dam breaks against a pier from an STL file), "
           "wave-flume (regular waves, gauges and a damping zone), solitary-wave, sloshing (a tank that rolls) or "
           "floating-box (a body on two lines)")
       ->required()

@@ -562,7 +562,8 @@ void check(const ProbeTable& probe, TableReader& reader) {
   if (const toml::node* node = reader.given("times"); node != nullptr && !reader.is_wrong("times")) {
     const bool is_rising =
         std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
-    if (probe.times.empty() || probe.times.front() < 0.0 || !is_rising) {
+    const bool are_needed = probe.type == ProbeType::profile;
+    if (probe.times.empty() ? are_needed : probe.times.front() < 0.0 || !is_rising) {
       reader.wrong("times", *node, "give at least one time in s, none negative, in increasing order");
     }
   }

@@ -1,6 +1,6 @@
 #include "geometry/broken_case.h"
 
-#include <cstdlib>
+#include <charconv>
 #include <regex>
 #include <string>
 
@@ -69,8 +69,12 @@ std::vector<Vec<Dim>> places_in(std::string_view message) {
   std::vector<Vec<Dim>> places;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
     Vec<Dim> x;
-    for (int axis = 0; axis < Dim; ++axis) x[axis] = std::strtod((*match)[axis + 1].str().c_str(), nullptr);
-    if (x.allFinite()) places.push_back(x);  // not "(1e999, 0)", which a name may hold
+    bool is_place = true;  // not "(1e999, 0)", which a name may hold
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::string digits = (*match)[axis + 1].str();
+      is_place = is_place && std::from_chars(digits.data(), digits.data() + digits.size(), x[axis]).ec == std::errc();
+    }
+    if (is_place) places.push_back(x);
   }
   return places;
 }

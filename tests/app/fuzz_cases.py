@@ -161,7 +161,7 @@ def check_one(folder):
     """(exit code, standard error, finding) of `check`."""
     code, error = fuzzing.run_within_limits(["check", "case.toml"], folder)
     finding = look_for_findings(code, error)
-    files = {path.name for path in folder.iterdir()} - {"case.toml", "case.preview.svg"}
+    files = {path.name for path in folder.iterdir()} - {"case.toml", "case.preview.svg", "case.preview.png"}
     if finding is None and files:
         finding = f"check has written {files}"
     return code, error, finding

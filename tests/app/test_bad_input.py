@@ -178,7 +178,7 @@ def cpu_seconds():
 class BadCases(ProgramTest):
     def refuse(self, row, arguments):
         before = self.listing()
-        for command in (("check", "case.toml"), ("run", "case.toml", "--out", "out")):
+        for command in (("check", "case.toml", "--no-preview"), ("run", "case.toml", "--out", "out")):
             start = cpu_seconds()
             result = self.call(*command, *arguments, expect=row.code)
             self.assertLess(cpu_seconds() - start, AT_ONCE, "a mistake is answered at once")

@@ -11,8 +11,9 @@ from program import SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "run", "resume", "info", "bench")
 # With a coarse spacing (m) for a short run.
-TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "weir": 0.05, "channel": 0.1, "wave-flume": 0.05, "solitary-wave": 0.05,
-             "sloshing": 0.025, "floating-box": 0.03}
+TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "channel": 0.1, "weir": 0.03, "broad-weir": 0.03, "sluice-gate": 0.02,
+             "hydraulic-jump": 0.025, "wave-flume": 0.05, "solitary-wave": 0.05, "sloshing": 0.025,
+             "floating-box": 0.03}
 
 
 class CommandLine(ProgramTest):

@@ -1,4 +1,4 @@
-"""Errors of runs of cases/robustness and cases/verification against what theory says.
+"""Errors of runs of cases/robustness, cases/verification and cases/flume against what theory says.
 
 Each function takes a RunFolder and returns its numbers by name; all are without unit unless the name ends in one. They
 throw DataError where the run does not have what they need.
@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import flume
 from .curves import DataError
 from .particles import list_frames, read_frame
 from .profiles import profile_at, rms
@@ -376,7 +377,7 @@ def stoker_dam_break(run):
 
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break}
+         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break, **flume.FLOWS}
 
 
 def main(arguments=None):

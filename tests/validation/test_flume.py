@@ -1,0 +1,91 @@
+"""Steady flows whose numbers are known by hand."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from tailwater_validation import flume
+from tailwater_validation.curves import DataError
+from tailwater_validation.run_folder import RunFolder
+
+G = 9.81
+END = 8.0
+
+
+class SteadyFlows(unittest.TestCase):
+    def run_with(self, parameters, probes, profiles="", spacing=0.01):
+        """A run whose probes {name: (column, early value, late value)} are early until a quarter of the run, which does not count;
+        volumes grow by `late` per second."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name)
+        (path / "probes").mkdir()
+        (path / "case.effective.toml").write_text(
+            f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[particles]\nspacing = {spacing}\n"
+            f"[time]\nend = {END}\n[parameters]\n" + "".join(f"{key} = {value}\n" for key, value in parameters.items()))
+        for name, (column, early, late) in probes.items():
+            (path / "probes" / f"{name}.csv").write_text(f"time_s,{column}\n" + "".join(
+                f"{t:.9g},{early if t < END / 4 else late * (t if column == 'volume_m3' else 1):.12g}\n"
+                for t in np.linspace(0, END, 801)))
+        if profiles:
+            (path / "probes" / "surface.csv").write_text(profiles)
+        return RunFolder(path)
+
+    def test_a_weir_that_obeys_rehbock_has_no_error(self):
+        # he = 0.09, he/P = 0.45: (1.782 + 0.108) 0.027
+        head, discharge = 0.0889, 1.89 * 0.09**1.5
+        self.assertAlmostEqual(flume.rehbock(head, 0.2), discharge, places=12)
+        numbers = flume.weir(self.run_with({"P": 0.2}, {"upstream": ("connected_m", 0.5, 0.2 + head),
+                                                        "over_crest": ("volume_m3", 0.0, 1.01 * discharge)}))
+        self.assertAlmostEqual(numbers["coefficient_error"], 0.01, places=9)
+        self.assertLess(numbers["head_error"], 0.0)
+        self.assertAlmostEqual(numbers["head_m"], head, places=9)
+
+    def test_critical_flow_over_a_broad_weir_has_no_error(self):
+        # With depth 0.2 m over P = 0.1: H = 0.1 + q^2/(2 g 0.04) and q = sqrt(g) (2 H/3)^1.5, by iteration.
+        q = 0.05
+        for _ in range(50):
+            q = G**0.5 * (2 / 3 * (0.1 + q**2 / (2 * G * 0.04))) ** 1.5
+        numbers = flume.broad_weir(self.run_with({"P": 0.1}, {"upstream": ("connected_m", 0.1, 0.2),
+                                                              "crest": ("connected_m", 0.1, (q**2 / G) ** (1 / 3)),
+                                                              "over_crest": ("volume_m3", 0.0, q)}))
+        self.assertAlmostEqual(numbers["coefficient_error"], 0.0, places=9)
+        self.assertAlmostEqual(numbers["crest_over_critical"], 1.0, places=9)
+
+    def test_a_gate_without_losses(self):
+        # Energy 0.2 + q^2/(2 g 0.04) = 0.0305 + q^2/(2 g 0.0305^2)
+        q = (2 * G * (0.2 - 0.0305) / (1 / 0.0305**2 - 1 / 0.04)) ** 0.5
+        numbers = flume.sluice_gate(self.run_with({"a": 0.05}, {"upstream": ("connected_m", 0.3, 0.2),
+                                                                "jet": ("connected_m", 0.1, 0.0305),
+                                                                "discharge": ("volume_m3", 0.0, q)}))
+        self.assertAlmostEqual(numbers["contraction_error"], 0.0, places=9)
+        self.assertAlmostEqual(numbers["discharge_error"], 0.0, places=9)
+
+    def test_a_jump_that_wanders_is_a_bore(self):
+        """Water 0.05 m deep at 2 m/s; the jump goes back at 0.1 m/s, so it meets 2.1 m/s."""
+        before, q, speed = 0.05, 0.1, -0.1
+        behind = 0.5 * before * ((1 + 8 * 2.1**2 / (G * before)) ** 0.5 - 1)
+        x = np.arange(-1, 1, 0.01)
+        profiles = "time_s,x_m,bed_m,connected_m,highest_m\n" + "".join(
+            f"{t},{place:.9g},0,{depth:.9g},{depth:.9g}\n" for t in (5.0, 6.0, 7.0)
+            for place, depth in zip(x, np.where(x < speed * t + 0.605, before, behind)))
+        numbers = flume.hydraulic_jump(self.run_with({"q": q}, {"before": ("connected_m", 0.1, before),
+                                                                "behind": ("connected_m", 0.1, behind)}, profiles))
+        self.assertAlmostEqual(numbers["wander_m_s"], speed, places=9)
+        self.assertAlmostEqual(numbers["conjugate_error"], 0.0, places=9)
+
+    def test_even_flow_is_told_from_its_levels(self):
+        numbers = flume.channel(self.run_with({"H": 0.2, "q": 0.1}, {"depth_upstream": ("connected_m", 0.2, 0.201),
+                                                                     "depth_downstream": ("connected_m", 0.2, 0.198),
+                                                                     "discharge": ("volume_m3", 0.0, 0.101)}))
+        self.assertAlmostEqual(numbers["discharge_error"], 0.01, places=9)
+        self.assertAlmostEqual(numbers["level_error_dx"], 0.2, places=9)
+
+    def test_a_run_that_did_not_reach_its_end_has_no_numbers(self):
+        run = self.run_with({"P": 0.2}, {"upstream": ("connected_m", 0.3, 0.3)})
+        file = run.path / "probes" / "upstream.csv"
+        file.write_text("\n".join(file.read_text().splitlines()[:500]) + "\n")
+        with self.assertRaisesRegex(DataError, "ends at 4.98 s"):
+            flume.steady_mean(run, "upstream", "connected_m")

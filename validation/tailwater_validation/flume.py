@@ -1,0 +1,124 @@
+"""Steady flows in a flume against the formulas of hydraulics: runs of cases/flume.
+
+Each function takes a RunFolder and returns its numbers by name; all are relative unless the name ends in a unit. They
+throw DataError where the run does not have what they need.
+
+Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
+"""
+
+import numpy as np
+
+from .curves import DataError
+from .profiles import profile_at
+
+STEADY = 0.5  # share of the run after which the flow counts as steady
+CONTRACTION = 0.61  # of the water behind a sluice gate
+
+
+def steady(run, probe, column):
+    """The curve of a column of a probe from STEADY on."""
+    curve = run.probe(probe, column)
+    end = run.case["time"]["end"]
+    inside = curve.window(STEADY * end, end)
+    if inside.time.size < 2 or curve.time[-1] < 0.98 * end:
+        raise DataError(f"{run.path}: its probe '{probe}' ends at {curve.time[-1]:.4g} s, the run at {end:.4g} s")
+    return inside
+
+
+def steady_mean(run, probe, column):
+    return float(steady(run, probe, column).value.mean())
+
+
+def steady_discharge(run, probe):
+    """Of a discharge probe, from the volume that has passed: exact also where the flow bends."""
+    volume = steady(run, probe, "volume_m3")
+    return float((volume.value[-1] - volume.value[0]) / (volume.time[-1] - volume.time[0]))
+
+
+def drift(run, probe, column):
+    """How much the mean of the last quarter differs from that of the quarter before."""
+    curve = run.probe(probe, column)
+    end = run.case["time"]["end"]
+    before, after = curve.window(0.5 * end, 0.75 * end), curve.window(0.75 * end, end)
+    return float(after.value.mean() - before.value.mean())
+
+
+def solve(function, low, high):
+    """Where a function that rises from `low` to `high` is zero, by bisection."""
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if function(middle) < 0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def rehbock(head, height):
+    """Discharge per width (m^2/s) over a thin weir `height` (m) high: Rehbock T. (1929), Discussion of "Precise weir
+    measurements", Trans. ASCE 93, 1143-1162. The 1.1 mm stand for surface tension and viscosity."""
+    effective = head + 0.0011
+    return (1.782 + 0.24 * effective / height) * effective**1.5
+
+
+def weir(run):
+    """coefficient_error: discharge over what Rehbock has for the head upstream, less 1. head_error: the head over what he
+    has for the discharge, less 1."""
+    height = run.parameters["P"]
+    discharge = steady_discharge(run, "over_crest")
+    head = steady_mean(run, "upstream", "connected_m") - height
+    expected = solve(lambda h: rehbock(h, height) - discharge, 0.0, 10.0 * head)
+    return {"coefficient_error": discharge / rehbock(head, height) - 1, "head_error": head / expected - 1,
+            "head_m": head, "discharge_m2_s": discharge, "head_drift_m": drift(run, "upstream", "connected_m")}
+
+
+def broad_weir(run):
+    """coefficient_error: discharge over that of critical flow on the crest, sqrt(g) (2 H/3)^1.5 with the energy head H
+    upstream, less 1."""
+    height, g = run.parameters["P"], run.gravity
+    discharge = steady_discharge(run, "over_crest")
+    depth = steady_mean(run, "upstream", "connected_m")
+    head = depth - height + discharge**2 / (2 * g * depth**2)
+    return {"coefficient_error": discharge / (g**0.5 * (2 * head / 3) ** 1.5) - 1, "head_m": depth - height,
+            "discharge_m2_s": discharge, "crest_over_critical": steady_mean(run, "crest", "connected_m")
+            / (discharge**2 / g) ** (1 / 3), "head_drift_m": drift(run, "upstream", "connected_m")}
+
+
+def sluice_gate(run):
+    """contraction_error: depth of the jet over CONTRACTION times the opening, less 1. discharge_error: discharge over
+    that of the energy equation with the depths that were read, less 1."""
+    opening, g = run.parameters["a"], run.gravity
+    upstream = steady_mean(run, "upstream", "connected_m")
+    jet = steady_mean(run, "jet", "connected_m")
+    discharge = steady_discharge(run, "discharge")
+    without_losses = jet * upstream * (2 * g / (jet + upstream)) ** 0.5
+    return {"contraction_error": jet / (CONTRACTION * opening) - 1, "discharge_error": discharge / without_losses - 1,
+            "upstream_m": upstream, "jet_m": jet, "upstream_drift_m": drift(run, "upstream", "connected_m")}
+
+
+def hydraulic_jump(run):
+    """conjugate_error: depth behind the jump over Belanger's for the depth and the speed before it, both seen from the
+    jump, which may wander, less 1. wander_m_s: its speed."""
+    g = run.gravity
+    before = steady_mean(run, "before", "connected_m")
+    behind = steady_mean(run, "behind", "connected_m")
+    discharge = run.parameters["q"]
+    times = [t for t in np.unique(run.profile_table("surface")["time_s"]) if t >= STEADY * run.case["time"]["end"]]
+    if len(times) < 3:
+        raise DataError(f"{run.path}: has {len(times)} profiles of the steady flow, too few for the jump's speed")
+    profiles = [profile_at(run, "surface", time) for time in times]
+    places = [p.x[np.flatnonzero(p.connected > 0.5 * (before + behind))[0]] for p in profiles]
+    speed = float(np.polyfit(times, places, 1)[0])
+    froude = (discharge / before - speed) / (g * before) ** 0.5
+    conjugate = 0.5 * before * ((1 + 8 * froude**2) ** 0.5 - 1)
+    return {"conjugate_error": behind / conjugate - 1, "before_m": before, "behind_m": behind, "froude": froude,
+            "wander_m_s": speed}
+
+
+def channel(run):
+    """discharge_error: of the mean in the middle. level_error_dx: the largest of both gauges."""
+    depth = run.parameters["H"]
+    levels = [steady_mean(run, name, "connected_m") for name in ("depth_upstream", "depth_downstream")]
+    return {"discharge_error": steady_discharge(run, "discharge") / run.parameters["q"] - 1,
+            "level_error_dx": max(abs(level - depth) for level in levels) / run.spacing}
+
+
+FLOWS = {"weir": weir, "broad-weir": broad_weir, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
+         "channel": channel}
