@@ -53,8 +53,7 @@ void write_previews(const CaseSpec& spec, const CheckOptions& options, const Bou
   }
 }
 
-/// Draws what can be drawn of a case whose shapes are wrong, if the message says where. That nothing can be drawn is no
-/// error beside the message itself.
+/// Draws what can be drawn of a case whose shapes are wrong, if the message says where.
 template <int Dim>
 void show_bad_places(const CaseSpec& spec, const CheckOptions& options, std::string_view message) {
   const std::vector<Vec<Dim>> places = places_in<Dim>(message);
@@ -62,7 +61,9 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, std::str
   try {
     const BrokenCase<Dim> drawing = draw_broken_case<Dim>(spec);
     write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, places);
-  } catch (const UserError& problem) {
+  } catch (const InputError&) {
+    // Nothing can be drawn, for the reason that the message itself gives.
+  } catch (const IoError& problem) {
     warn(fmt::format("no preview: {}", problem.what()));
   }
 }
