@@ -58,14 +58,20 @@ class Run {
   }
 
  private:
-  /// Whether walls and open ends of the state are those of the case.
+  /// Whether walls, what drives them, and open ends of the state are those of the case.
   bool fits(const State<Dim>& state) const {
     const std::size_t rows = flow_.walls.particles.size();
     const std::size_t misplaced = count_each(state.particles.owned, [&](std::size_t i) {
       const std::int32_t row = state.particles.wall_row[i];
       return state.particles.is_fluid(i) ? row != -1 : row < 0 || static_cast<std::size_t>(row) >= rows;
     });
-    return misplaced == 0 && state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
+    std::size_t ways = 0;
+    for (const FloatingBody<Dim>& body : flow_.setup.bodies) ways += body.free.size();
+    const MotionState<Dim>& motion = state.motion;
+    const bool moves_alike = motion.wave_makers.size() == flow_.state.motion.wave_makers.size() &&
+                             motion.bodies.each.size() == flow_.setup.bodies.size() &&
+                             (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == ways * ways);
+    return misplaced == 0 && moves_alike && state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
            state.open_ends.size() == flow_.state.open_ends.size() &&
            state.section_volumes.size() == flow_.state.section_volumes.size();
   }
@@ -73,7 +79,7 @@ class Run {
   void go_on_from(Checkpoint<Dim>& checkpoint) {
     if (flow_.setup.ranks.any(!fits(checkpoint.state))) {
       throw IoError(fmt::format(
-          "the checkpoint does not fit the walls, open ends and probes of its case; remedy: remove the newest "
+          "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
           "file in '{}', to go on from the one before",
           output_.folder().checkpoints().string()));
     }
