@@ -29,6 +29,9 @@ std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const V
   return crossings;
 }
 
+/// dx; a drop that was thrown higher above the bed is not looked for.
+constexpr double tallest_column = 1e4;
+
 /// Where the straight line from (0, `low`) to (`step`, `high`) passes the surface share.
 double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
 
@@ -36,6 +39,7 @@ double passage(double low, double high, double step) { return step * (surface_sh
 template <int Dim>
 WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, const Crossing<Dim>& bed,
                       double top) {
+  top = std::min(top, bed.height + tallest_column * context.spacing);
   const Vec<Dim> bed_point = line.foot + bed.height * line.up;
   const bool bed_is_wet = water_share(context, bed_point) > surface_share;
   const auto share_at = [&](double depth) {
