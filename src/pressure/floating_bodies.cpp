@@ -28,30 +28,54 @@ constexpr int contact_sweeps = 100;
 /// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
 constexpr double probing_share = 0.1;
 
+/// Forces on each body, and their moments about its centre, which add up.
+template <int Dim>
+class ForceSums {
+ public:
+  /// With the centres where they are at `time`.
+  ForceSums(const Flow<Dim>& flow, double time) : flow_(flow), sums_(size * flow.setup.bodies.size(), 0.0) {
+    for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres_.push_back(body.centre_at(time));
+  }
+
+  /// A force at `x` on the body that the wall is of; nothing if it is of none.
+  void add(int wall, const Vec<Dim>& x, const Vec<Dim>& force) {
+    const int body = flow_.setup.body_of_wall[wall];
+    if (body < 0) return;
+    Eigen::Map<Twist<Dim>> sum(sums_.data() + static_cast<std::size_t>(body) * size);
+    sum.template head<Dim>() += force;
+    sum.template tail<turns<Dim>>() += moment_of<Dim>(x - centres_[body], force);
+  }
+
+  /// Of all ranks. Collective.
+  std::vector<Twist<Dim>> gather() {
+    flow_.setup.ranks.sum_of_each(sums_);
+    std::vector<Twist<Dim>> forces;
+    for (std::size_t b = 0; b < centres_.size(); ++b) {
+      forces.push_back(Eigen::Map<const Twist<Dim>>(sums_.data() + b * size));
+    }
+    return forces;
+  }
+
+ private:
+  static constexpr int size = Dim + turns<Dim>;
+  const Flow<Dim>& flow_;
+  std::vector<Vec<Dim>> centres_;
+  std::vector<double> sums_;
+};
+
 /// Sum over the owned wall particles of bodies of what `force(i)` does to the body of each.
 template <int Dim, class Force>
 std::vector<Twist<Dim>> sum_on_bodies(const Flow<Dim>& flow, double time, Force&& force) {
-  const std::size_t count = flow.setup.bodies.size();
-  constexpr int size = Dim + turns<Dim>;
-  std::vector<double> sums(count * size, 0.0);
-  std::vector<Vec<Dim>> centres;
-  for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres.push_back(body.centre_at(time));
+  ForceSums<Dim> sums(flow, time);
   const Particles<Dim>& particles = flow.state.particles;
   const WallParticles<Dim>& table = flow.walls.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
     if (particles.is_fluid(i)) continue;
     const auto row = particles.wall_row[i];
-    const int body = flow.setup.body_of_wall[table.wall[row]];
-    if (body < 0) continue;
-    const Vec<Dim> f = force(i);
-    Eigen::Map<Twist<Dim>> sum(sums.data() + static_cast<std::size_t>(body) * size);
-    sum.template head<Dim>() += f;
-    sum.template tail<turns<Dim>>() += moment_of<Dim>(table.position[row] - centres[body], f);
+    const int wall = table.wall[row];
+    if (flow.setup.body_of_wall[wall] >= 0) sums.add(wall, table.position[row], force(i));
   }
-  flow.setup.ranks.sum_of_each(sums);
-  std::vector<Twist<Dim>> forces(count);
-  for (std::size_t b = 0; b < count; ++b) forces[b] = Eigen::Map<const Twist<Dim>>(sums.data() + b * size);
-  return forces;
+  return sums.gather();
 }
 
 }  // namespace
@@ -80,25 +104,16 @@ void owe_to_bodies(Flow<Dim>& flow, const std::vector<Twist<Dim>>& forces, doubl
 template <int Dim>
 void owe_to_bodies_for_put_back(Flow<Dim>& flow, double dt) {
   if (flow.setup.bodies.empty()) return;
-  constexpr int size = Dim + turns<Dim>;
-  std::vector<double> sums(flow.setup.bodies.size() * size, 0.0);
+  ForceSums<Dim> sums(flow, flow.state.time + dt);
   const Particles<Dim>& particles = flow.state.particles;
+  const Boundary<Dim>& boundary = flow.walls.boundary;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
     const Vec<Dim>& force = flow.wall_forces.pressure[i];
     if (!particles.is_fluid(i) || force.isZero(0.0)) continue;
-    const Boundary<Dim>& boundary = flow.walls.boundary;
     const NearestWall<Dim> nearest = boundary.nearest(particles.position[i], search_distance * flow.setup.spacing);
-    const int body = nearest.face < 0 ? -1 : flow.setup.body_of_wall[boundary.faces[nearest.face].wall];
-    if (body < 0) continue;
-    Eigen::Map<Twist<Dim>> sum(sums.data() + static_cast<std::size_t>(body) * size);
-    const Vec<Dim> centre = flow.state.motion.bodies.each[body].centre_at(flow.state.time + dt);
-    sum.template head<Dim>() += force;
-    sum.template tail<turns<Dim>>() += moment_of<Dim>(nearest.point - centre, force);
+    if (nearest.face >= 0) sums.add(boundary.faces[nearest.face].wall, nearest.point, force);
   }
-  flow.setup.ranks.sum_of_each(sums);
-  std::vector<Twist<Dim>> forces(flow.setup.bodies.size());
-  for (std::size_t b = 0; b < forces.size(); ++b) forces[b] = Eigen::Map<const Twist<Dim>>(sums.data() + b * size);
-  owe_to_bodies(flow, forces, dt);
+  owe_to_bodies(flow, sums.gather(), dt);
 }
 
 template <int Dim>
