@@ -12,6 +12,7 @@ enum class BlockShape { box, polygon, fill };
 enum class WallShape { polyline, polygon, box, mesh, plate };
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
+enum class Turbulence { none, spalart_allmaras };
 enum class AxisDirection { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z };
 enum class MakerType { piston, flap };
 enum class WaveKind { regular, solitary, jonswap, none };
@@ -78,6 +79,10 @@ struct Choices<FluidSide> {
 template <>
 struct Choices<Slip> {
   static constexpr std::array<std::string_view, 3> names{"free", "no-slip", "partial"};
+};
+template <>
+struct Choices<Turbulence> {
+  static constexpr std::array<std::string_view, 2> names{"none", "spalart-allmaras"};
 };
 template <>
 struct Choices<AxisDirection> {
@@ -184,8 +189,8 @@ struct Choices<ProbeType> {
 inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 /// Fields of the particles that can be written for ParaView.
-inline constexpr std::array<std::string_view, 5> field_names{"pressure", "velocity", "density_error", "is_free_surface",
-                                                             "id"};
+inline constexpr std::array<std::string_view, 6> field_names{"pressure",        "velocity",       "density_error",
+                                                             "is_free_surface", "eddy_viscosity", "id"};
 
 template <class Enumeration>
 constexpr std::string_view name_of(Enumeration value) {

@@ -24,6 +24,7 @@ void set_published_farzin(SchemeTable& scheme) {
   scheme.viscosity_floor = 0.0;
   scheme.noise_viscosity = 0.0;
   scheme.smagorinsky = 0.10;
+  scheme.turbulence = Turbulence::none;
   scheme.shifting = ShiftingKind::farzin;
   scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
   scheme.shifting_cap = 0.05;
@@ -48,6 +49,7 @@ void set_published_farmani(SchemeTable& scheme) {
   scheme.displacement = Displacement::mean_velocity;
   scheme.courant = 0.1;
   scheme.noise_viscosity = 0.0;
+  scheme.turbulence = Turbulence::none;
   scheme.shifting = ShiftingKind::none;
 }
 

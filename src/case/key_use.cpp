@@ -32,7 +32,7 @@ std::span<const KeyUse> key_uses() {
       {"wall", "shape", "plate", {}, {"points", "points_file"}},
       {"wall", "shape", "mesh", {"file"}, {"checksum", "scale", "rotate", "translate", "fluid_side"}},
       {"wall", "slip", "free", {}, {}},
-      {"wall", "slip", "no-slip", {}, {}},
+      {"wall", "slip", "no-slip", {}, {"roughness", "manning"}},
       {"wall", "slip", "partial", {}, {"friction"}},
       {"gate", "motion", "speed", {"speed"}, {"travel"}},
       {"gate", "motion", "acceleration", {"acceleration"}, {"travel"}},

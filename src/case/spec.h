@@ -88,6 +88,7 @@ struct PhysicsTable {
   double viscosity = 1e-6;
   Coordinates gravity = {0.0, -9.81};
   double channel_width = 0.0;
+  double channel_roughness = 0.0;
 
   bool operator==(const PhysicsTable&) const = default;
 
@@ -98,8 +99,9 @@ struct PhysicsTable {
     v.coordinates("gravity", self.gravity, "m/s^2",
                   "Acceleration of gravity, one number per dimension (default in 3D: 0, 0, -9.81)");
     v.number("channel_width", self.channel_width, "m", Range::at_least(0.0),
-             "2D: width of the channel between two smooth side walls, whose friction acts on all the water; 0: no side "
-             "walls");
+             "2D: width of the channel between two side walls, whose friction acts on all the water; 0: no side walls");
+    v.number("channel_roughness", self.channel_roughness, "m", Range::at_least(0.0),
+             "2D: equivalent sand roughness k_s of these side walls; 0: smooth");
   }
 };
 
@@ -191,6 +193,8 @@ struct WallTable {
   FluidSide fluid_side = FluidSide::left;
   Slip slip = Slip::free;
   double friction = 0.5;
+  double roughness = 0.0;
+  double manning = 0.0;
   VectorField displacement;
   Varying rotation = 0.0;
   std::string motion;
@@ -232,9 +236,14 @@ struct WallTable {
         "polygon, box or closed mesh; above or below an open mesh, or in front or at the back of it, where the front "
         "sees the corners of triangles counter-clockwise (default: left; inside; needed for a mesh; a plate has none)");
     v.choice("slip", self.slip,
-             "Friction on the wall: none (free), that of a smooth wall (no-slip), or a fraction of it (partial)");
+             "Friction on the wall: none (free), that of water that sticks to it (no-slip), or a fraction of that of a "
+             "smooth wall (partial)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
              "With slip = \"partial\": fraction of the no-slip wall stress");
+    v.number("roughness", self.roughness, "m", Range::at_least(0.0),
+             "With slip = \"no-slip\": equivalent sand roughness k_s of the wall; 0: smooth");
+    v.number("manning", self.manning, "s/m^(1/3)", Range::at_least(0.0),
+             "Instead of roughness: Manning's n, for which k_s = (8.1 sqrt(g) n)^6 after Strickler (g = 9.81 m/s^2)");
     v.field("displacement", self.displacement, Variables::time, "m",
             "Displacement of the wall from its drawn position (default: none); expressions may use the time t");
     v.varying("rotation", self.rotation, Variables::time, "rad",
@@ -567,6 +576,7 @@ struct SchemeTable {
   double viscosity_floor = 0.0;
   double noise_viscosity = 0.2;
   double smagorinsky = 0.0;
+  Turbulence turbulence = Turbulence::spalart_allmaras;
 
   ShiftingKind shifting = ShiftingKind::lind;
   double shifting_strength = 3.0;
@@ -645,6 +655,9 @@ struct SchemeTable {
         "a multiple of dx times the speed of the time-step rule (formulation)");
     v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
              "c_s of the sub-particle stress (F4-F6); 0: no stress (formulation)");
+    v.choice("turbulence", self.turbulence,
+             "Mixing of momentum in the boundary layers of walls with friction: by the viscosity alone, or by the eddy "
+             "viscosity of Spalart & Allmaras (1992) as well (formulation)");
     v.choice(
         "shifting", self.shifting,
         "Particle shifting: none, along the concentration gradient (lind), or as in (F28-F32) (farzin) (formulation)");

@@ -257,6 +257,9 @@ void check(const WallTable& wall, TableReader& reader) {
   }
   check_fluid_side(wall, reader);
   check_wall_motion(wall, reader);
+  if (wall.roughness > 0.0 && wall.manning > 0.0) {
+    reader.wrong("manning", *reader.given("manning"), "the wall has a roughness as well; remove one of the two keys");
+  }
 }
 
 namespace {

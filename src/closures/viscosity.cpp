@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "closures/wall_law.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
@@ -17,26 +18,34 @@ namespace {
 /// `gradients` is the sum of both particles' velocity gradients.
 template <int Dim>
 inline Vec<Dim> noise_force(const Pairs<Dim>& pairs, std::size_t k, double volume_j, double spacing,
-                            const Vec<Dim>& difference, const Mat<Dim>& gradients) {
+                            const Vec<Dim>& difference, const Mat<Dim>& gradients, bool are_in_layer) {
   const Vec<Dim> d = pairs.d[k];  // r_i - r_j
-  Vec<Dim> noise = difference + 0.5 * (gradients * d);
+  const Vec<Dim> explained = -0.5 * (gradients * d);
+  Vec<Dim> noise = difference - explained;
+  if (are_in_layer) {
+    noise -= noise.dot(explained) / std::max(explained.squaredNorm(), std::numeric_limits<double>::min()) * explained;
+  }
   // No branch, because the sign is unpredictable. The divisor's lower bound prevents 0/0.
   const double work = std::min(0.0, noise.dot(difference));
   noise -= work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
   return morris_laplacian_weight(volume_j, pairs.F[k], d.squaredNorm(), spacing) * noise;
 }
 
-}  // namespace
-
-double ViscosityLaw::at_wall(double speed) const {
-  return std::max(molecular, std::pow(8.3, -1.75) * std::pow(speed * wall_distance, 0.75) * std::pow(molecular, 0.25));
+/// Whether both particles belong to a boundary layer, whose eddy viscosity dissipates noise as well.
+template <int Dim>
+inline bool are_in_layer(const Particles<Dim>& particles, std::size_t i, std::int32_t j) {
+  return particles.layer_viscosity[i] > 0.0 && particles.layer_viscosity[j] > 0.0;
 }
+
+}  // namespace
 
 double ViscosityLaw::side_wall_rate(double speed) const {
   if (channel_width == 0.0) return 0.0;
-  const double turbulent =
-      std::pow(8.0 / 7.0 / 8.3, 1.75) * std::pow(speed, 0.75) * std::pow(molecular / (0.5 * channel_width), 0.25);
-  return 2.0 / channel_width * std::max(6.0 * molecular / channel_width, turbulent);
+  const double laminar = 12.0 * molecular / (channel_width * channel_width);
+  if (speed == 0.0) return laminar;
+  const WallLaw law{molecular, channel_roughness};
+  const double u_tau = law.turbulent_friction_velocity_of_mean(speed, 0.5 * channel_width);
+  return std::max(laminar, 2.0 * u_tau * u_tau / (channel_width * speed));
 }
 
 template <int Dim>
@@ -62,7 +71,8 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
       const Vec<Dim> force = 0.5 * (viscosity[i] + viscosity[j]) *
                              (laplacian * difference + particles.volume[j] * (gradients.transpose() * a));
       if (noise_viscosity == 0.0) return force;
-      return force + noise_viscosity * noise_force<Dim>(pairs, k, particles.volume[j], spacing, difference, gradients);
+      return force + noise_viscosity * noise_force<Dim>(pairs, k, particles.volume[j], spacing, difference, gradients,
+                                                        are_in_layer(particles, i, j));
     });
   });
 }
@@ -98,7 +108,7 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
     if (!particles.is_fluid(i)) return;
     acceleration[i] += viscosity * sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
                          return noise_force<Dim>(pairs, k, particles.volume[j], spacing, velocity[j] - velocity[i],
-                                                 gradient[i] + gradient[j]);
+                                                 gradient[i] + gradient[j], are_in_layer(particles, i, j));
                        });
   });
 }

@@ -1,12 +1,11 @@
-// Effective viscosity, the viscous acceleration and the friction of walls.
+// Effective viscosity, the viscous acceleration and the friction of side walls.
 //
 //   nu_eff = nu_0 + max(c_a |u| dx, c_f dx sqrt(g L))        (F3) with a floor
-//   nu_wall = nu_0 max(1, 8.3^(-7/4) (|u| y/nu_0)^(3/4))     wall stress nu_wall u/y of Werner & Wengle (1991)
 //   a = -2 tau_side(|u|)/(rho b) u/|u|                       side walls of a channel of width b, in 2D
 //
 // (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (docs/theory/closures.md). Neither
 // has anything to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that
-// of water.
+// of water. What a wall has is in wall_law.h and spalart_allmaras.h.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +18,17 @@
 namespace tailwater {
 
 struct ViscosityLaw {
-  double molecular = 0.0;      ///< m^2/s; nu_0
-  double artificial = 0.0;     ///< m; c_a dx, times |u| gives nu_a
-  double floor = 0.0;          ///< m^2/s; c_f dx sqrt(g L)
-  double wall_distance = 0.0;  ///< m; y of the wall law
-  double channel_width = 0.0;  ///< m; b between two side walls; 0 if there are none
+  double molecular = 0.0;          ///< m^2/s; nu_0
+  double artificial = 0.0;         ///< m; c_a dx, times |u| gives nu_a
+  double floor = 0.0;              ///< m^2/s; c_f dx sqrt(g L)
+  double channel_width = 0.0;      ///< m; b between two side walls; 0 if there are none
+  double channel_roughness = 0.0;  ///< m; k_s of these walls
 
   double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
 
-  /// Viscosity [m^2/s] for which no slip over `wall_distance` gives the stress of a smooth wall: the laminar stress up
-  /// to u y/nu_0 = 140 (y+ = 11.8), above that the stress of the power law u/u_tau = 8.3 (y u_tau/nu_0)^(1/7).
-  double at_wall(double speed) const;
-
   /// Rate [1/s] at which the two side walls slow water of this speed, averaged over the width: 2 tau/(rho b u). tau/rho
-  /// is the larger of two values: 6 nu u/b, laminar flow between plates, and u_tau^2 of the same power law. There
-  /// `speed` is the mean of the power law over y = 0 .. b/2, which is 7/8 of its value at b/2 (Werner & Wengle's
-  /// integral). 0 without side walls.
+  /// is the larger of two values: 6 nu u/b, laminar flow between plates, and u_tau^2 of the turbulent wall law, whose
+  /// mean over 0 .. b/2 is the speed. 0 without side walls.
   double side_wall_rate(double speed) const;
 };
 
@@ -72,11 +66,12 @@ void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw&
 /// Dissipates noise only: a two-point viscous force between fluid particles. It acts on the part of their velocity
 /// difference that a linear field does not explain,
 ///
-///   d_ij = u_j - u_i - (grad u_i + grad u_j)/2 . (r_j - r_i),
+///   d_ij = u_j - u_i - l_ij,    l_ij = (grad u_i + grad u_j)/2 . (r_j - r_i),
 ///
-/// without its component along u_j - u_i where that would add energy. It vanishes for linear fields and is of fourth
-/// order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved, and energy never grows.
-/// `viscosity` [m^2/s] is one number for the whole flow; `gradient` [1/s] is needed on ghosts.
+/// without its component along u_j - u_i where that would add energy. Between two particles of a boundary layer d_ij is
+/// without its component along l_ij too, so that it does not flatten the logarithmic profile. It vanishes for linear
+/// fields and is of fourth order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved,
+/// and energy never grows. `viscosity` [m^2/s] is one number for the whole flow; `gradient` [1/s] is needed on ghosts.
 template <int Dim>
 void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,

@@ -42,6 +42,8 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
     particles.volume[i] = is_fluid ? fluid.volume[i] : power<Dim>(setup.spacing);
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
+    particles.layer_viscosity[i] = 0.0;
+    particles.wall_distance[i] = far_from_walls;
     particles.id[i] = static_cast<std::int64_t>(is_fluid ? i : fluid_count + row);
   });
   return particles;

@@ -226,6 +226,8 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
     particles.volume[i] = entrant.volume;
     particles.kind[i] = ParticleKind::fluid;
     particles.wall_row[i] = -1;
+    particles.layer_viscosity[i] = 0.0;
+    particles.wall_distance[i] = far_from_walls;
     particles.id[i] = first_id + static_cast<std::int64_t>(own[n]);
   });
 }

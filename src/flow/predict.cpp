@@ -18,6 +18,11 @@ void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gra
   std::vector<double> viscosity(particles.size());
   const double noise_viscosity = setup.scheme.noise_viscosity > 0.0 ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
   effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
+  if (setup.has_boundary_layers) {
+    for_each(viscosity.size(), [&](std::size_t i) {
+      viscosity[i] += spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], setup.viscosity_law.molecular);
+    });
+  }
   switch (setup.scheme.laplacian) {
     case LaplacianKind::consistent:
       add_consistent_viscosity<Dim>(flow.pairs(), particles, flow.here.tensors, flow.here.takes_part, setup.spacing,
@@ -51,12 +56,13 @@ void add_friction(Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
     setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
     flow.halo().exchange(no_slip);
     std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
-    add_wall_friction<Dim>(flow.wall_scene(), setup.viscosity_law, setup.spacing, V, no_slip, particles.velocity,
-                           acceleration, viscosity);
+    add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, acceleration,
+                           viscosity);
     if (setup.finds_wall_forces) {
       flow.halo().exchange(viscosity);
       std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
-      find_friction_on_walls<Dim>(flow.wall_scene(), setup.spacing, no_slip, particles.velocity, viscosity, force);
+      find_friction_on_walls<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, viscosity,
+                                  force);
       for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
     }
   }

@@ -13,9 +13,6 @@ namespace {
 /// With the density source, only particles thrown out are faster than this multiple of sqrt(2 g L).
 constexpr double fastest_counted_over_reference = 2.0;
 
-/// Two-point weights between a lattice and its mirror image give the stress nu u/(0.59 dx) (default kernel).
-constexpr double wall_law_distance_over_spacing = 0.6;
-
 template <int Dim>
 PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   PeriodicDomain<Dim> periodic;
@@ -32,7 +29,15 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model) {
   walls.boundary = make_boundary<Dim>(spec);
   walls.boundary.file_faces(search_distance * spec.particles.spacing);
   walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec));
-  for (const int wall : walls.particles.wall) walls.friction.push_back(walls.boundary.walls[wall].friction);
+  const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
+  for (std::size_t row = 0; row < walls.particles.size(); ++row) {
+    const WallProperties& wall = walls.boundary.walls[walls.particles.wall[row]];
+    walls.friction.push_back(wall.friction);
+    walls.roughness.push_back(wall.roughness);
+    const bool rubs = wall.friction > 0.0;
+    walls.depth.push_back(rubs ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance)
+                               : 0.0);
+  }
   return walls;
 }
 
@@ -137,8 +142,15 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,
                    .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length),
-                   .wall_distance = wall_law_distance_over_spacing * spacing,
-                   .channel_width = spec.physics.channel_width};
+                   .channel_width = spec.physics.channel_width,
+                   .channel_roughness = spec.physics.channel_roughness};
+  const bool has_friction =
+      std::ranges::any_of(drawing.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
+  has_boundary_layers = scheme.turbulence == Turbulence::spalart_allmaras && has_friction;
+  friction_law = {.viscosity = spec.physics.viscosity,
+                  .spacing = spacing,
+                  .exchange_length = 1.0 / lattice.across_plane,
+                  .knows_layers = has_boundary_layers};
   shifting_law = {.kind = scheme.shifting,
                   .strength = scheme.shifting_strength,
                   .cap = scheme.shifting_cap * spacing,

@@ -16,6 +16,7 @@
 #include "neighbours/halo.h"
 #include "operators/lattice.h"
 #include "parallel/communicator.h"
+#include "walls/wall_friction.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -64,6 +65,8 @@ struct Setup {
   double eta_squared;  ///< m^2; eta^2 of (B8)
   AirLaw air_law;
   ViscosityLaw viscosity_law;
+  FrictionLaw friction_law;
+  bool has_boundary_layers;  ///< whether particles carry an eddy viscosity
   ShiftingLaw shifting_law;
   TimeStepRule time_step_rule;
 

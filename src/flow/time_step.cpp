@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/for_each.h"
 #include "flow/verbs.h"
 
 namespace tailwater {
@@ -7,6 +8,14 @@ namespace {
 
 /// [s]; even where neither water nor gravity limits the step, a wall must not move out and back within it.
 constexpr double longest_step_of_walls = 0.01;
+
+template <int Dim>
+double largest_layer_diffusivity(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const double largest =
+      largest_over(particles.owned, 0.0, [&](std::size_t i) { return particles.layer_viscosity[i]; });
+  return spalart_allmaras::diffusivity(flow.setup.ranks.largest(largest));
+}
 
 }  // namespace
 
@@ -17,7 +26,9 @@ double next_time_step(const Flow<Dim>& flow) {
   for (const OpenEnd<Dim>& end : setup.open_ends) {
     if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time));
   }
-  double dt = setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed));
+  double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
+  if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);
+  double dt = setup.time_step_rule.largest(speed, viscosity);
   if (setup.wall_motion.moving().empty()) return dt;
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
   // gate may start within the step.

@@ -101,6 +101,11 @@ void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& 
 template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
+/// Lets the eddy viscosity of boundary layers and the distance from walls go on by dt (closures/spalart_allmaras.h).
+/// Call once per step, located at the positions where it ends.
+template <int Dim>
+void grow_boundary_layers(Flow<Dim>& flow, double dt);
+
 /// (F28)-(F32), or after Lind et al. (2012). Needs `locate` at the present positions.
 template <int Dim>
 Interventions shift(Flow<Dim>& flow, double dt);

@@ -28,6 +28,12 @@ double friction_of(const WallTable& wall) {
   return 0.0;
 }
 
+/// k_s [m]. Strickler: U/u_tau = 8.1 (h/k_s)^(1/6), which is Manning's formula with n = k_s^(1/6)/(8.1 sqrt(g)).
+double roughness_of(const WallTable& wall) {
+  constexpr double g = 9.81;  // m/s^2; n is a property of the wall on Earth
+  return wall.manning > 0.0 ? std::pow(8.1 * std::sqrt(g) * wall.manning, 6) : wall.roughness;
+}
+
 /// The table of the case file that a wall is from.
 std::string kind_of(const WallTable& wall) {
   switch (wall.drive.by) {
@@ -376,8 +382,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const WallTable& table = spec.walls[w];
     const std::size_t before = boundary.faces.size();
     const int wall = static_cast<int>(w);
-    boundary.walls.push_back(
-        {name_or_number(table.name, "wall", w), friction_of(table), body_of(spec, w), kind_of(table)});
+    boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), roughness_of(table),
+                              body_of(spec, w), kind_of(table)});
     const std::string owner = wall_label(boundary, wall);
     if (table.shape == WallShape::plate) {
       append_plate(table, wall, owner, spec.particles.spacing, boundary);

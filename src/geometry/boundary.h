@@ -66,6 +66,7 @@ inline constexpr int resting_body = 0;
 struct WallProperties {
   std::string name;
   double friction = 0.0;      ///< share of the no-slip wall stress: 0 free slip, 1 no slip
+  double roughness = 0.0;     ///< m; equivalent sand roughness k_s
   int body = resting_body;    ///< walls of one body never move relative to each other
   std::string kind = "wall";  ///< the table of the case file that it is from
   bool is_plate = false;      ///< without thickness, with water on both sides

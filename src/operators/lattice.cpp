@@ -1,5 +1,6 @@
 #include "operators/lattice.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "operators/laplacian_morris.h"
@@ -25,7 +26,9 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
         const double wW = volume * kernel_value(kernel, r);
         sums.concentration += wW;
         if (r == 0.0) continue;
-        sums.morris += morris_laplacian_weight(volume, -kernel_derivative(kernel, r) / r, r * r, spacing);
+        const double morris = morris_laplacian_weight(volume, -kernel_derivative(kernel, r) / r, r * r, spacing);
+        sums.morris += morris;
+        sums.across_plane += spacing * std::max(0, y) * morris;  // y pairs of rows are y apart
         sums.shao_lo += shao_lo_laplacian_weight(volume, 1.0, 1.0, r, kernel_derivative(kernel, r), eta_squared);
         trace_A += wW;
         inverse_squares += wW / (r * r);

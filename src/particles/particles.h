@@ -9,6 +9,9 @@
 
 namespace tailwater {
 
+/// m; distance from walls of water that knows of none.
+inline constexpr double far_from_walls = 1e30;
+
 enum class ParticleKind : std::uint8_t { fluid, wall };
 
 template <int Dim>
@@ -20,6 +23,10 @@ struct Particles {
   std::vector<ParticleKind> kind;
   /// For a wall particle its row in the table of WallParticles; -1 for fluid.
   std::vector<std::int32_t> wall_row;
+  /// m^2/s; nu~ of Spalart & Allmaras, 0 where there is no boundary layer (closures/spalart_allmaras.h).
+  std::vector<double> layer_viscosity;
+  /// m; of fluid, from the nearest wall with friction, along the water; at the start and in spray far_from_walls.
+  std::vector<double> wall_distance;
   std::vector<std::int64_t> id;  ///< unique, given at the start, never reused
   std::size_t owned = 0;
 
@@ -29,7 +36,7 @@ struct Particles {
   /// Calls body with references to all fields.
   template <class Body>
   void apply_to_fields(Body&& body) {
-    body(position, velocity, pressure, volume, kind, wall_row, id);
+    body(position, velocity, pressure, volume, kind, wall_row, layer_viscosity, wall_distance, id);
   }
 
   void resize(std::size_t count) {

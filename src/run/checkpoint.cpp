@@ -18,7 +18,8 @@
 namespace tailwater {
 namespace {
 
-constexpr std::array particle_fields{"position", "velocity", "pressure", "volume", "kind", "wall_row", "id"};
+constexpr std::array particle_fields{"position", "velocity",        "pressure",      "volume", "kind",
+                                     "wall_row", "layer_viscosity", "wall_distance", "id"};
 
 /// How an HDF5 file holds a value: as `columns` numbers.
 template <class Value>

@@ -21,6 +21,8 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
     pressure_.push_back(particles.pressure[i]);
     density_error_.push_back(has_work_fields ? flow.here.concentration[i] - 1.0 : 0.0);
     is_surface_.push_back(has_work_fields ? flow.here.is_surface[i] : 0);
+    eddy_viscosity_.push_back(
+        spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.viscosity_law.molecular));
     id_.push_back(particles.id[i]);
   }
 }
@@ -33,6 +35,7 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
     if (name == "velocity") result.fields.push_back({name, velocity_});
     if (name == "density_error") result.fields.push_back({name, density_error_});
     if (name == "is_free_surface") result.fields.push_back({name, is_surface_});
+    if (name == "eddy_viscosity") result.fields.push_back({name, eddy_viscosity_});
     if (name == "id") result.fields.push_back({name, id_});
   }
   return result;

@@ -25,6 +25,7 @@ class FluidFields {
   std::vector<double> pressure_;
   std::vector<double> density_error_;
   std::vector<std::int64_t> is_surface_;
+  std::vector<double> eddy_viscosity_;
   std::vector<std::int64_t> id_;
 };
 

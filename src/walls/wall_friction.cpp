@@ -1,11 +1,16 @@
 #include "walls/wall_friction.h"
 
+#include <algorithm>
+
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
 #include "operators/laplacian_morris.h"
 
 namespace tailwater {
 namespace {
+
+/// dx
+constexpr double least_distance = 0.25;
 
 /// lambda c of a pair, k in the row of either particle, between a wall particle of `row` and one of `volume` [1/m^2].
 template <int Dim>
@@ -14,59 +19,109 @@ double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double vol
          morris_laplacian_weight(volume, scene.pairs.F[k], scene.pairs.d[k].squaredNorm(), spacing);
 }
 
+/// Calls visit(j, row, weight, k) for each particle of walls with friction in reach of fluid particle i.
+template <int Dim, class Visit>
+void visit_rubbing_pairs(const WallScene<Dim>& scene, double spacing, std::size_t i, Visit&& visit) {
+  const Pairs<Dim>& pairs = scene.pairs;
+  const Particles<Dim>& particles = scene.particles;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (particles.is_fluid(j)) continue;
+    const auto row = particles.wall_row[j];
+    if (scene.walls.friction[row] == 0.0) continue;
+    visit(j, row, friction_weight(scene, row, particles.volume[j], k, spacing), k);
+  }
+}
+
+template <int Dim>
+Vec<Dim> along_wall(const WallScene<Dim>& scene, std::int32_t row, const Vec<Dim>& v) {
+  return v - scene.walls.particles.blocked[row] * v;
+}
+
+/// Sets the stresses of a wall whose place and glide are known.
+template <int Dim>
+void apply_wall_law(const FrictionLaw& law, double layer_viscosity, RubbingWall<Dim>& wall) {
+  const double speed = wall.glide.norm();
+  const bool may_be_thin = law.knows_layers && wall.distance < law.spacing;
+  const WallLaw surface{law.viscosity, wall.roughness};
+  const double u_tau = surface.turbulent_friction_velocity(speed, [&](double guess) {
+    if (!may_be_thin) return wall.distance;
+    const double layer = std::max(layer_viscosity, spalart_allmaras::seed(surface, guess));
+    return std::min(wall.distance, spalart_allmaras::thickness(layer, guess));
+  });
+  const double laminar = law.viscosity * speed / wall.distance;
+  wall.excess = std::max(0.0, u_tau * u_tau - laminar);
+  wall.friction_velocity = std::sqrt(laminar + wall.excess);
+}
+
 }  // namespace
 
 template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const ViscosityLaw& law, double spacing,
-                       std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> no_slip,
-                       std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration,
-                       std::span<double> wall_viscosity) {
-  const Pairs<Dim>& pairs = scene.pairs;
-  const Particles<Dim>& particles = scene.particles;
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    Vec<Dim> wall_velocity = Vec<Dim>::Zero();
-    double weights = 0.0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (particles.is_fluid(j)) continue;
-      const auto row = particles.wall_row[j];
-      if (scene.walls.friction[row] == 0.0) continue;
-      const Vec<Dim> difference = no_slip[j] - velocity[i];
-      const double weight = friction_weight(scene, row, particles.volume[j], k, spacing);
-      sum += weight * (difference - scene.walls.particles.blocked[row] * difference);
-      wall_velocity += weight * V[row];
-      weights += weight;
+RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                                   std::span<const Vec<Dim>> velocity, std::size_t i) {
+  RubbingWall<Dim> wall;
+  visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
+    wall.weight += weight;
+    wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - V[row]);
+    wall.distance += weight * (scene.pairs.d[k].dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
+    wall.roughness += weight * scene.walls.roughness[row];
+  });
+  if (wall.weight == 0.0) return {};
+  wall.glide /= wall.weight;
+  wall.distance = std::max(wall.distance / wall.weight, least_distance * law.spacing);
+  wall.roughness /= wall.weight;
+  apply_wall_law(law, scene.particles.layer_viscosity[i], wall);
+  return wall;
+}
+
+template <int Dim>
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                       std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
+                       std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity) {
+  for_each(scene.pairs.owned(), [&](std::size_t i) {
+    if (!scene.particles.is_fluid(i)) return;
+    const RubbingWall<Dim> wall = find_rubbing_wall(scene, law, V, velocity, i);
+    double k_i = 0.0;
+    if (wall.weight > 0.0) {
+      if (wall.is_turbulent()) {
+        k_i = law.exchange_length * wall.excess / wall.glide.norm();
+        acceleration[i] -= k_i * wall.weight * wall.glide;
+      }
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t w, std::int32_t row, double weight, std::size_t) {
+        sum += weight * along_wall<Dim>(scene, row, no_slip[w] - velocity[i]);
+      });
+      acceleration[i] += law.viscosity * sum;
     }
-    const double viscosity = weights > 0.0 ? law.at_wall((velocity[i] - wall_velocity / weights).norm()) : 0.0;
-    if (weights > 0.0) acceleration[i] += viscosity * sum;
-    if (!wall_viscosity.empty()) wall_viscosity[i] = viscosity;
+    if (!excess_viscosity.empty()) excess_viscosity[i] = k_i;
   });
 }
 
 template <int Dim>
-void find_friction_on_walls(const WallScene<Dim>& scene, double spacing, std::span<const Vec<Dim>> no_slip,
-                            std::span<const Vec<Dim>> velocity, std::span<const double> wall_viscosity,
-                            std::span<Vec<Dim>> force) {
+void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                            std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
+                            std::span<const double> excess_viscosity, std::span<Vec<Dim>> force) {
   const Particles<Dim>& particles = scene.particles;
   for_each(scene.pairs.owned(), [&](std::size_t w) {
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
     const Vec<Dim> sum = sum_over_fluid(scene.pairs, particles, w, [&](std::int32_t i, std::size_t k) -> Vec<Dim> {
-      const double weight = friction_weight(scene, row, particles.volume[i], k, spacing);
-      return wall_viscosity[i] * weight * (velocity[i] - no_slip[w]);
+      const double weight = friction_weight(scene, row, particles.volume[i], k, law.spacing);
+      return weight * (law.viscosity * (velocity[i] - no_slip[w]) + excess_viscosity[i] * (velocity[i] - V[row]));
     });
-    force[w] = particles.volume[w] * (sum - scene.walls.particles.blocked[row] * sum);
+    force[w] = particles.volume[w] * along_wall<Dim>(scene, row, sum);
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template void add_wall_friction<Dim>(const WallScene<Dim>&, const ViscosityLaw&, double, std::span<const Vec<Dim>>, \
-                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,     \
-                                       std::span<double>);                                                            \
-  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, double, std::span<const Vec<Dim>>,                 \
-                                            std::span<const Vec<Dim>>, std::span<const double>, std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
+  template RubbingWall<Dim> find_rubbing_wall<Dim>(const WallScene<Dim>&, const FrictionLaw&,                          \
+                                                   std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::size_t); \
+  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,           \
+                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,      \
+                                       std::span<double>);                                                             \
+  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,      \
+                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                      \
+                                            std::span<const double>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

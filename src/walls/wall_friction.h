@@ -1,29 +1,54 @@
-// The friction of walls on the water beside them.
+// The friction of walls on the water beside them: the viscous stress of water that sticks to the wall, and what the
+// wall law of a turbulent layer adds to it (closures/wall_law.h).
 #pragma once
 
 #include <span>
 
-#include "closures/viscosity.h"
+#include "closures/spalart_allmaras.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
 
-/// Adds lambda times the no-slip stress of the wall law to the acceleration [m/s^2] of fluid particles: the tangential
-/// part of sum_w lambda c_iw nu_wall(|u_i|) (u_noslip - u_i). Here c_iw is the Morris weight, |u_i| the speed relative
-/// to the wall, `no_slip` the wall model's velocity for each wall particle (up to date on ghosts), and `V` the wall's
-/// velocity for each row of its table. Relative to the wall, it only slows the water. `wall_viscosity`, if it is not
-/// empty, receives nu_wall(|u_i|) [m^2/s] of owned particles; 0 for those without friction.
-template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const ViscosityLaw& law, double spacing,
-                       std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> no_slip,
-                       std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration,
-                       std::span<double> wall_viscosity = {});
+struct FrictionLaw {
+  double viscosity = 0.0;        ///< m^2/s; molecular
+  double spacing = 0.0;          ///< m; dx
+  double exchange_length = 0.0;  ///< m; water that glides at u past a wall gets the stress k u/exchange_length from k_i
+  bool knows_layers = false;     ///< whether particles carry the eddy viscosity of their layer
+};
 
-/// The opposite forces [N, divided by the density in kg/m^3] on owned wall particles, pair by pair. `wall_viscosity` is
-/// what the function above gives, up to date on ghosts as `no_slip` and `velocity` are.
+/// What a fluid particle feels of the walls with friction in its reach: weighted means over their particles.
 template <int Dim>
-void find_friction_on_walls(const WallScene<Dim>& scene, double spacing, std::span<const Vec<Dim>> no_slip,
-                            std::span<const Vec<Dim>> velocity, std::span<const double> wall_viscosity,
-                            std::span<Vec<Dim>> force);
+struct RubbingWall {
+  double weight = 0.0;                ///< 1/m^2; sum of lambda c_iw; 0: no such wall
+  Vec<Dim> glide = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
+  double distance = 0.0;              ///< m; at least dx/4, which is as near as particles keep
+  double roughness = 0.0;             ///< m; k_s
+  double friction_velocity = 0.0;     ///< m/s; u_tau of the larger of the two laws
+  double excess = 0.0;                ///< m^2/s^2; by which the turbulent stress over rho exceeds the laminar one
+  bool is_turbulent() const { return excess > 0.0; }
+};
+
+/// Finds it for fluid particle i. `V` is the wall's velocity for each row of its table; `velocity` is the water's. A
+/// layer thinner than dx (spalart_allmaras.h) lowers the distance at which the wall law applies.
+template <int Dim>
+RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                                   std::span<const Vec<Dim>> velocity, std::size_t i);
+
+/// Adds lambda times the stress of walls to the acceleration [m/s^2] of fluid particles: the tangential part of
+/// sum_w lambda c_iw [nu (u_noslip - u_i) - k_i (u_i - V)]. Here c_iw is the Morris weight, `no_slip` the wall model's
+/// velocity for each wall particle (up to date on ghosts), and `V` the wall's velocity for each row of its table.
+/// k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
+/// receives it for owned particles. Relative to the wall, friction only slows the water.
+template <int Dim>
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                       std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
+                       std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity = {});
+
+/// The opposite forces [N, divided by the density in kg/m^3] on owned wall particles, pair by pair. `excess_viscosity`
+/// is what the function above gives, up to date on ghosts as `no_slip` and `velocity` are.
+template <int Dim>
+void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                            std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
+                            std::span<const double> excess_viscosity, std::span<Vec<Dim>> force);
 
 }  // namespace tailwater

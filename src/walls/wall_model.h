@@ -21,9 +21,11 @@ namespace tailwater {
 /// The walls of a case at their present positions.
 template <int Dim>
 struct Walls {
-  Boundary<Dim> boundary;        ///< faces
-  WallParticles<Dim> particles;  ///< the table that Particles::wall_row points into
-  std::vector<double> friction;  ///< lambda of each row of the table: 0 free slip, 1 no slip
+  Boundary<Dim> boundary;         ///< faces
+  WallParticles<Dim> particles;   ///< the table that Particles::wall_row points into
+  std::vector<double> friction;   ///< lambda of each row of the table: 0 free slip, 1 no slip
+  std::vector<double> roughness;  ///< m; k_s of each row
+  std::vector<double> depth;      ///< m; of each row behind its wall, where it has friction
 };
 
 /// What the rest of the step needs to know about a model.

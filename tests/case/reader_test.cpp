@@ -119,6 +119,7 @@ TEST(Formulation, PublishedChangesDefaultsOnly) {
   expected.viscosity_floor = 0.0;
   expected.noise_viscosity = 0.0;
   expected.smagorinsky = 0.10;
+  expected.turbulence = Turbulence::none;
   expected.shifting = ShiftingKind::farzin;
   expected.shifting_strength = 0.10;
   expected.shifting_cap = 0.05;

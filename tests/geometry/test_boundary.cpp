@@ -75,6 +75,18 @@ TEST(Boundary, FrictionFollowsSlip) {
   EXPECT_EQ(boundary.walls[1].name, "wall2");
 }
 
+TEST(Boundary, RoughnessOfManningIsThatOfStrickler) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {1, 0}}), polyline({{0, 0}, {1, 0}})};
+  spec.walls[0].manning = 0.012;
+  spec.walls[1].roughness = 0.003;
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  // Then U/u_tau = 8.1 (h/k_s)^(1/6) is Manning's U = h^(2/3) S^(1/2)/n, with u_tau = sqrt(g h S), for any h and S.
+  const double k_s = boundary.walls[0].roughness;
+  EXPECT_NEAR(std::pow(k_s, 1.0 / 6.0) / (8.1 * std::sqrt(9.81)), 0.012, 1e-15);
+  EXPECT_EQ(boundary.walls[1].roughness, 0.003);
+}
+
 // Fluid in the quadrant x, y > 0: a concave corner.
 TEST(Boundary, SignedDistanceAtAConcaveCorner) {
   CaseSpec spec = empty_case(0.1);

@@ -127,6 +127,15 @@ TEST(Check, FluidTooNearToAWall) {
   expect_only(check(spec), Severity::error, {"'fluid1' is too near to wall 'wall1'", "4 particles", "0.02 m", "0.1 m"});
 }
 
+TEST(Check, RoughnessLargerThanTheSpacing) {
+  CaseSpec spec = tank();
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].manning = 0.03;  // gravel
+  expect_only(check(spec), Severity::warning, {"wall 'wall1'", "k_s = 0.194 m", "manning = 0.03", "0.1 m", "draw"});
+  spec.walls[0].manning = 0.02;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, GapBetweenFluidAndWall) {
   CaseSpec spec = tank();
   spec.fluid = {box_fluid({0.06, 0}, {0.56, 0.4})};

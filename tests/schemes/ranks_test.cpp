@@ -154,6 +154,18 @@ TYPED_TEST(RanksTest, ConsistentOperatorsStressAndFriction) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
+TYPED_TEST(RanksTest, BoundaryLayers) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].roughness = 0.02;
+  expect_same<Dim>(spec, 0.3, [](Flow<Dim>& flow) {
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i][0] = 1.0;
+    }
+  });
+}
+
 TYPED_TEST(RanksTest, PeriodicVortex) {
   constexpr int Dim = TypeParam::value;
   constexpr double k = 2.0 * std::numbers::pi;

@@ -66,6 +66,13 @@ CaseSpec inlet_case() {
   return spec;
 }
 
+CaseSpec rough_case() {
+  CaseSpec spec = dam_break(Integrator::explicit_projection);
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].roughness = 0.01;
+  return spec;
+}
+
 class StateTest : public testing::TestWithParam<Variant> {};
 
 void expect_same(const Flow<2>& a, const Flow<2>& b) {
@@ -79,6 +86,8 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
     ASSERT_EQ(a.state.particles.position[i], b.state.particles.position[i]);
     ASSERT_EQ(a.state.particles.velocity[i], b.state.particles.velocity[i]);
     ASSERT_EQ(a.state.particles.pressure[i], b.state.particles.pressure[i]);
+    ASSERT_EQ(a.state.particles.layer_viscosity[i], b.state.particles.layer_viscosity[i]);
+    ASSERT_EQ(a.state.particles.wall_distance[i], b.state.particles.wall_distance[i]);
   }
 }
 
@@ -109,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, StateTest,
                                          Variant{"implicit", dam_break(Integrator::implicit_projection)},
                                          Variant{"two_step", two_step_case()}, Variant{"published", published_case()},
                                          Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()},
-                                         Variant{"inlet", inlet_case()}),
+                                         Variant{"inlet", inlet_case()}, Variant{"rough", rough_case()}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -37,6 +37,10 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Warning: a wall whose roughness is larger than dx.
+template <int Dim>
+Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
 /// Error: blocks of fluid that overlap.
 template <int Dim>
 Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);

@@ -1,0 +1,26 @@
+#include "closures/spalart_allmaras.h"
+
+#include "operators/laplacian_morris.h"
+
+namespace tailwater::spalart_allmaras {
+
+template <int Dim>
+double diffusion(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double molecular, double spacing,
+                 std::size_t i) {
+  const std::vector<double>& nu = particles.layer_viscosity;
+  double sum = 0.0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (!particles.is_fluid(j)) continue;
+    const double mean = molecular + 0.5 * (nu[i] + nu[j]);
+    const double weight = (1.0 + c_b2) * mean - c_b2 * (molecular + nu[i]);
+    sum += weight * morris_laplacian_weight(particles.volume[j], pairs.F[k], pairs.d[k].squaredNorm(), spacing) *
+           (nu[j] - nu[i]);
+  }
+  return sum / sigma;
+}
+
+template double diffusion<2>(const Pairs<2>&, const Particles<2>&, double, double, std::size_t);
+template double diffusion<3>(const Pairs<3>&, const Particles<3>&, double, double, std::size_t);
+
+}  // namespace tailwater::spalart_allmaras

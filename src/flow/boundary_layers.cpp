@@ -1,0 +1,91 @@
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "flow/verbs.h"
+#include "operators/gradient_corrected.h"
+#include "walls/wall_friction.h"
+
+namespace tailwater {
+namespace {
+
+/// Less than this share of the molecular viscosity is no layer; so that water which none has reached stays free of it.
+constexpr double least_layer_over_molecular = 1e-3;
+
+/// Distance from the nearest wall with friction [m], measured from neighbour to neighbour. Grows or falls by a reach in
+/// a step at most, which a layer does not.
+template <int Dim>
+double distance_by_neighbours(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
+  double least = far_from_walls;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (particles.is_fluid(j)) least = std::min(least, particles.wall_distance[j] + pairs.r(k));
+  }
+  return least;
+}
+
+template <int Dim>
+bool is_reached(const Pairs<Dim>& pairs, const std::vector<double>& layer_viscosity, std::size_t i) {
+  if (layer_viscosity[i] > 0.0) return true;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    if (layer_viscosity[pairs.j[k]] > 0.0) return true;
+  }
+  return false;
+}
+
+/// nu~ [m^2/s] of fluid particle i after a step of dt. `d` is its distance from `wall`, or from the nearest one.
+template <int Dim>
+double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall, double d, double dt, std::size_t i) {
+  namespace sa = spalart_allmaras;
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const double molecular = setup.viscosity_law.molecular;
+  const double nu = particles.layer_viscosity[i];
+  const bool is_beside_wall = wall.is_turbulent() && d < setup.spacing;
+  const double seed = is_beside_wall ? sa::seed({molecular, wall.roughness}, wall.friction_velocity) : 0.0;
+  if (!is_reached(flow.pairs(), particles.layer_viscosity, i)) return seed;
+
+  double rate = 0.0;
+  double destruction = 0.0;
+  if (nu > 0.0) {
+    if (wall.is_turbulent()) {
+      const double height = is_beside_wall ? std::min(d, sa::thickness(nu, wall.friction_velocity)) : d;
+      rate = wall.friction_velocity / (von_karman * height);
+    } else {
+      const Mat<Dim> gradient = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], particles.volume,
+                                                        std::span<const Vec<Dim>>(particles.velocity));
+      rate = sa::modified_rate(shear_rate<Dim>(gradient), nu, molecular, d);
+    }
+    destruction = sa::destruction_rate(rate, nu, d);
+  }
+  const double diffusion = sa::diffusion(flow.pairs(), particles, molecular, setup.spacing, i);
+  const double next = (nu + dt * (sa::c_b1 * rate * nu + diffusion)) / (1.0 + dt * destruction);
+  return next < least_layer_over_molecular * molecular ? seed : std::max(next, seed);
+}
+
+}  // namespace
+
+template <int Dim>
+void grow_boundary_layers(Flow<Dim>& flow, double dt) {
+  if (!flow.setup.has_boundary_layers) return;
+  Particles<Dim>& particles = flow.state.particles;
+  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  std::vector<double> layer_viscosity(particles.size(), 0.0);
+  std::vector<double> wall_distance(particles.size(), far_from_walls);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    const RubbingWall<Dim> wall = find_rubbing_wall<Dim>(flow.wall_scene(), flow.setup.friction_law,
+                                                         flow.state.wall_velocity, particles.velocity, i);
+    // As if a rough wall stood 0.03 k_s farther back (Aupoix & Spalart 2003).
+    wall_distance[i] =
+        wall.weight > 0.0 ? wall.distance + 0.03 * wall.roughness : distance_by_neighbours(flow.pairs(), particles, i);
+    layer_viscosity[i] = next_layer_viscosity(flow, wall, wall_distance[i], dt, i);
+  });
+  particles.layer_viscosity = std::move(layer_viscosity);
+  particles.wall_distance = std::move(wall_distance);
+  flow.halo().exchange(particles.layer_viscosity, particles.wall_distance);
+}
+
+template void grow_boundary_layers<2>(Flow<2>&, double);
+template void grow_boundary_layers<3>(Flow<3>&, double);
+
+}  // namespace tailwater
