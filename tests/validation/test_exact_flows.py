@@ -280,6 +280,51 @@ spacing = 0.1
         self.assertAlmostEqual(numbers["profile_error"], 0.03, delta=4 * FLOAT32)
 
 
+class UniformFlow(RunTest):
+    CASE = """\
+[parameters]
+h = 0.1
+n = 0.012
+S = 0.002
+ks = 0.0008
+ut = 0.044
+[physics]
+gravity = [0.01962, -9.81]
+[particles]
+spacing = 0.001
+[time]
+end = 8.0
+"""
+
+    def test_known_errors_come_back(self):
+        position = lattice((0, 0), (0.02, 0.1), 0.001)
+        velocity = np.zeros((len(position), 3))
+        velocity[:, 0] = 0.044 / 0.41 * np.log1p(30 * position[:, 1] / 0.0008)
+        frames = [(time, position, {"velocity": velocity * (1 - 0.02 * (8 - time))}) for time in (0.0, 6.0, 7.0, 8.0)]
+        numbers = exact_flows.uniform_flow(self.write_run(self.CASE, frames))
+        mean = velocity[:, 0].mean()
+        # The mean of the factors 0.96, 0.98 and 1 is 0.98, and they rise by 0.02 per second.
+        self.assertAlmostEqual(numbers["keulegan_error"], -0.02, delta=1e-3)  # the mean over particles for that over y
+        self.assertAlmostEqual(numbers["depth_error"], 0.1 / (0.98 * mean * 0.1 * 0.012 / 0.002**0.5) ** 0.6 - 1, delta=1e-5)
+        self.assertAlmostEqual(numbers["stress_error"], -0.02 * mean * 0.1 / 0.044**2, delta=1e-4)
+        self.assertGreater(numbers["profile_error"], 0.01)
+
+
+class Jet(unittest.TestCase):
+    def test_takes_the_momentum_of_the_jet(self):
+        # The force on the plate is rho U^2 b: the integral of p/(rho U^2/2) over x/b is 2.
+        x = np.linspace(0, 20, 200001)
+        pressure = exact_flows.jet_pressure(x)
+        self.assertAlmostEqual(pressure[0], 1.0, delta=1e-8)
+        self.assertAlmostEqual(2 * float(np.sum(pressure) - 0.5) * 1e-4, 2.0, delta=1e-4)
+        np.testing.assert_array_less(np.diff(pressure), 1e-12)
+
+    def test_the_impulse_is_that_of_the_series(self):
+        # P(0) = rho U b sum over odd k of +-4/(k pi)^2.
+        k = np.arange(2000)
+        self.assertAlmostEqual(exact_flows.JET_IMPULSE, float(np.sum(4 * (-1.0) ** k / ((2 * k + 1) * math.pi) ** 2)), delta=1e-7)
+
+
 class ShallowDamBreak(RunTest):
     CASE = """\
 [parameters]

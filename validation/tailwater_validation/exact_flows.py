@@ -279,6 +279,67 @@ def couette(run):
     return channel_flow(run, *couette_exact(run))
 
 
+# --------------------------------------------------------------------------------- uniform flow down a rough channel
+
+
+def uniform_flow(run):
+    """Of the last quarter of the run. depth_error: the depth over that of Manning's formula for the discharge, the slope
+    and n, less 1. keulegan_error: the mean speed over that of the logarithmic law, less 1. profile_error: rms distance of
+    the particles' speed from the logarithmic law, over its mean, up to half the depth. stress_error: by how much the bed's
+    stress differs from that of a steady flow, from what the water gains or loses."""
+    depth, n, slope, ks, shear = (run.parameters[name] for name in ("h", "n", "S", "ks", "ut"))
+    last = [frame for frame in frames(run) if frame.time >= 0.75 * run.case["time"]["end"]]
+    law = 1 / 0.41
+    means, errors = [], []
+    for frame in last:
+        velocity, = fields(run, frame, "velocity")
+        y = frame.position[:, 1].astype(float)
+        means.append(float(velocity[:, 0].mean()))
+        low = y < 0.5 * depth
+        errors.append(rms(velocity[low, 0] - shear * law * np.log1p(30 * y[low] / ks)))
+    mean = float(np.mean(means))
+    logarithmic = shear * law * ((1 + ks / 30 / depth) * math.log1p(30 * depth / ks) - 1)
+    gain = float(np.polyfit([frame.time for frame in last], means, 1)[0])
+    return {"depth_error": depth / (mean * depth * n / math.sqrt(slope)) ** 0.6 - 1, "keulegan_error": mean / logarithmic - 1,
+            "profile_error": float(np.mean(errors)) / logarithmic, "stress_error": -gain * depth / shear**2}
+
+
+# ------------------------------------------------------------------------------------------------ a jet on a plate
+
+
+# Of a block with free sides and any length that meets a wall all at once (Cooker & Peregrine 1995): the impulse P of the
+# pressure obeys Laplace's equation, P = 0 on the sides, dP/dy = -rho U on the wall. In the middle of the wall it is
+# 4 G/pi^2 rho U b, with Catalan's constant G.
+JET_IMPULSE = 4 * 0.915965594 / math.pi**2
+
+
+def jet_pressure(x):
+    """Pressure over rho U^2/2 on a plate that a plane jet of thickness 1 meets at right angles, at the distance x from
+    its middle: free-streamline theory (Milne-Thomson, Theoretical Hydrodynamics, sec. 11.42), with the speed s over U
+    along the plate: x = 2/pi (artanh s + arctan s)."""
+    s = 1 - np.logspace(-9, 0, 4000)[::-1]
+    return np.interp(np.abs(x), 2 / math.pi * (np.arctanh(s) + np.arctan(s)), 1 - s**2)
+
+
+def jet(run):
+    """All over rho U^2/2, for the mean pressure from 5 to 8 b/U. pressure_error: rms distance from theory over the gauges.
+    stagnation_error: in the middle. noise: largest rms about its mean of a gauge. impulse_error: of the impulse of first
+    contact per area in the middle, which the first step takes, over JET_IMPULSE rho U b, less 1."""
+    b, U = run.parameters["b"], run.parameters["U"]
+    stagnation = 0.5 * run.case["physics"]["density"] * U**2
+    errors, noise = [], []
+    for probe in run.case["probe"]:
+        if probe["type"] != "wall-pressure":
+            continue
+        pressure = run.probe(probe["name"], "pressure_Pa").window(5 * b / U, 8 * b / U).value / stagnation
+        errors.append(float(pressure.mean() - jet_pressure(probe["at"][0] / b)))
+        noise.append(float(pressure.std()))
+    middle = run.probe(run.case["probe"][0]["name"], "pressure_Pa")
+    impulse = float(middle.value[1] * (middle.time[1] - middle.time[0]))  # the pressure of a step stands at its end
+    return {"pressure_error": rms(errors), "stagnation_error": errors[0], "noise": max(noise),
+            "impulse_error": impulse / (JET_IMPULSE * run.case["physics"]["density"] * U * b) - 1}
+
+
 # ------------------------------------------------------------------------------- dam breaks in the shallow-water limit
 
 LATE = 3.0  # T = t sqrt(g/h0) from which a dam break is compared with shallow-water theory
@@ -377,7 +438,8 @@ def stoker_dam_break(run):
 
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break, **flume.FLOWS}
+         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break,
+         "uniform-flow": uniform_flow, "jet": jet, **flume.FLOWS}
 
 
 def main(arguments=None):
