@@ -30,6 +30,8 @@ VARIANTS = {
         "scheme.noise_viscosity=0", "scheme.artificial_viscosity=0.02", "scheme.viscosity_floor=0.02",
         "scheme.divergence_free=start", "scheme.displacement=mean-velocity"],
     "no slip": ["wall[0].slip=no-slip"],
+    "no slip, no eddy viscosity": ["wall[0].slip=no-slip", "scheme.turbulence=none"],
+    "no slip, rough (1 mm)": ["wall[0].slip=no-slip", "wall[0].roughness=0.001"],
     "partial slip (0.5)": ["wall[0].slip=partial", "wall[0].friction=0.5"],
     "cubic spline": ["scheme.kernel=cubic-spline"],
     "published kernel": ["scheme.kernel=farzin"],
