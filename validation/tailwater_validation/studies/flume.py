@@ -94,7 +94,7 @@ def channel(plan):
 def circulation(plan):
     length, end = plan.at(("10*H", 20), ("100*H", 200), ("100*H", 200))
     run = plan.run(f"circulation_{length.removesuffix('*H')}", "flume/circulation.toml",
-                   (f"parameters.L={length}", f"time.end={end}"), plan.at(10.0, 600.0, 600.0))
+                   (f"parameters.L={length}", f"time.end={end}"), plan.at(7.0, 350.0, 350.0))
     quantities = (("discharge_error", "discharge in the middle, relative error", "", "pump", 0.005),
                   ("level_error_dx", "depth at two gauges, largest error", "dx", "tailwater", 0.25),
                   ("lost_particles", "particles lost or made", "", "none", 0),
