@@ -19,7 +19,8 @@ class WaveRecord {
   /// All that it knows, for a checkpoint; one number more with each wave.
   const std::shared_ptr<std::vector<double>>& memory() const { return memory_; }
 
-  void add(double time, double level);
+  /// A level [m] at a time [s] after the last.
+  void add(double now, double reading);
 
   /// mean_m (over time), least_m, largest_m; and where there are waves: waves, height_mean_m, height_third_m (the mean
   /// of the highest third), height_largest_m, period_mean_s. Nothing before the first reading.

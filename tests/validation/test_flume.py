@@ -98,6 +98,27 @@ class SteadyFlows(unittest.TestCase):
         for name in ("discharge_error", "discharge_drift", "level_error_dx", "level_drift_dx"):
             self.assertAlmostEqual(numbers[name], 0.0, places=7)
 
+    def test_a_solitary_wave_that_obeys(self):
+        """It stands at the wall 3 % too high."""
+        depth, e = 0.2, 0.2
+        run = self.run_with({"h": depth, "H": e * depth}, {})
+        effective = run.path / "case.effective.toml"
+        speed = (G * depth * (1 + e - e**2 / 20 - 3 * e**3 / 70)) ** 0.5
+        places = {"g1": 2.0, "g2": 3.0, "g3": 4.0}
+        effective.write_text(effective.read_text() + "".join(
+            f"[[probe]]\nname = '{name}'\ntype = 'depth'\nat = [{x}, 0.0]\n" for name, x in places.items()))
+        t = np.linspace(0, END, 4001)
+        waves = {name: ("highest_m", depth + e * depth / np.cosh(3 * (speed * t - x)) ** 2) for name, x in places.items()}
+        highest = (2 * e + e**2 / 2 + 3 * e**3 / 4) * depth
+        waves["wall"] = ("connected_m", depth + 1.03 * highest / np.cosh(2 * (speed * t - 5.5)) ** 2)
+        for name, (column, value) in waves.items():
+            (run.path / "probes" / f"{name}.csv").write_text(f"time_s,{column}\n" + "".join(
+                f"{time:.9g},{z:.9g}\n" for time, z in zip(t, value)))
+        numbers = flume.solitary_wave(RunFolder(run.path))
+        self.assertAlmostEqual(numbers["speed_error"], 0.0, delta=5e-4)
+        self.assertAlmostEqual(numbers["wall_error"], 0.03, delta=2e-3)
+        self.assertAlmostEqual(numbers["height_lost"], 0.0, delta=1e-4)
+
     def test_a_wave_that_runs_up_as_synolakis_says(self):
         depth, height, cot = 0.2, 0.02, 4.0
         run = self.run_with({"h": depth, "H": height, "cot": cot}, {})

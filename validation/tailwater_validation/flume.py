@@ -12,7 +12,7 @@ from .curves import DataError
 from .floating import floating_box
 from .profiles import profile_at
 from .wave_flume import wave_flume
-from .waves import crest
+from .waves import crest, solitary
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
 CONTRACTION = 0.61  # of the water behind a sluice gate
@@ -156,6 +156,25 @@ def run_up(run):
             "height_error": float(height / run.parameters["H"] - 1)}
 
 
+def solitary_wave(run):
+    """speed_error: over Fenton's third order for the mean height at the gauges, less 1. wall_error: largest height of
+    connected water on the wall at the end of the channel, above the still water, over that of the third order of Su & Mirie
+    for the height at the last gauge, less 1. height_lost: share of the wave's height from the first gauge to the last.
+
+    Su C.H., Mirie R.M. (1980), On head-on collisions between two solitary waves, J. Fluid Mech. 98, 509-525; a wall is the
+    plane of symmetry between equal waves."""
+    found = solitary(run)
+    heights = [gauge["height_m"] for gauge in found["gauges"].values()]
+    depth = run.parameters["h"]
+    e = heights[-1] / depth
+    wall = run.probe("wall", "connected_m")
+    reached = float(wall.value.max() - wall.value[0]) / depth
+    if int(np.argmax(wall.value)) > 0.98 * wall.value.size:
+        raise DataError(f"{run.path}: the water still rises at the wall when the run ends, at {wall.time[-1]:.4g} s")
+    return {"speed_error": found["difference"], "wall_error": reached / (2 * e + e**2 / 2 + 3 * e**3 / 4) - 1,
+            "height_lost": 1 - heights[-1] / heights[0], "height_error": heights[0] / run.parameters["H"] - 1}
+
+
 FLOWS = {"weir": weir, "broad-weir": broad_weir, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
-         "channel": channel, "circulation": circulation, "run-up": run_up, "wave-flume": wave_flume,
+         "channel": channel, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
          "floating-box": floating_box}
