@@ -22,6 +22,8 @@ const std::map<std::string, const char*> templates_by_name{
     {"broad-weir", templates::broad_weir},
     {"sluice-gate", templates::sluice_gate},
     {"hydraulic-jump", templates::hydraulic_jump},
+    {"circulation", templates::circulation},
+    {"run-up", templates::run_up},
     {"wave-flume", templates::wave_flume},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},

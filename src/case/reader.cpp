@@ -376,6 +376,15 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
     problems.add(&node.source(), fmt::format("mooring[{}].body = {}: there is no such body; {}", k, value_text(node),
                                              unknown_name_hint(spec.moorings[k].body, names)));
   }
+  for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
+    const std::string& source = spec.inlets[k].water_from;
+    if (source.empty() || std::ranges::find(spec.outlets, source, &OutletTable::name) != spec.outlets.end()) continue;
+    std::vector<std::string_view> names;
+    for (const OutletTable& outlet : spec.outlets) names.push_back(outlet.name);
+    const toml::node& node = *root["inlet"][k]["water_from"].node();
+    problems.add(&node.source(), fmt::format("inlet[{}].water_from = {}: there is no such outlet; {}", k,
+                                             value_text(node), unknown_name_hint(source, names)));
+  }
 }
 
 /// Where the tables and keys are that messages about shapes, probes and steps name.

@@ -478,6 +478,8 @@ struct InletTable {
   std::optional<Varying> profile;
   std::string file;
   std::string checksum;
+  std::string water_from;
+  double reserve = 0.0;
 
   TimeSeries series;  ///< what the file holds: t, discharge, velocity, level
 
@@ -504,6 +506,11 @@ struct InletTable {
            "case file, with a line that names the columns, as in \"t [s], discharge [l/s]\"; in between it is smooth");
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+    v.text("water_from", self.water_from,
+           "Name of the outlet whose water circulates: what has left there enters here, and nothing else (default: new "
+           "water enters)");
+    v.number("reserve", self.reserve, "m^3", Range::at_least(0.0),
+             "With water_from: volume of the water that waits to enter at the start; in 2D m^3 per metre of width");
   }
 };
 

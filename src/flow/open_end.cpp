@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
@@ -176,14 +177,15 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const OpenEndState& st
   return length;
 }
 
-/// The particles that have room to enter now: each stands one spacing before the next in its row. All ranks find the
-/// same.
+/// The particles of a `volume` [m^Dim], or as large as a cell of the lattice one spacing long, that have room to enter
+/// now: each stands the length of its cell before the next in its row. All ranks find the same.
 template <int Dim>
-std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow) {
+std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
+                                        const std::optional<double>& volume) {
   if (state.rows == 0 || state.entry_speed <= 0.0) return {};
-  const double spacing = flow.setup.spacing;
   const double row_height = state.depth / static_cast<double>(state.rows);
   const double column_width = end.width / end.columns;
+  const double spacing = volume ? *volume / (row_height * column_width) : flow.setup.spacing;
   const std::vector<double> free = free_lengths(end, state, flow);
   std::vector<Entrant<Dim>> entrants;
   for (std::size_t cell = 0; cell < free.size(); ++cell) {
@@ -199,8 +201,27 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
         end.flow.feeds() ? end.inflow_at(state, entrant.position) : Vec<Dim>(-state.entry_speed * end.opening.normal);
     if (end.opening.normal.dot(entrant.velocity) >= 0.0) continue;
     entrant.pressure = end.pressure_at(state, entrant.position, flow.setup.density);
-    entrant.volume = row_height * column_width * spacing;
+    entrant.volume = volume ? *volume : row_height * column_width * spacing;
     entrants.push_back(entrant);
+  }
+  return entrants;
+}
+
+/// What enters where water circulates: as many as wait in the sump, of their mean volume, so that number and volume are
+/// kept. Those that have waited longest come first.
+template <int Dim>
+std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow) {
+  const Passed sump = sump_of(flow, end.circuit);
+  const double number = static_cast<double>(sump.particles);
+  const double cell = power<Dim>(flow.setup.spacing);
+  std::vector<Entrant<Dim>> entrants =
+      find_entrants(end, state, flow, std::optional(sump.particles > 0 ? sump.volume / number : cell));
+  const auto waiting = static_cast<std::size_t>(sump.particles);
+  if (entrants.size() > waiting) {
+    const auto inside = [&](const Entrant<Dim>& entrant) { return -end.opening.beyond(entrant.position); };
+    std::ranges::stable_sort(entrants, std::greater<>(), inside);
+    entrants.resize(waiting);
+    ++state.short_steps;
   }
   return entrants;
 }
@@ -245,6 +266,13 @@ Passed& Passed::operator+=(const Passed& other) {
   particles += other.particles;
   volume += other.volume;
   energy += other.energy;
+  return *this;
+}
+
+Passed& Passed::operator-=(const Passed& other) {
+  particles -= other.particles;
+  volume -= other.volume;
+  energy -= other.energy;
   return *this;
 }
 
@@ -355,16 +383,18 @@ bool let_in(Flow<Dim>& flow) {
   bool some_came = false;
   for (std::size_t e = 0; e < setup.open_ends.size(); ++e) {
     if (!setup.open_ends[e].is_driven()) continue;
-    const std::vector<Entrant<Dim>> entrants = find_entrants(setup.open_ends[e], flow.state.open_ends[e], flow);
+    const OpenEnd<Dim>& end = setup.open_ends[e];
+    OpenEndState& state = flow.state.open_ends[e];
+    const std::vector<Entrant<Dim>> entrants =
+        end.circuit < 0 ? find_entrants(end, state, flow, std::nullopt) : find_returning(end, state, flow);
     if (entrants.empty()) continue;
     some_came = true;
     std::int64_t first_id = setup.first_wall_id + static_cast<std::int64_t>(flow.walls.particles.size());
-    for (const OpenEndState& state : flow.state.open_ends) first_id += state.arrived.particles;
+    for (const OpenEndState& any : flow.state.open_ends) first_id += any.arrived.particles;
     add_water(flow, entrants, first_id);
-    Passed& arrived = flow.state.open_ends[e].arrived;
     for (const Entrant<Dim>& entrant : entrants) {
       const double mass = setup.density * entrant.volume;
-      arrived +=
+      state.arrived +=
           {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }
   }
@@ -380,8 +410,24 @@ std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec) {
   return ends;
 }
 
+template <int Dim>
+Passed sump_of(const Flow<Dim>& flow, int circuit) {
+  Passed sump;
+  const double particle = power<Dim>(flow.setup.spacing);
+  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
+    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
+    if (end.circuit != circuit) continue;
+    const std::int64_t reserve = std::lround(end.reserve / particle);
+    sump += {reserve, static_cast<double>(reserve) * particle};
+    sump += flow.state.open_ends[e].departed;
+    sump -= flow.state.open_ends[e].arrived;
+  }
+  return sump;
+}
+
 #define TAILWATER_INSTANTIATE(Dim)                               \
   template struct OpenEnd<Dim>;                                  \
+  template Passed sump_of(const Flow<Dim>&, int);                \
   template std::vector<OpenEnd<Dim>> make_ends(const CaseSpec&); \
   template void hold_open_ends<Dim>(Flow<Dim>&, double);         \
   template bool let_go<Dim>(Flow<Dim>&);                         \

@@ -13,6 +13,9 @@
 
 namespace tailwater {
 
+template <int Dim>
+class Flow;
+
 /// What passed one opening, in one direction, since the start.
 struct Passed {
   std::int64_t particles = 0;
@@ -20,6 +23,7 @@ struct Passed {
   double energy = 0.0;  ///< J; kinetic and potential, on passing
 
   Passed& operator+=(const Passed& other);
+  Passed& operator-=(const Passed& other);
 };
 
 /// The flow before the end stretch, and what is assumed or prescribed beyond.
@@ -38,6 +42,7 @@ struct OpenEndState {
   std::int64_t rows = 0;        ///< of the lattice on which particles enter
   Passed departed;
   Passed arrived;
+  std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate
 };
 
 /// An open end as the steps need it.
@@ -61,5 +66,10 @@ struct OpenEnd : ChannelEnd<Dim> {
 
 template <int Dim>
 std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec);
+
+/// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
+/// through them, less what came. Its energy is not booked.
+template <int Dim>
+Passed sump_of(const Flow<Dim>& flow, int circuit);
 
 }  // namespace tailwater

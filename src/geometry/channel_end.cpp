@@ -158,6 +158,14 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
     }
     ends.emplace_back(std::move(opening), std::move(flow), gravity);
   }
+  for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
+    const InletTable& table = spec.inlets[k];
+    if (table.water_from.empty()) continue;
+    const auto source = std::ranges::find(spec.outlets, table.water_from, &OutletTable::name);  // checked by the reader
+    const std::size_t index = spec.inlets.size() + static_cast<std::size_t>(source - spec.outlets.begin());
+    ends[k].circuit = ends[index].circuit = static_cast<int>(index);
+    ends[k].reserve = table.reserve;
+  }
   return ends;
 }
 

@@ -38,6 +38,8 @@ struct ChannelEnd {
   Vec<Dim> rise;                      ///< unit vector of the edge from the floor upwards
   double height;                      ///< m; of the opening, along `rise`
   Vec<Dim> aside = Vec<Dim>::Zero();  ///< unit vector of the other edge (3D)
+  int circuit = -1;      ///< where water circulates: the index of the outlet whose sump it draws from and fills
+  double reserve = 0.0;  ///< m^Dim; what this end has put into the sump at the start
 
   /// Whether the case says more than that the channel goes on.
   bool is_driven() const { return flow.feeds() || flow.level; }

@@ -116,8 +116,9 @@ struct Reading {
   /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
   std::function<Region<Dim>(double time)> region = {};
   /// What it remembers from reading to reading; null: nothing. The root's counts: a checkpoint keeps it, and a run that
-  /// goes on puts as many numbers back.
+  /// goes on puts them back.
   std::shared_ptr<std::vector<double>> memory = {};
+  bool memory_grows = false;  ///< else it always has as many numbers
   /// Its lines in the summary of the run, from its memory: name and value.
   std::function<std::vector<std::pair<std::string, double>>()> summary = {};
   /// Writes its map at `time` [s] as VTP, or beside `path` as CSV, from its memory. Throws IoError.

@@ -124,29 +124,34 @@ template <int Dim>
 std::vector<double> ProbeSet<Dim>::memory() const {
   std::vector<double> all;
   for (const Instrument& instrument : instruments_) {
-    if (const auto& own = instrument.probe.reading.memory) all.insert(all.end(), own->begin(), own->end());
+    const auto& own = instrument.probe.reading.memory;
+    if (!own) continue;
+    all.push_back(static_cast<double>(own->size()));
+    all.insert(all.end(), own->begin(), own->end());
   }
   return all;
 }
 
 template <int Dim>
 void ProbeSet<Dim>::restore(std::span<const double> memory) {
-  std::size_t count = 0;
+  const auto require = [](bool fits) {
+    if (fits) return;
+    throw IoError(
+        "what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the newest "
+        "checkpoint, to go on from the one before");
+  };
   for (const Instrument& instrument : instruments_) {
-    if (const auto& own = instrument.probe.reading.memory) count += own->size();
+    const Reading<Dim>& reading = instrument.probe.reading;
+    if (!reading.memory) continue;
+    const auto needed = static_cast<double>(reading.memory->size());
+    require(!memory.empty() && memory[0] <= static_cast<double>(memory.size() - 1) &&
+            (memory[0] == needed || (reading.memory_grows && memory[0] >= needed)));
+    const auto size = static_cast<std::size_t>(memory[0]);
+    const std::span<const double> own = memory.subspan(1, size);
+    reading.memory->assign(own.begin(), own.end());
+    memory = memory.subspan(1 + size);
   }
-  if (count != memory.size()) {
-    throw IoError(fmt::format(
-        "the checkpoint has {} numbers for the memory of the probes, which is of {}; remedy: remove the newest "
-        "checkpoint, to go on from the one before",
-        memory.size(), count));
-  }
-  for (const Instrument& instrument : instruments_) {
-    const auto& own = instrument.probe.reading.memory;
-    if (!own) continue;
-    std::copy_n(memory.begin(), own->size(), own->begin());
-    memory = memory.subspan(own->size());
-  }
+  require(memory.empty());
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include "geometry/from_spec.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
+#include "probes/wave_record.h"
 
 namespace tailwater {
 namespace {
@@ -28,6 +29,9 @@ std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const V
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.height > b.height; });
   return crossings;
 }
+
+/// dx; a level that trembles by less about its mean has no waves.
+constexpr double wave_band = 0.125;
 
 /// dx; a drop that was thrown higher above the bed is not looked for.
 constexpr double tallest_column = 1e4;
@@ -128,14 +132,19 @@ template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
   const UprightLine<Dim> line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
-  return {{"connected_m", "highest_m"},
-          [line](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
-            return {{column.connected, column.highest}};
-          },
-          [line](double) {
-            return Region<Dim>{line.foot, line.foot, line.up};
-          }};
+  Reading<Dim> reading;
+  const auto waves = std::make_shared<WaveRecord>(wave_band * spec.particles.spacing);
+  reading.memory = waves->memory();
+  reading.memory_grows = true;
+  reading.columns = {"connected_m", "highest_m"};
+  reading.take = [line, waves](const ProbeContext<Dim>& context) -> std::vector<Row> {
+    const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
+    waves->add(context.time, column.highest);
+    return {{column.connected, column.highest}};
+  };
+  reading.region = [line](double) { return Region<Dim>{line.foot, line.foot, line.up}; };
+  reading.summary = [waves] { return waves->summary(); };
+  return reading;
 }
 
 template <int Dim>

@@ -76,12 +76,21 @@ Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), jso
 
 nlohmann::json json_of(const OpenEndState& end) {
   const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
-               entry_speed, rows, departed, arrived] = end;
-  return {
-      {"is_wet", is_wet},           {"wet_time", wet_time},       {"speed", speed}, {"speed_beyond", speed_beyond},
-      {"invariant", invariant},     {"mean_speed", mean_speed},   {"depth", depth}, {"depth_at_gauge", depth_at_gauge},
-      {"depth_rate", depth_rate},   {"entry_speed", entry_speed}, {"rows", rows},   {"departed", json_of(departed)},
-      {"arrived", json_of(arrived)}};
+               entry_speed, rows, departed, arrived, short_steps] = end;
+  return {{"is_wet", is_wet},
+          {"wet_time", wet_time},
+          {"speed", speed},
+          {"speed_beyond", speed_beyond},
+          {"invariant", invariant},
+          {"mean_speed", mean_speed},
+          {"depth", depth},
+          {"depth_at_gauge", depth_at_gauge},
+          {"depth_rate", depth_rate},
+          {"entry_speed", entry_speed},
+          {"rows", rows},
+          {"departed", json_of(departed)},
+          {"arrived", json_of(arrived)},
+          {"short_steps", short_steps}};
 }
 
 OpenEndState open_end_of(const nlohmann::json& json) {
@@ -97,7 +106,8 @@ OpenEndState open_end_of(const nlohmann::json& json) {
           json.at("entry_speed"),
           json.at("rows"),
           passed_of(json.at("departed")),
-          passed_of(json.at("arrived"))};
+          passed_of(json.at("arrived")),
+          json.at("short_steps")};
 }
 
 nlohmann::json json_of(const MakerState& maker) {

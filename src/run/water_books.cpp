@@ -124,6 +124,12 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     json["name"] = opening.name;
     json.update(json_of_passed(is_inlet ? end.arrived : end.departed));
     json["back"] = json_of_passed(is_inlet ? end.departed : end.arrived);
+    const int circuit = flow.setup.open_ends[e].circuit;
+    if (circuit >= 0 && is_inlet) json["steps_short_of_water"] = end.short_steps;
+    if (circuit == static_cast<int>(e)) {
+      const Passed sump = sump_of(flow, circuit);
+      json["waiting"] = json_of(Water{sump.particles, sump.volume}, density);
+    }
     (is_inlet ? inlets : outlets).push_back(json);
   }
   const Water outside = water_outside(flow);

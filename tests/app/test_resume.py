@@ -26,10 +26,11 @@ WAVES = ("--set", "wall[0].points=[[-0.5, 2], [-0.5, 0], [3, 0], [3, 2]]", "--se
          "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5}]")
 ROLL = ("--set", "wall[0].motion='roll.csv'")
 FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].velocity=[1, 0]", "--set",
-         "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)'}]",
+         "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)', "
+         "water_from='end', reserve=0.05}]",
          "--set", "outlet=[{name='end', from=[1.3, 0], to=[1.3, 2], level=0.5}]", "--set",
          "probe=[{name='middle', type='discharge', from=[0.6, 0], to=[0.6, 2]}, {name='volume', type='volume'}, "
-         "{name='level', type='level-map', from=[0, 0], to=[1.3, 0], step=0.1}, "
+         "{name='level', type='level-map', from=[0, 0], to=[1.3, 0], step=0.1}, {name='gauge', type='depth', at=[0.6, 0]}, "
          "{name='wetted', type='run-up', region_min=[0, 0], region_max=[1, 1]}, "
          "{name='speeds', type='velocity-profile', at=[0.6, 0], interval=0.02}]")
 BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull', shape='box', min=[0.2, 0.3], "
@@ -52,7 +53,7 @@ FEATURES = {
     "a tank that a file rolls": ROLL,
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
-    "an inlet, a tailwater and a discharge probe": FLUME,
+    "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,
     "three dimensions, multigrid and the published shifting": (*CUBE, "--set", "pressure_solver.preconditioner=gamg",
                                                                "--set", "scheme.shifting=farzin"),
 }
@@ -246,7 +247,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 4", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 5", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")

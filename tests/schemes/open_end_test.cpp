@@ -325,6 +325,49 @@ TEST(OpenEnd, AChannelAtRestStaysAtRest) {
   EXPECT_NEAR(flow.state.open_ends[0].depth, depth, 0.5 * dx);
 }
 
+/// Water that circulates is neither lost nor made: at any moment what is inside and what waits is what was there, in
+/// number and volume, and a channel whose reserve is used up gets no more than has left it.
+TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
+  constexpr int Dim = TypeParam::value;
+  const double width = Dim == 2 ? 1.5 : 0.5;
+  const double depth = Dim == 2 ? 0.4 : 0.2;
+  const double breadth = Dim == 2 ? 1.0 : width;
+  const double speed = 1.0;
+  for (const double asked : {1.0, 1.3}) {
+    CaseSpec spec = channel<Dim>(width, depth);
+    spec.fluid[0].velocity.assign(Dim, 0.0);
+    spec.fluid[0].velocity[0] = speed;
+    spec.inlets[0].discharge = asked * depth * breadth;
+    spec.outlets[0].name = "end";
+    spec.outlets[0].level = depth;
+    spec.inlets[0].water_from = "end";
+    spec.inlets[0].reserve = asked == speed ? dx * depth * breadth : 0.0;  // a column, or nothing
+    Flow<Dim> flow(spec);
+    const auto at_start = static_cast<std::int64_t>(count_fluid(flow)) + sump_of(flow, 1).particles;
+    ASSERT_EQ(sump_of(flow, 1).particles, std::lround(spec.inlets[0].reserve / power<Dim>(dx)));
+    start(flow);
+    while (flow.state.time < 0.4 * width / speed) {
+      pass_and_step(flow);
+      const Passed sump = sump_of(flow, 1);
+      ASSERT_GE(sump.particles, 0);
+      ASSERT_EQ(static_cast<std::int64_t>(count_fluid(flow)) + sump.particles, at_start);
+      double volume = sump.volume;
+      for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+        if (flow.state.particles.is_fluid(i)) volume += flow.state.particles.volume[i];
+      }
+      ASSERT_NEAR(volume, static_cast<double>(at_start) * power<Dim>(dx), 1e-9);
+    }
+    const OpenEndState& inlet = flow.state.open_ends[0];
+    EXPECT_GT(inlet.arrived.particles, 0);
+    if (asked == speed) {
+      EXPECT_EQ(inlet.short_steps, 0);
+      EXPECT_NEAR(inlet.arrived.volume, speed * depth * breadth * flow.state.time, dx * depth * breadth);
+    } else {
+      EXPECT_GT(inlet.short_steps, 0);
+    }
+  }
+}
+
 /// The profile of an inlet is what the particles have as they enter, with the mean that is asked for.
 TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
   CaseSpec spec = channel<2>(1.0, 0.4);

@@ -244,6 +244,32 @@ TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
+/// All ranks know what waits in the sump, though each has let only its own particles go.
+TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
+  CaseSpec spec = jittered_tank<2>();
+  spec.walls[0].open = {"-x", "+x", "+y"};
+  OutletTable end;
+  end.name = "end";
+  end.from = {1.0, 0.0};
+  end.to = {1.0, 0.6};
+  end.direction = {1.0, 0.0};
+  end.level = 0.3;
+  spec.outlets = {end};
+  InletTable start;
+  start.from = {0.0, 0.0};
+  start.to = {0.0, 0.6};
+  start.direction = {1.0, 0.0};
+  start.discharge = 0.3;
+  start.water_from = "end";
+  spec.inlets = {start};
+  spec.fluid[0].velocity = {1.0, 0.0};
+  Flow<2> flow(spec, Communicator::world());
+  const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
+  run(flow, 60);
+  EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
+  EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)) + static_cast<std::size_t>(sump_of(flow, 1).particles), at_start);
+}
+
 /// Fewer particles than ranks: some have nothing to do.
 TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
   constexpr int Dim = TypeParam::value;

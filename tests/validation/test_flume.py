@@ -1,5 +1,6 @@
-"""Steady flows whose numbers are known by hand."""
+"""Flows whose numbers are known by hand."""
 
+import json
 import tempfile
 import unittest
 from pathlib import Path
@@ -82,6 +83,54 @@ class SteadyFlows(unittest.TestCase):
                                                                      "discharge": ("volume_m3", 0.0, 0.101)}))
         self.assertAlmostEqual(numbers["discharge_error"], 0.01, places=9)
         self.assertAlmostEqual(numbers["level_error_dx"], 0.2, places=9)
+
+    def test_water_that_circulates_is_counted(self):
+        run = self.run_with({"H": 0.2, "q": 0.1}, {"depth_upstream": ("connected_m", 0.2, 0.2),
+                                                   "depth_downstream": ("connected_m", 0.2, 0.2),
+                                                   "discharge": ("volume_m3", 0.0, 0.1)})
+        effective = run.path / "case.effective.toml"
+        effective.write_text(effective.read_text() + "[[inlet]]\nreserve = 0.0052\n")  # 52 particles
+        (run.path / "summary.json").write_text(json.dumps({"water_balance": {
+            "start": {"particles": 400}, "inside": {"particles": 390}, "outside": {"particles": 1},
+            "inlets": [{"steps_short_of_water": 3}], "outlets": [{"waiting": {"particles": 60}}]}}))
+        numbers = flume.circulation(RunFolder(run.path))
+        self.assertEqual((numbers["lost_particles"], numbers["steps_short_of_water"]), (1, 3))
+        for name in ("discharge_error", "discharge_drift", "level_error_dx", "level_drift_dx"):
+            self.assertAlmostEqual(numbers[name], 0.0, places=7)
+
+    def test_a_solitary_wave_that_obeys(self):
+        """It stands at the wall 3 % too high."""
+        depth, e = 0.2, 0.2
+        run = self.run_with({"h": depth, "H": e * depth}, {})
+        effective = run.path / "case.effective.toml"
+        speed = (G * depth * (1 + e - e**2 / 20 - 3 * e**3 / 70)) ** 0.5
+        places = {"g1": 2.0, "g2": 3.0, "g3": 4.0}
+        effective.write_text(effective.read_text() + "".join(
+            f"[[probe]]\nname = '{name}'\ntype = 'depth'\nat = [{x}, 0.0]\n" for name, x in places.items()))
+        t = np.linspace(0, END, 4001)
+        waves = {name: ("highest_m", depth + e * depth / np.cosh(3 * (speed * t - x)) ** 2) for name, x in places.items()}
+        highest = (2 * e + e**2 / 2 + 3 * e**3 / 4) * depth
+        waves["wall"] = ("connected_m", depth + 1.03 * highest / np.cosh(2 * (speed * t - 5.5)) ** 2)
+        for name, (column, value) in waves.items():
+            (run.path / "probes" / f"{name}.csv").write_text(f"time_s,{column}\n" + "".join(
+                f"{time:.9g},{z:.9g}\n" for time, z in zip(t, value)))
+        numbers = flume.solitary_wave(RunFolder(run.path))
+        self.assertAlmostEqual(numbers["speed_error"], 0.0, delta=5e-4)
+        self.assertAlmostEqual(numbers["wall_error"], 0.03, delta=2e-3)
+        self.assertAlmostEqual(numbers["height_lost"], 0.0, delta=1e-4)
+
+    def test_a_wave_that_runs_up_as_synolakis_says(self):
+        depth, height, cot = 0.2, 0.02, 4.0
+        run = self.run_with({"h": depth, "H": height, "cot": cot}, {})
+        t = np.linspace(0, END, 2001)
+        law = 2.831 * 2 * 0.1**1.25 * depth
+        for name, column, value in (("gauge", "highest_m", depth + height / np.cosh(3 * (t - 2)) ** 2),
+                                    ("beach", "connected_m", 0.99 * depth + 1.02 * law / np.cosh(2 * (t - 4)) ** 2)):
+            (run.path / "probes" / f"{name}.csv").write_text(f"time_s,{column}\n" + "".join(
+                f"{time:.9g},{z:.9g}\n" for time, z in zip(t, value)))
+        numbers = flume.run_up(run)
+        self.assertAlmostEqual(numbers["height_error"], 0.0, delta=2e-3)  # the crest is not quite the parabola
+        self.assertAlmostEqual(numbers["run_up_error"], 0.02, delta=4e-3)
 
     def test_a_run_that_did_not_reach_its_end_has_no_numbers(self):
         run = self.run_with({"P": 0.2}, {"upstream": ("connected_m", 0.3, 0.3)})

@@ -159,7 +159,8 @@ def standing_wave(run):
     """The slowest wave of a tank, followed by the centre of mass, which no disorder of particles disturbs.
 
     period_error, decay_error: (computed - exact)/exact, from the best fit of an offset and a damped oscillation.
-    wave_error: rms difference from the exact path of the centre, over its amplitude."""
+    wave_error: rms difference from the exact path of the centre, over its amplitude. lost_per_period: of the wave's
+    height."""
     parameters, viscosity = run.parameters, run.case["physics"]["viscosity"]
     length, depth, k = parameters["L"], parameters["depth"], parameters["k"]
     path = [(frame.time, frame.position[:, 0].astype(float).mean()) for frame in frames(run)]
@@ -172,6 +173,7 @@ def standing_wave(run):
     return {
         "period_error": root.imag / found.imag - 1,
         "decay_error": found.real / root.real - 1,
+        "lost_per_period": 1 - math.exp(2 * math.pi * found.real / found.imag),
         "wave_error": float(np.sqrt(np.mean((centre - centre[0] - exact) ** 2))) / abs(amplitude),
     }
 

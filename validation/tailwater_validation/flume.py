@@ -1,4 +1,4 @@
-"""Steady flows in a flume against the formulas of hydraulics: runs of cases/flume.
+"""Flows in a flume against the formulas of hydraulics: runs of cases/flume.
 
 Each function takes a RunFolder and returns its numbers by name; all are relative unless the name ends in a unit. They
 throw DataError where the run does not have what they need.
@@ -9,7 +9,10 @@ Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
 import numpy as np
 
 from .curves import DataError
+from .floating import floating_box
 from .profiles import profile_at
+from .wave_flume import wave_flume
+from .waves import crest, solitary
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
 CONTRACTION = 0.61  # of the water behind a sluice gate
@@ -120,5 +123,58 @@ def channel(run):
             "level_error_dx": max(abs(level - depth) for level in levels) / run.spacing}
 
 
+def circulation(run):
+    """channel's numbers; lost_particles: of start and sump, neither inside nor in the sump at the end. discharge_drift,
+    level_drift_dx: of the last quarter from the one before."""
+    balance = run.summary["water_balance"]
+    inlet, = run.case["inlet"]
+    there = balance["start"]["particles"] + round(inlet["reserve"] / run.spacing**run.dimension)
+    kept = sum(balance[place]["particles"] for place in ("inside", "outside")) + balance["outlets"][0]["waiting"]["particles"]
+    volume = run.probe("discharge", "volume_m3")
+    quarters = np.interp(np.array([0.5, 0.75, 1.0]) * volume.time[-1], volume.time, volume.value)
+    before, after = np.diff(quarters) / (0.25 * volume.time[-1])
+    drifts = [drift(run, name, "connected_m") for name in ("depth_upstream", "depth_downstream")]
+    return channel(run) | {"lost_particles": there - kept, "discharge_drift": float(after / before - 1),
+                           "level_drift_dx": max(drifts, key=abs) / run.spacing,
+                           "steps_short_of_water": balance["inlets"][0]["steps_short_of_water"]}
+
+
+def run_up(run):
+    """run_up_error: largest height of connected water on the beach over Synolakis's law for the wave that the gauge saw,
+    less 1. Heights are above the probe's own reading of the still water, whose tip is thinner than a particle.
+
+    Synolakis C.E. (1987), The runup of solitary waves, J. Fluid Mech. 185, 523-545."""
+    depth = run.parameters["h"]
+    _, height = crest(run.probe("gauge", "highest_m"))
+    beach = run.probe("beach", "connected_m")
+    highest = int(np.argmax(beach.value))
+    if highest > 0.98 * beach.value.size:
+        raise DataError(f"{run.path}: the water still runs up when the run ends, at {beach.time[-1]:.4g} s")
+    law = 2.831 * run.parameters["cot"] ** 0.5 * (height / depth) ** 1.25
+    reached = float(beach.value[highest] - beach.value[0]) / depth
+    return {"run_up_error": reached / law - 1, "run_up_over_depth": reached, "law_over_depth": float(law),
+            "height_error": float(height / run.parameters["H"] - 1)}
+
+
+def solitary_wave(run):
+    """speed_error: over Fenton's third order for the mean height at the gauges, less 1. wall_error: largest height of
+    connected water on the wall at the end of the channel, above the still water, over that of the third order of Su & Mirie
+    for the height at the last gauge, less 1. height_lost: share of the wave's height from the first gauge to the last.
+
+    Su C.H., Mirie R.M. (1980), On head-on collisions between two solitary waves, J. Fluid Mech. 98, 509-525; a wall is the
+    plane of symmetry between equal waves."""
+    found = solitary(run)
+    heights = [gauge["height_m"] for gauge in found["gauges"].values()]
+    depth = run.parameters["h"]
+    e = heights[-1] / depth
+    wall = run.probe("wall", "connected_m")
+    reached = float(wall.value.max() - wall.value[0]) / depth
+    if int(np.argmax(wall.value)) > 0.98 * wall.value.size:
+        raise DataError(f"{run.path}: the water still rises at the wall when the run ends, at {wall.time[-1]:.4g} s")
+    return {"speed_error": found["difference"], "wall_error": reached / (2 * e + e**2 / 2 + 3 * e**3 / 4) - 1,
+            "height_lost": 1 - heights[-1] / heights[0], "height_error": heights[0] / run.parameters["H"] - 1}
+
+
 FLOWS = {"weir": weir, "broad-weir": broad_weir, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
-         "channel": channel}
+         "channel": channel, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
+         "floating-box": floating_box}

@@ -1,0 +1,61 @@
+"""Regular waves of which everything is known, at the gauges of cases/wave_flume."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from tailwater_validation import wave_flume
+from tailwater_validation.run_folder import RunFolder
+from tailwater_validation.waves import wave_numbers
+
+DEPTH, LENGTH, HEIGHT, G = 0.2, 1.25, 0.08, 9.81
+PERIOD = 2 * np.pi / (G * 2 * np.pi / LENGTH * np.tanh(2 * np.pi / LENGTH * DEPTH)) ** 0.5
+
+
+class WaveFlume(unittest.TestCase):
+    def run_with(self, decay, reflected, longer=1.0):
+        """Waves of `HEIGHT` at the first gauge, `longer` than linear theory has them, that lose exp(-decay) per length, and of
+        which the far end sends a share back to the gauges there."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name)
+        (path / "probes").mkdir()
+        places = {"a": 0.5 * LENGTH + LENGTH * np.array([0, 0.1, 0.25, 0.4]), "b": 10.5 * LENGTH + LENGTH * np.array([0, 0.1, 0.25, 0.4])}
+        tables, t = "", np.arange(0, 22 * PERIOD, 0.004)
+        k = 2 * np.pi / LENGTH / longer
+        for letter, group in places.items():
+            for n, x in enumerate(group, 1):
+                name = f"{letter}{n}"
+                tables += f'[[probe]]\nname = "{name}"\ntype = "depth"\nat = [{x}, 0.0]\n'
+                height = HEIGHT * np.exp(-decay * (group[0] / LENGTH - 0.5))
+                phase = 2 * np.pi * t / PERIOD
+                level = 0.5 * height * np.cos(phase - k * x)
+                if letter == "b":
+                    level += 0.5 * reflected * height * np.cos(phase + k * x + 0.4)
+                (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
+                    f"{time:.9g},{DEPTH + z:.9g}\n" for time, z in zip(t, level)))
+        (path / "case.effective.toml").write_text(
+            f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {22 * PERIOD}\n"
+            f"[parameters]\nh = {DEPTH}\nL = {LENGTH}\nT = {PERIOD}\nH = {HEIGHT}\n{tables}")
+        return RunFolder(path)
+
+    def test_waves_that_neither_decay_nor_come_back(self):
+        numbers = wave_flume.wave_flume(self.run_with(0.0, 0.0))
+        self.assertAlmostEqual(numbers["height_left"], 1.0, delta=1e-3)
+        self.assertAlmostEqual(numbers["height_error"], 0.0, delta=1e-3)
+        self.assertLess(numbers["reflection"], 2e-3)
+
+    def test_decay_and_reflection_are_told_apart_also_of_longer_waves(self):
+        numbers = wave_flume.wave_flume(self.run_with(0.03, 0.1, longer=1.05))
+        self.assertAlmostEqual(numbers["height_left"], np.exp(-0.3), delta=3e-3)
+        self.assertAlmostEqual(numbers["reflection"], 0.1, delta=3e-3)
+        self.assertAlmostEqual(numbers["longer_than_linear"], 0.05, delta=3e-3)
+
+    def test_the_linear_wave_number_is_the_cases(self):
+        self.assertAlmostEqual(float(wave_numbers(1 / PERIOD, DEPTH, G)) * LENGTH, 2 * np.pi, places=6)
+
+
+if __name__ == "__main__":
+    unittest.main()
