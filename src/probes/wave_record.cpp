@@ -64,11 +64,11 @@ std::vector<std::pair<std::string, double>> WaveRecord::summary() const {
            static_cast<double>(count);
   };
   const auto count = static_cast<double>(heights.size());
-  lines.insert(lines.end(), {{"waves", count},
-                             {"height_mean_m", mean_of_highest(heights.size())},
-                             {"height_third_m", mean_of_highest(std::max<std::size_t>(1, heights.size() / 3))},
-                             {"height_largest_m", heights.front()},
-                             {"period_mean_s", (at(last) - at(first)) / count}});
+  lines.emplace_back("waves", count);
+  lines.emplace_back("height_mean_m", mean_of_highest(heights.size()));
+  lines.emplace_back("height_third_m", mean_of_highest(std::max<std::size_t>(1, heights.size() / 3)));
+  lines.emplace_back("height_largest_m", heights.front());
+  lines.emplace_back("period_mean_s", (at(last) - at(first)) / count);
   return lines;
 }
 
