@@ -203,6 +203,6 @@ def floating_box(plan):
         "floating-box", "A box that floats: draught, heave and roll", EXACT,
         f"A box in a narrow tank, {rows} particles broad, is let go a fortieth of its breadth above its draught, or tilted by 0.05, "
         "and swings: period from seven passages through its place of rest, and that place.",
-        "Linear theory of the tank with the box in it, added mass and waves included, solved on finite volumes to 0.1 %. Linear: "
+        "Linear theory of the tank with the box in it, added mass and waves included, solved on finite volumes and extrapolated over their size. Linear: "
         "the box swings by a tenth to a quarter of its draught.",
         tuple(checks), (Plot("Heave (left) and roll (right) over time.", tuple(runs), draw_boxes),), shown=runs[0])
