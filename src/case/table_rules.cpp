@@ -520,7 +520,7 @@ void read_linked_files(OutletTable& outlet, TableReader& reader) {
 void check(const InletTable& inlet, TableReader& reader) {
   check_direction(inlet.direction, reader);
   check_ends(inlet.from, inlet.to, reader);
-  if (reader.given("reserve") && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
+  if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
     reader.wrong("reserve", *reader.given("reserve"),
                  "is water that waits to circulate; say with water_from which outlet's water enters, or remove it");
   }
