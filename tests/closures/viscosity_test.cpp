@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -88,7 +90,7 @@ TYPED_TEST(ViscosityTest, ARigidRotationIsFreeOfStressUpToTheSurface) {
 
 TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  ParticleSet<Dim> set = block<Dim>();
   Noise noise(43);
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   // Any gradients, right or wrong: what the limiter promises does not depend on them.
@@ -96,18 +98,41 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   for (Mat<Dim>& entry : gradient) {
     for (int a = 0; a < Dim; ++a) entry.row(a) = 20.0 * noise.vector<Dim>().transpose();
   }
-  std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
-  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, acceleration);
-  Vec<Dim> force = Vec<Dim>::Zero();
-  double forces = 0.0;
-  double power = 0.0;
-  for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-    force += acceleration[i];
-    forces += acceleration[i].norm();
-    power += acceleration[i].dot(velocity[i]);
+  for (const double layer_viscosity : {0.0, 1.0}) {
+    std::ranges::fill(set.particles.layer_viscosity, layer_viscosity);
+    std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
+    add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, acceleration);
+    Vec<Dim> force = Vec<Dim>::Zero();
+    double forces = 0.0;
+    double power = 0.0;
+    for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+      force += acceleration[i];
+      forces += acceleration[i].norm();
+      power += acceleration[i].dot(velocity[i]);
+    }
+    EXPECT_LT(force.norm(), 300.0 * eps * forces);  // some 100 terms per particle, each rounded a few times
+    EXPECT_LT(power, 0.0);
   }
-  EXPECT_LT(force.norm(), 300.0 * eps * forces);  // some 100 terms per particle, each rounded a few times
-  EXPECT_LT(power, 0.0);
+}
+
+TYPED_TEST(ViscosityTest, NoiseViscosityLeavesTheProfileOfALayerAlone) {
+  constexpr int Dim = TypeParam::value;
+  ParticleSet<Dim> set = block<Dim>();
+  // All differences point along x: those of the profile, and those of its gradient, of which half is found, as beside
+  // a wall whose particles glide along.
+  const auto velocity =
+      sample(set, [](const Vec<Dim>& x) { return Vec<Dim>(std::log(10.0 + x[1] / dx) * Vec<Dim>::UnitX()); });
+  std::vector<Mat<Dim>> gradient(set.size(), Mat<Dim>::Zero());
+  for (std::size_t i = 0; i < set.size(); ++i) gradient[i](0, 1) = 0.5 / (10.0 * dx + set.position(i)[1]);
+  std::vector<Vec<Dim>> outside(set.size(), Vec<Dim>::Zero());
+  std::vector<Vec<Dim>> inside = outside;
+  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, outside);
+  std::ranges::fill(set.particles.layer_viscosity, 1.0);
+  add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, inside);
+  double largest = 0.0;
+  for (const Vec<Dim>& a : outside) largest = std::max(largest, a.norm());
+  EXPECT_GT(largest, 1e-3);
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) EXPECT_LT(inside[i].norm(), 1e-12);
 }
 
 TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
