@@ -5,16 +5,14 @@
 #include <string>
 
 #include "base/vec.h"
-#include "geometry/boundary.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_particles.h"
 
 namespace tailwater {
 
 template <int Dim>
-ParticleCount expected_particle_count(const CaseSpec& spec) {
+ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
-  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   ParticleCount count;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const FluidTable& block = spec.fluid[b];
@@ -40,7 +38,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec) {
   return count;
 }
 
-template ParticleCount expected_particle_count<2>(const CaseSpec&);
-template ParticleCount expected_particle_count<3>(const CaseSpec&);
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<2>&);
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<3>&);
 
 }  // namespace tailwater
