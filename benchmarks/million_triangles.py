@@ -76,7 +76,7 @@ def main():
         command = [options.program.resolve(), "check", "case.toml"] + ([] if options.pictures else ["--no-preview"])
         code = subprocess.run(command, cwd=folder, check=False).returncode
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    print(f"{len(triangles)} triangles: {used.ru_utime + used.ru_stime:.1f} s CPU, {used.ru_maxrss / 1024:.0f} MB")
+    print(f"{len(triangles)} triangles: {used.ru_utime + used.ru_stime:.1f} s CPU, {used.ru_maxrss * 1.024e-3:.0f} MB")
     sys.exit(code)
 
 
