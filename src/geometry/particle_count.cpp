@@ -6,6 +6,7 @@
 
 #include "base/vec.h"
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/wall_particles.h"
 
 namespace tailwater {
@@ -26,6 +27,10 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
       if (box.isEmpty()) continue;
       box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
       count.fluid += std::max(box.volume(), 0.0) / power<Dim>(dx);  // below 0 with a level below the walls
+    } else if (Dim == 3 && block.shape == BlockShape::mesh) {
+      if constexpr (Dim == 3) {
+        count.fluid += six_volumes(boundary.water[b]->mesh(), [](int) { return true; }) / 6.0 / power<Dim>(dx);
+      }
     } else {
       const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - to_vec<Dim>(block.min, label, "min");
       count.fluid += (extent / dx).array().round().max(1.0).prod();
