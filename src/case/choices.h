@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-enum class BlockShape { box, polygon, fill };
+enum class BlockShape { box, polygon, fill, mesh };
 enum class WallShape { polyline, polygon, box, mesh, plate };
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
@@ -65,7 +65,7 @@ struct Choices;
 
 template <>
 struct Choices<BlockShape> {
-  static constexpr std::array<std::string_view, 3> names{"box", "polygon", "fill"};
+  static constexpr std::array<std::string_view, 4> names{"box", "polygon", "fill", "mesh"};
 };
 template <>
 struct Choices<WallShape> {

@@ -139,7 +139,30 @@ struct DomainTable {
   }
 };
 
-struct FluidTable {
+/// A mesh from a file, and where it stands in the case.
+struct PlacedFile {
+  std::string file;
+  std::string checksum;
+  double scale = 1.0;
+  Coordinates rotate;
+  Coordinates translate;
+
+  bool operator==(const PlacedFile&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("file", self.file, "STL, OBJ or PLY file of a mesh, relative to the case file");
+    v.text("checksum", self.checksum,
+           "CRC-32 of the mesh file, which a run writes into its case; a file with another one is refused");
+    v.number("scale", self.scale, "", Range::above(0.0), "Length of the mesh file's unit in m: 0.001 for millimetres");
+    v.coordinates("rotate", self.rotate, "deg",
+                  "Angles by which the mesh is turned after scaling: about the x, the y and the z axis, in this order, "
+                  "counter-clockwise as seen against the axis");
+    v.coordinates("translate", self.translate, "m", "Displacement of the mesh after it has been turned");
+  }
+};
+
+struct FluidTable : PlacedFile {
   std::string name;
   BlockShape shape = BlockShape::box;
   Coordinates min;
@@ -155,14 +178,15 @@ struct FluidTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages (default: fluid1, fluid2, ...)");
     v.choice("shape", self.shape,
-             "Shape of the block: an axis-parallel box, a polygon (2D), or all that water poured in at a seed point "
-             "fills up "
-             "to a level (fill); bodies that stand in the block are left out of it");
+             "Shape of the block: an axis-parallel box, a polygon (2D), the inside of a closed mesh from a file (3D), "
+             "or all that water poured in at a seed point fills up to a level (fill); bodies that stand in the block "
+             "are left out of it");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
     v.coordinates("seed", self.seed, "m", "Point in the water of a fill");
     v.number("level", self.level, "m", {}, "Height of the surface of a fill: its y in 2D, its z in 3D");
+    PlacedFile::describe(self, v);
     v.field("velocity", self.velocity, Variables::position, "m/s",
             "Initial velocity (default: at rest); expressions may use the particle's coordinates x, y, z");
   }
@@ -177,7 +201,7 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
-struct WallTable {
+struct WallTable : PlacedFile {
   std::string name;
   WallShape shape = WallShape::polyline;
   std::vector<Coordinates> points;
@@ -185,11 +209,6 @@ struct WallTable {
   Coordinates min;
   Coordinates max;
   std::vector<std::string> open;
-  std::string file;
-  std::string checksum;
-  double scale = 1.0;
-  Coordinates rotate;
-  Coordinates translate;
   FluidSide fluid_side = FluidSide::left;
   Slip slip = Slip::free;
   double friction = 0.5;
@@ -214,7 +233,7 @@ struct WallTable {
         "shape", self.shape,
         "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
         "from a file (3D); plate: a wall without thickness that has water on both sides, an open chain of segments "
-        "(2D) or a rectangle (3D)");
+        "(2D), a rectangle or the open mesh of a file (3D)");
     v.points("points", self.points, "m", "Corners of a polyline, polygon or plate, in order");
     v.text("points_file", self.points_file,
            "Instead of points: CSV file of them, relative to the case file (docs/theory/geometry.md); a run keeps the "
@@ -222,14 +241,7 @@ struct WallTable {
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.texts("open", self.open, box_face_names, "Faces of a box that are left open");
-    v.text("file", self.file, "STL, OBJ or PLY file of a mesh, relative to the case file");
-    v.text("checksum", self.checksum,
-           "CRC-32 of the mesh file, which a run writes into its case; a file with another one is refused");
-    v.number("scale", self.scale, "", Range::above(0.0), "Length of the mesh file's unit in m: 0.001 for millimetres");
-    v.coordinates("rotate", self.rotate, "deg",
-                  "Angles by which the mesh is turned after scaling: about the x, the y and the z axis, in this order, "
-                  "counter-clockwise as seen against the axis");
-    v.coordinates("translate", self.translate, "m", "Displacement of the mesh after it has been turned");
+    PlacedFile::describe(self, v);
     v.choice(
         "fluid_side", self.fluid_side,
         "Side on which the water is: left or right of a polyline, seen in the order of its points; inside or outside a "

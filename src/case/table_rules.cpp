@@ -90,6 +90,8 @@ void set_defaults(SchemeTable& scheme, TableReader& reader) {
 
 void set_defaults(FluidTable& fluid, TableReader& reader) {
   fluid.velocity.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+  fluid.rotate.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+  fluid.translate = fluid.rotate;
 }
 
 void set_defaults(WallTable& wall, TableReader& reader) {
@@ -157,17 +159,33 @@ void check(const PhysicsTable& physics, TableReader& reader) {
 }
 
 void check(const FluidTable& fluid, TableReader& reader) {
-  check_shape_dimension(name_of(fluid.shape), fluid.shape == BlockShape::polygon ? 2 : 0, "\"box\" or \"fill\"",
-                        reader);
+  const int dimension = fluid.shape == BlockShape::polygon ? 2 : fluid.shape == BlockShape::mesh ? 3 : 0;
+  check_shape_dimension(name_of(fluid.shape), dimension,
+                        dimension == 2 ? "\"box\", \"mesh\" or \"fill\"" : "\"box\", \"polygon\" or \"fill\"", reader);
   check_box(fluid.min, fluid.max, reader);
   check_corner_count(fluid.points, 3, reader);
 }
 
 namespace {
 
+/// A plate is drawn by points or by a mesh.
+void check_mesh_of_plate(const WallTable& wall, TableReader& reader) {
+  if (reader.is_wrong("file")) return;
+  if (reader.dimension() == 2) {
+    reader.wrong("file", *reader.given("file"),
+                 "a mesh has three dimensions, but case.dimension = 2; give points or a points_file");
+  } else if (!wall.points_file.empty() || reader.given("points") != nullptr) {
+    reader.wrong("file", *reader.given("file"), "the plate has points as well; remove one of the two keys");
+  }
+}
+
 /// A chain has its points in the case or in a file.
 void check_points_given(const WallTable& wall, TableReader& reader) {
   if (wall.shape == WallShape::box || wall.shape == WallShape::mesh) return;
+  if (wall.shape == WallShape::plate && !wall.file.empty()) {
+    check_mesh_of_plate(wall, reader);
+    return;
+  }
   const bool has_file = !wall.points_file.empty();
   if (has_file && reader.given("points") != nullptr) {
     reader.wrong("points_file", *reader.given("points_file"),
@@ -175,7 +193,8 @@ void check_points_given(const WallTable& wall, TableReader& reader) {
   } else if (!has_file && reader.given("points") == nullptr && !reader.is_wrong("shape") &&
              !reader.is_wrong("points_file")) {
     reader.missing(
-        "points", fmt::format("shape = \"{}\" needs it: give its corners in m, or a points_file", name_of(wall.shape)));
+        "points", fmt::format("shape = \"{}\" needs it: give its corners in m, or a {}", name_of(wall.shape),
+                              wall.shape == WallShape::plate && reader.dimension() == 3 ? "mesh file" : "points_file"));
   }
 }
 
@@ -448,6 +467,11 @@ Given given(std::string_view key, const std::optional<Varying>& value, const Tim
 
 }  // namespace
 
+void read_linked_files(FluidTable& fluid, TableReader& reader) {
+  if (fluid.shape != BlockShape::mesh || reader.is_wrong("shape")) return;
+  read_linked("file", reader, [&] { keep_linked(fluid.file, fluid.checksum, "checksum", reader); });
+}
+
 void read_linked_files(WallTable& wall, TableReader& reader) {
   if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
     read_linked("points_file", reader, [&] {
@@ -460,7 +484,8 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
       wall.points_file.clear();
     });
   }
-  if (wall.shape == WallShape::mesh && !reader.is_wrong("shape")) {
+  const bool is_mesh = wall.shape == WallShape::mesh || (wall.shape == WallShape::plate && !wall.file.empty());
+  if (is_mesh && !reader.is_wrong("shape")) {
     read_linked("file", reader, [&] { keep_linked(wall.file, wall.checksum, "checksum", reader); });
   }
   if (wall.motion.empty()) return;

@@ -29,6 +29,7 @@ void set_defaults(ProbeTable& probe, TableReader& reader);
 /// becomes absolute, so that the case does not depend on its folder any more.
 template <class Table>
 void read_linked_files(Table&, TableReader&) {}
+void read_linked_files(FluidTable& fluid, TableReader& reader);
 void read_linked_files(WallTable& wall, TableReader& reader);
 void read_linked_files(GateTable& gate, TableReader& reader);
 void read_linked_files(InletTable& inlet, TableReader& reader);

@@ -215,8 +215,19 @@ void append_plate(const WallTable& table, int wall, const std::string& owner, do
     const Vec<3> normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
     for (const WallFace<3>& face : rectangle_faces(corners, normal, wall)) boundary.faces.push_back(face);
   }
-  boundary.walls[wall].is_plate = true;
   boundary.plates.push_back({wall, first, (static_cast<int>(boundary.faces.size()) - first) / 2});
+}
+
+/// The meshes of the blocks of water.
+std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spec, const Boundary<3>& boundary) {
+  Eigen::AlignedBox<double, 3> walls;
+  for (const WallFace<3>& face : boundary.faces) walls.extend(face.box());
+  std::vector<std::shared_ptr<const MeshSurface>> water(spec.fluid.size());
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    if (spec.fluid[b].shape != BlockShape::mesh) continue;
+    water[b] = std::make_shared<const MeshSurface>(make_water_mesh(spec, spec.fluid[b], fluid_label(spec, b), walls));
+  }
+  return water;
 }
 
 }  // namespace
@@ -385,7 +396,10 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), roughness_of(table),
                               body_of(spec, w), kind_of(table)});
     const std::string owner = wall_label(boundary, wall);
-    if (table.shape == WallShape::plate) {
+    boundary.walls[wall].is_plate = table.shape == WallShape::plate;
+    if (Dim == 3 && table.shape == WallShape::plate && !table.file.empty()) {
+      if constexpr (Dim == 3) append_mesh_plate(spec, table, wall, owner, boundary);
+    } else if (table.shape == WallShape::plate) {
       append_plate(table, wall, owner, spec.particles.spacing, boundary);
     } else if (table.shape == WallShape::box) {
       append_box<Dim>(table, wall, owner, spec.particles.spacing, boundary.faces);
@@ -406,7 +420,13 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     }
   }
   boundary.hang_screens(0.5 * spec.particles.spacing, dummy_layers(spec) * spec.particles.spacing);
-  if (!boundary.meshes.empty() && !spec.fluid.empty()) boundary.lattice = make_lattice<Dim>(spec, 0, boundary);
+  if constexpr (Dim == 3) {
+    boundary.water = water_meshes(spec, boundary);
+    const bool has_sheet =
+        std::ranges::any_of(boundary.plates, [](const WallPlate& plate) { return plate.sheet != nullptr; });
+    const bool needs_lattice = !boundary.meshes.empty() || has_sheet;
+    if (needs_lattice && !spec.fluid.empty()) boundary.lattice = make_lattice<Dim>(spec, 0, boundary);
+  }
   return boundary;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -99,9 +100,17 @@ struct WallPlate {
   int wall = 0;
   int first_face = 0;
   int pieces = 0;
+  std::shared_ptr<const MeshSurface> sheet = nullptr;  ///< as drawn, if it is from a mesh
 };
 
-/// What a flat piece of a plate hides: water on one side of it does not feel the water on the other.
+/// A straight cut through the plane of a screen, by coordinates along its axes: what is beyond it is not of the screen.
+struct ScreenCut {
+  std::array<double, 2> outwards{};                       ///< a unit vector; 0: nothing is cut off
+  double most = std::numeric_limits<double>::infinity();  ///< m; how far the screen reaches in this direction
+};
+
+/// What a flat piece of a plate hides: water on one side of it does not feel the water on the other. It is a segment in
+/// 2D, in 3D a rectangle or, with two cuts, a triangle.
 template <int Dim>
 struct Screen {
   Vec<Dim> corner;
@@ -111,19 +120,23 @@ struct Screen {
   int wall = 0;
   int front = 0;  ///< indices into Boundary::faces, the front one on the side that the normal points to
   int back = 0;
+  std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
 
   double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether the way from one place to another passes it.
   bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// m; of `x` from the piece
+  /// The axis-parallel box around it.
+  Eigen::AlignedBox<double, Dim> box() const;
+  /// m; of `x` from the piece, or from the rectangle around it
   double distance(const Vec<Dim>& x) const;
 };
 
-/// Whether what is at one place does not feel what is at the other, because a screen is between them. If one of them is
-/// a wall particle of a plate, `plate` is its index into Boundary::walls, else -1; such a particle stands for what its
-/// own plate hides, and is felt only through it.
+/// Whether what is at one place does not feel what is at the other, because one of the screens `near` them, given by
+/// index, is between them. If one of them is a wall particle of a plate, `plate` is its index into Boundary::walls,
+/// else -1; such a particle stands for what its own plate hides, and is felt only through it.
 template <int Dim>
-bool is_hidden(std::span<const Screen<Dim>> screens, const Vec<Dim>& from, const Vec<Dim>& to, int plate);
+bool is_hidden(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
+               const Vec<Dim>& to, int plate);
 
 /// The cells of the water's lattice, by axis.
 template <int Dim>
@@ -135,8 +148,9 @@ struct Boundary {
   std::vector<WallProperties> walls;
   std::vector<WallMesh> meshes;  ///< by first face; none in 2D
   std::vector<WallPlate> plates;
-  std::vector<Screen<Dim>> screens;  ///< of the plates at their present places
-  Lattice<Dim> lattice;              ///< of the first block of water, which goes on behind the meshes
+  std::vector<Screen<Dim>> screens;                       ///< of the plates at their present places
+  std::vector<std::shared_ptr<const MeshSurface>> water;  ///< the mesh of each block of water; null if it has none
+  Lattice<Dim> lattice;  ///< of the first block of water, which goes on behind the meshes
 
   /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
@@ -147,6 +161,12 @@ struct Boundary {
   /// it than `closed_gap` (m), leaves no opening: the screen goes on behind that wall by `reach` (m).
   void hang_screens(double closed_gap, double reach);
   void hang_screens() { hang_screens(closed_gap_, screen_reach_); }
+
+  /// The screens, by index, that a way of this length (m) may pass which ends at `x`.
+  std::span<const int> screens_near(const Vec<Dim>& x, double length) const {
+    if (screens.empty()) return {};
+    return length <= hung_.reach() ? hung_.near(x) : all_screens_;
+  }
 
   /// Nearest wall within `search_distance` (m, may be infinite) of `x`. No place is behind a plate. Where several faces
   /// are equally near (a shared corner), the sign is that of the face whose plane is farthest from `x`, which is right
@@ -179,8 +199,10 @@ struct Boundary {
  private:
   double closed_gap_ = 0.0;    ///< m
   double screen_reach_ = 0.0;  ///< m
-  FaceGrid<Dim> resting_;      ///< without meshes; reach 0: nothing is filed
-  std::vector<int> moving_;    ///< faces that are not of a mesh, when others are filed
+  FaceGrid<Dim> hung_;         ///< the screens
+  std::vector<int> all_screens_;
+  FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is filed
+  std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed
 };
 
 /// "wall 'bed'", "gate 'lock'": the name of a wall in messages.

@@ -11,10 +11,11 @@
 namespace tailwater {
 namespace {
 
-/// Adds the triangles of a wall's file as they are; none if the file cannot be read.
-void append_triangles(const WallTable& table, int wall, Boundary<3>& boundary) {
+/// Adds the triangles of a file as they are; none if the file cannot be read.
+void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
+  if (file.file.empty()) return;
   try {
-    const TriangleMesh mesh = read_placed_mesh(table, table.name);
+    const TriangleMesh mesh = read_placed_mesh(file, file.file);
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       boundary.faces.push_back(
           {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).stableNormalized(), wall});
@@ -29,6 +30,7 @@ template <int Dim>
 Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
   Boundary<Dim> all;
   CaseSpec single = spec;
+  single.fluid.clear();
   for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
     single.walls = {spec.walls[wall]};
     try {
@@ -38,6 +40,11 @@ Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
       }
     } catch (const InputError&) {
       if constexpr (Dim == 3) append_triangles(spec.walls[wall], wall, all);
+    }
+  }
+  if constexpr (Dim == 3) {
+    for (const FluidTable& block : spec.fluid) {
+      if (block.shape == BlockShape::mesh) append_triangles(block, static_cast<int>(spec.walls.size()), all);
     }
   }
   return all;

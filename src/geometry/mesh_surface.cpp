@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/boundary.h"
-
 namespace tailwater {
 namespace {
 
@@ -18,10 +16,6 @@ AxisBox box_of(const TriangleMesh& mesh, int triangle) {
   AxisBox box;
   for (int c = 0; c < 3; ++c) box.extend(mesh.corner(triangle, c));
   return box;
-}
-
-WallFace<3> face_of(const TriangleMesh& mesh, int t) {
-  return {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).normalized()};
 }
 
 /// Whether a path meets a box.
@@ -43,6 +37,18 @@ bool meets(const AxisBox& box, const Vec<3>& from, const Vec<3>& to) {
 }
 
 }  // namespace
+
+std::vector<Vec<3>> normals_at(const TriangleMesh& mesh, const SurfacePlace& place) {
+  constexpr double same_normal = 0.996;  // cosine of 5 degrees
+  std::vector<Vec<3>> normals;
+  for (const int t : place.triangles) {
+    const Vec<3> normal = mesh.area_normal(t).normalized();
+    if (std::ranges::none_of(normals, [&](const Vec<3>& n) { return n.dot(normal) > same_normal; })) {
+      normals.push_back(normal);
+    }
+  }
+  return normals;
+}
 
 /// Eigen's hierarchy of boxes, walked here depth first, the nearer branch first.
 struct MeshSurface::Tree {

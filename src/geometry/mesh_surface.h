@@ -4,9 +4,15 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/boundary.h"
 #include "geometry/triangle_mesh.h"
 
 namespace tailwater {
+
+/// A triangle as a face of a wall.
+inline WallFace<3> face_of(const TriangleMesh& mesh, int t, int wall = 0) {
+  return {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).normalized(), wall};
+}
 
 /// The place of a surface nearest to some point.
 struct SurfacePlace {
@@ -16,6 +22,10 @@ struct SurfacePlace {
   std::vector<int> triangles = {};  ///< all that hold the point: one, the two at an edge, those around a corner
   bool is_on_rim = false;           ///< of an open mesh, beyond which the sign has no meaning
 };
+
+/// The normals of the triangles at a place. Those that differ by less than 5 degrees, as on a finely drawn curve, count
+/// once.
+std::vector<Vec<3>> normals_at(const TriangleMesh& mesh, const SurfacePlace& place);
 
 /// A welded mesh whose neighbours agree about the front; it may be open.
 ///

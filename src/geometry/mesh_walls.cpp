@@ -26,10 +26,10 @@ constexpr double largest_round_off = 0.01;  // dx
 /// Of the area of an open mesh; where less of it looks up or down, neither side is above the other.
 constexpr double least_upward_share = 0.1;
 
-Eigen::Matrix3d rotation_of(const WallTable& table, const std::string& owner) {
+Eigen::Matrix3d rotation_of(const PlacedFile& file, const std::string& owner) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  if (table.rotate.empty()) return turn;
-  const Vec<3> degrees = to_vec<3>(table.rotate, owner, "rotate");
+  if (file.rotate.empty()) return turn;
+  const Vec<3> degrees = to_vec<3>(file.rotate, owner, "rotate");
   for (int axis = 0; axis < 3; ++axis) {
     const double quarters = degrees[axis] / 90.0;
     const double angle = degrees[axis] * std::numbers::pi / 180.0;
@@ -41,10 +41,9 @@ Eigen::Matrix3d rotation_of(const WallTable& table, const std::string& owner) {
 }
 
 /// From the file's coordinates to those of the case.
-void put_in_place(const WallTable& table, const std::string& owner, TriangleMesh& mesh) {
-  const Eigen::Matrix3d turn = table.scale * rotation_of(table, owner);
-  const Vec<3> shift =
-      table.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(table.translate, owner, "translate");
+void put_in_place(const PlacedFile& file, const std::string& owner, TriangleMesh& mesh) {
+  const Eigen::Matrix3d turn = file.scale * rotation_of(file, owner);
+  const Vec<3> shift = file.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(file.translate, owner, "translate");
   for (Vec<3>& x : mesh.points) x = turn * x + shift;
 }
 
@@ -186,55 +185,84 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   if (upward < 0.0) turn_over(mesh);
 }
 
+/// A mesh where it stands in the case, welded, without degenerate and double triangles, whose neighbours agree about
+/// the front.
+class SoundMesh {
+ public:
+  SoundMesh(const CaseSpec& spec, const PlacedFile& file, const std::string& owner)
+      : mesh(read_mesh(file.file, owner)), refuse(mesh, fmt::format("{}: file {}: ", owner, file.file)) {
+    double farthest = 0.0;
+    for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+    const double round_off = file_precision * farthest * file.scale;
+    if (round_off > largest_round_off * spec.particles.spacing) {
+      refuse(
+          "its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g} m, too coarse "
+          "beside a spacing of {:.6g} m: move the mesh to the origin before it is exported, or correct scale = {:g}",
+          farthest, round_off, spec.particles.spacing, file.scale);
+    }
+    put_in_place(file, owner, mesh);
+    const double torn = torn_points * farthest * file.scale;
+    weld(mesh, torn);
+    require_triangles_with_area(mesh, torn, refuse);
+    require_no_double_triangles(mesh, refuse);
+    edges = edges_of(mesh);
+    rim = require_neighbours_that_agree(edges, refuse);
+  }
+  SoundMesh(const SoundMesh&) = delete;
+  SoundMesh& operator=(const SoundMesh&) = delete;
+
+  /// "3 edges have no neighbour, the first is the edge from (0, 0, 0) to (1, 0, 0) of triangle 5 at (0.5, 0, 0)"
+  std::string rim_text() const {
+    return fmt::format("{} edges have no neighbour, the first is {} of {}", rim.size(), refuse.edge(rim[0]),
+                       refuse.triangle(rim[0].triangle));
+  }
+
+  TriangleMesh mesh;
+  Refusal refuse;
+  std::vector<TriangleEdge> edges;
+  std::vector<TriangleEdge> rim;  ///< those that have no neighbour
+};
+
 }  // namespace
 
-TriangleMesh read_placed_mesh(const WallTable& table, const std::string& owner) {
-  TriangleMesh mesh = read_mesh(table.file, owner);
-  put_in_place(table, owner, mesh);
+TriangleMesh read_placed_mesh(const PlacedFile& file, const std::string& owner) {
+  TriangleMesh mesh = read_mesh(file.file, owner);
+  put_in_place(file, owner, mesh);
   return mesh;
 }
 
 TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const std::string& owner) {
-  TriangleMesh mesh = read_mesh(table.file, owner);
-  const Refusal refuse(mesh, fmt::format("{}: file {}: ", owner, table.file));
-  double farthest = 0.0;
-  for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
-  const double round_off = file_precision * farthest * table.scale;
-  if (round_off > largest_round_off * spec.particles.spacing) {
-    refuse(
-        "its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g} m, too coarse "
-        "beside a spacing of {:.6g} m: move the mesh to the origin before it is exported, or correct scale = {:g}",
-        farthest, round_off, spec.particles.spacing, table.scale);
+  SoundMesh sound(spec, table, owner);
+  TriangleMesh& mesh = sound.mesh;
+  if (table.shape == WallShape::plate) {
+    if (sound.rim.empty()) {
+      sound.refuse(
+          "is a closed mesh, and a plate is an open sheet with water on both sides: give shape = \"mesh\" with its "
+          "fluid_side, or export only the sheet");
+    }
+    return std::move(mesh);
   }
-  put_in_place(table, owner, mesh);
-  const double torn = torn_points * farthest * table.scale;
-  weld(mesh, torn);
-
-  require_triangles_with_area(mesh, torn, refuse);
-  require_no_double_triangles(mesh, refuse);
-  const std::vector<TriangleEdge> edges = edges_of(mesh);
-  const std::vector<TriangleEdge> rim = require_neighbours_that_agree(edges, refuse);
   const bool is_body = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside;
-  if (is_body && !rim.empty()) {
-    refuse(
-        "is not watertight, and fluid_side = \"{}\" needs a closed mesh: {} edges have no neighbour, the first is {} "
-        "of "
-        "{}; close the mesh, or give the side of an open one (\"above\", \"below\", \"front\" or \"back\")",
-        name_of(table.fluid_side), rim.size(), refuse.edge(rim[0]), refuse.triangle(rim[0].triangle));
+  if (is_body && !sound.rim.empty()) {
+    sound.refuse(
+        "is not watertight, and fluid_side = \"{}\" needs a closed mesh: {}; close the mesh, or give the side of an "
+        "open one (\"above\", \"below\", \"front\" or \"back\"), or draw a sheet with water on both sides with "
+        "shape = \"plate\"",
+        name_of(table.fluid_side), sound.rim_text());
   }
-  if (!is_body && rim.empty()) {
-    refuse("is a closed mesh, so fluid_side = \"{}\" does not fit: give \"inside\" or \"outside\"",
-           name_of(table.fluid_side));
+  if (!is_body && sound.rim.empty()) {
+    sound.refuse("is a closed mesh, so fluid_side = \"{}\" does not fit: give \"inside\" or \"outside\"",
+                 name_of(table.fluid_side));
   }
   const Vec<3> gravity = gravity_of<3>(spec);
   switch (table.fluid_side) {
     case FluidSide::inside:
     case FluidSide::outside:
-      turn_outwards(mesh, edges, refuse);
+      turn_outwards(mesh, sound.edges, sound.refuse);
       break;
     case FluidSide::above:
     case FluidSide::below:
-      turn_up(mesh, gravity.isZero(0.0) ? Vec<3>(Vec<3>::UnitZ()) : Vec<3>(-gravity.normalized()), refuse);
+      turn_up(mesh, gravity.isZero(0.0) ? Vec<3>(Vec<3>::UnitZ()) : Vec<3>(-gravity.normalized()), sound.refuse);
       break;
     default:
       break;
@@ -243,7 +271,27 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
       table.fluid_side == FluidSide::back) {
     turn_over(mesh);
   }
-  return mesh;
+  return std::move(mesh);
+}
+
+TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+                             const Eigen::AlignedBox<double, 3>& walls) {
+  SoundMesh sound(spec, block, owner);
+  if (!sound.rim.empty()) {
+    sound.refuse("is not watertight, so that no inside holds the water: {}; close the mesh", sound.rim_text());
+  }
+  turn_outwards(sound.mesh, sound.edges, sound.refuse);
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vec<3>& x : sound.mesh.points) box.extend(x);
+  if (walls.isEmpty()) return std::move(sound.mesh);
+  const Vec<3> beyond = Vec<3>::Constant(walls.diagonal().norm());
+  if (!Eigen::AlignedBox<double, 3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
+    sound.refuse(
+        "reaches from {} to {}, far beyond the walls, which stand between {} and {}: correct scale = {:g} (0.001 for a "
+        "file in millimetres) or translate",
+        place<3>(box.min()), place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max()), block.scale);
+  }
+  return std::move(sound.mesh);
 }
 
 void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const std::string& owner,
@@ -254,10 +302,20 @@ void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const s
   added.surface = std::make_shared<const MeshSurface>(make_wall_mesh(spec, table, owner));
   const TriangleMesh& mesh = added.surface->mesh();
   boundary.faces.reserve(boundary.faces.size() + mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    boundary.faces.push_back(
-        {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).normalized(), wall});
-  }
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boundary.faces.push_back(face_of(mesh, t, wall));
+}
+
+void append_mesh_plate(const CaseSpec& spec, const WallTable& table, int wall, const std::string& owner,
+                       Boundary<3>& boundary) {
+  WallPlate& added = boundary.plates.emplace_back();
+  added.wall = wall;
+  added.first_face = static_cast<int>(boundary.faces.size());
+  added.sheet = std::make_shared<const MeshSurface>(make_wall_mesh(spec, table, owner));
+  TriangleMesh side = added.sheet->mesh();
+  added.pieces = static_cast<int>(side.triangles.size());
+  for (int t = 0; t < added.pieces; ++t) boundary.faces.push_back(face_of(side, t, wall));
+  turn_over(side);
+  for (int t = 0; t < added.pieces; ++t) boundary.faces.push_back(face_of(side, t, wall));
 }
 
 }  // namespace tailwater

@@ -5,16 +5,15 @@
 #include <string>
 
 #include "base/vec.h"
-#include "geometry/boundary.h"
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/wall_particles.h"
 
 namespace tailwater {
 
 template <int Dim>
-ParticleCount expected_particle_count(const CaseSpec& spec) {
+ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
-  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   ParticleCount count;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const FluidTable& block = spec.fluid[b];
@@ -28,6 +27,10 @@ ParticleCount expected_particle_count(const CaseSpec& spec) {
       if (box.isEmpty()) continue;
       box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
       count.fluid += std::max(box.volume(), 0.0) / power<Dim>(dx);  // below 0 with a level below the walls
+    } else if (Dim == 3 && block.shape == BlockShape::mesh) {
+      if constexpr (Dim == 3) {
+        count.fluid += six_volumes(boundary.water[b]->mesh(), [](int) { return true; }) / 6.0 / power<Dim>(dx);
+      }
     } else {
       const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - to_vec<Dim>(block.min, label, "min");
       count.fluid += (extent / dx).array().round().max(1.0).prod();
@@ -40,7 +43,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec) {
   return count;
 }
 
-template ParticleCount expected_particle_count<2>(const CaseSpec&);
-template ParticleCount expected_particle_count<3>(const CaseSpec&);
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<2>&);
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<3>&);
 
 }  // namespace tailwater

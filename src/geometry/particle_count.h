@@ -2,6 +2,7 @@
 #pragma once
 
 #include "case/spec.h"
+#include "geometry/boundary.h"
 
 namespace tailwater {
 
@@ -12,8 +13,8 @@ struct ParticleCount {
   double wall = 0.0;
 };
 
-/// Throws InputError as make_boundary and make_fluid_particles do, but makes no particles.
+/// Throws InputError as make_fluid_particles does, but makes no particles.
 template <int Dim>
-ParticleCount expected_particle_count(const CaseSpec& spec);
+ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 }  // namespace tailwater

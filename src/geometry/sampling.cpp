@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "base/random.h"
 #include "case/named_numbers.h"
 #include "geometry/fill.h"
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/polygon.h"
 
 namespace tailwater {
@@ -21,6 +23,10 @@ namespace {
 constexpr double least_edge = 3.0;
 
 constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
+
+/// Between the volume of a mesh and that of the cells inside it, over the latter. Particles with volumes farther from
+/// those of their cells would start with a jolt.
+constexpr double largest_misfit = 0.2;
 
 template <int Dim>
 bool is_axis_parallel(const WallFace<Dim>& face) {
@@ -64,8 +70,8 @@ Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::st
   Eigen::AlignedBox<double, Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw InputError(
-          fmt::format("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\" or \"fill\"", owner));
+      throw InputError(fmt::format(
+          "{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\", \"mesh\" or \"fill\"", owner));
     } else {
       for (const Vec<2>& corner : outline_of(block, owner)) box.extend(corner);
     }
@@ -95,6 +101,26 @@ std::vector<double> planes_in(const Boundary<Dim>& boundary, const Eigen::Aligne
   }
   std::ranges::sort(planes);
   planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  return planes;
+}
+
+/// The same of the faces of a mesh, which may be small, if together they are large enough.
+std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing) {
+  const double tolerance = corner_tolerance * spacing;
+  std::vector<std::pair<double, double>> flats;  // plane and area
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Vec<3> normal = mesh.area_normal(t);
+    if (std::abs(normal[axis]) < (1.0 - 1e-9) * normal.norm()) continue;
+    flats.emplace_back(mesh.corner(t, 0)[axis], 0.5 * normal.norm());
+  }
+  std::ranges::sort(flats);
+  std::vector<double> planes;
+  for (std::size_t k = 0; k < flats.size();) {
+    double area = 0.0;
+    const double plane = flats[k].first;
+    for (; k < flats.size() && flats[k].first - plane <= tolerance; ++k) area += flats[k].second;
+    if (area >= power<2>(least_edge * spacing)) planes.push_back(plane);
+  }
   return planes;
 }
 
@@ -271,6 +297,27 @@ class Bodies {
   std::vector<const WallMesh*> meshes_;
 };
 
+/// Whether places are inside a closed mesh or on it. Asked along a line it looks at the mesh seldom: what is nearer to
+/// the last place than the surface was is on the same side.
+class InMesh {
+ public:
+  InMesh(const MeshSurface& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
+
+  bool holds(const Vec<3>& x) {
+    if (const double way = (x - last_).norm(); !(way < std::abs(height_) - tolerance_)) {
+      last_ = x;
+      height_ = surface_.nearest(x, std::numeric_limits<double>::infinity()).signed_distance;
+    }
+    return height_ <= tolerance_;
+  }
+
+ private:
+  const MeshSurface& surface_;
+  double tolerance_;  ///< m
+  Vec<3> last_ = Vec<3>::Zero();
+  double height_ = 0.0;  ///< m; of the last place above the surface
+};
+
 /// Calls visit(cell) for every cell with a place, along x first.
 template <int Dim, class Visit>
 void for_each_cell(const std::array<int, Dim>& count, Visit&& visit) {
@@ -279,6 +326,33 @@ void for_each_cell(const std::array<int, Dim>& count, Visit&& visit) {
     visit(cell);
     for (axis = 0; axis < Dim && ++cell[axis] == count[axis]; ++axis) cell[axis] = 0;
   }
+}
+
+/// The cells whose places are inside a mesh.
+std::vector<Cell<3>> cells_inside(const MeshSurface& surface, const Places<3>& places, double dx) {
+  InMesh mesh(surface, corner_tolerance * dx);
+  std::vector<Cell<3>> cells;
+  for_each_cell<3>(places.count, [&](const Cell<3>& cell) {
+    if (mesh.holds(places.at(cell))) cells.push_back(cell);
+  });
+  return cells;
+}
+
+/// The volume of a mesh over that of the cells whose centres are inside it. Throws InputError if they differ too much.
+double volume_per_cell(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+                       const MeshSurface& surface, const Places<3>& places, const std::vector<Cell<3>>& cells) {
+  const double volume = six_volumes(surface.mesh(), [](int) { return true; }) / 6.0;
+  double of_cells = 0.0;
+  for (const Cell<3>& cell : cells) of_cells += places.volume(cell);
+  const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * spec.particles.spacing;
+  if (is_thin || std::abs(volume - of_cells) > largest_misfit * of_cells) {
+    throw InputError(fmt::format(
+        "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
+        "have {:.4g} m^3: it is too small or too thin for them; use a smaller spacing, or correct scale = {:g}",
+        owner, block.file, place<3>(surface.low()), place<3>(surface.high()), volume, spec.particles.spacing, of_cells,
+        block.scale));
+  }
+  return volume / of_cells;
 }
 
 }  // namespace
@@ -294,6 +368,8 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
     for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
     box.extend(to_vec<Dim>(water.seed, owner, "seed"));
     box.max()[Dim - 1] = water.level;
+  } else if (Dim == 3 && water.shape == BlockShape::mesh) {
+    if constexpr (Dim == 3) box = {boundary.water[block]->low(), boundary.water[block]->high()};
   } else {
     box = box_around<Dim>(water, owner);
   }
@@ -313,6 +389,18 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
     } else {
       const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(least_edge * dx, Dim - 1));
       planes.insert(planes.end(), walls.begin(), walls.end());
+      if constexpr (Dim == 3) {
+        const auto divide_at = [&](const MeshSurface& mesh) {
+          if (!inside.intersects(Eigen::AlignedBox<double, 3>(mesh.low(), mesh.high()))) return;
+          for (const double plane : planes_in(mesh.mesh(), axis, dx)) {
+            if (plane > inside.min()[axis] && plane < inside.max()[axis]) planes.push_back(plane);
+          }
+        };
+        if (boundary.water[block]) divide_at(*boundary.water[block]);
+        for (const WallPlate& plate : boundary.plates) {
+          if (plate.sheet) divide_at(*plate.sheet);
+        }
+      }
     }
     lattice[axis] = LatticeAxis(planes, dx);
   }
@@ -331,6 +419,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
     const Places<Dim> places = make_places<Dim>(spec, b, boundary);
     StartVelocity<Dim> velocity(spec, block, owner);
     InBlock<Dim> is_in_block(places.outline, dx);
+    double share = 1.0;  // of its cell's volume that a particle has
     const auto put = [&](const Cell<Dim>& cell) {
       Vec<Dim> x = places.at(cell);
       if (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x) || bodies.hold(x)) return;
@@ -340,11 +429,21 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
       x = kept_off_walls(boundary, block, x, dx);
       fluid.position.push_back(x);
       fluid.velocity.push_back(velocity.at(x));
-      fluid.volume.push_back(places.volume(cell));
+      fluid.volume.push_back(share * places.volume(cell));
       fluid.block.push_back(static_cast<int>(b));
     };
     if (block.shape == BlockShape::fill) {
       for (const Cell<Dim>& cell : filled_cells<Dim>(spec, block, owner, boundary, places.lattice)) put(cell);
+    } else if (Dim == 3 && block.shape == BlockShape::mesh) {
+      if constexpr (Dim == 3) {
+        const MeshSurface& surface = *boundary.water[b];
+        const std::vector<Cell<3>> cells = cells_inside(surface, places, dx);
+        // Particles that stand on the edge of a block have whole volumes.
+        if (!placement_of(spec.scheme.walls).on_wall) {
+          share = volume_per_cell(spec, block, owner, surface, places, cells);
+        }
+        for (const Cell<3>& cell : cells) put(cell);
+      }
     } else {
       for_each_cell<Dim>(places.count, put);
     }

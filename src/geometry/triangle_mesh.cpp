@@ -1,36 +1,38 @@
 #include "geometry/triangle_mesh.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "geometry/point_grid.h"
 
 namespace tailwater {
 namespace {
 
-/// Points that are the same to the last digit become one; returns for each point its new index.
+struct HashOfPlace {
+  std::size_t operator()(const Vec<3>& x) const {
+    constexpr std::size_t multiplier = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: spreads the bits
+    std::size_t hash = 0;
+    for (const double coordinate : x) hash = hash * multiplier + std::hash<double>()(coordinate);
+    return hash;
+  }
+};
+
+/// Points that are the same to the last digit become one, at the place of the first; returns for each point its new
+/// index.
 std::vector<int> merge_equal(std::vector<Vec<3>>& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) { return std::tuple(points[i][0], points[i][1], points[i][2]); };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-  // The first of each group keeps its place in the order of the file.
-  std::vector<int> first(points.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    first[order[k]] = k > 0 && points[order[k]] == points[order[k - 1]] ? first[order[k - 1]] : order[k];
-  }
+  std::unordered_map<Vec<3>, int, HashOfPlace> index_of;
   std::vector<int> renamed(points.size());
-  std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (first[i] == static_cast<int>(i)) {
-      renamed[i] = static_cast<int>(kept);
-      points[kept++] = points[i];
-    } else {
-      renamed[i] = renamed[first[i]];
-    }
+    const auto [entry, is_new] = index_of.try_emplace(points[i], static_cast<int>(index_of.size()));
+    renamed[i] = entry->second;
+    if (is_new) points[entry->second] = points[i];
   }
-  points.resize(kept);
+  points.resize(index_of.size());
+  points.shrink_to_fit();
   return renamed;
 }
 
@@ -43,18 +45,29 @@ void rename_corners(TriangleMesh& mesh, const std::vector<int>& renamed) {
 }  // namespace
 
 std::vector<TriangleEdge> edges_of(const TriangleMesh& mesh) {
-  std::vector<TriangleEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+  // Filed by their lower ends, so that only the few edges of a point need be compared with each other.
+  const auto low_end = [&](int t, int e) { return std::min(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]); };
+  const int triangles = static_cast<int>(mesh.triangles.size());
+  std::vector<std::size_t> end(mesh.points.size() + 1, 0);  // of each point's edges, when all are filed
+  for (int t = 0; t < triangles; ++t) {
+    for (int e = 0; e < 3; ++e) ++end[low_end(t, e) + 1];
+  }
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<TriangleEdge> edges(3 * mesh.triangles.size());
+  for (int t = 0; t < triangles; ++t) {
     for (int e = 0; e < 3; ++e) {
       const int from = mesh.triangles[t][e];
       const int to = mesh.triangles[t][(e + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), t, e, from < to});
+      edges[end[low_end(t, e)]++] = {std::min(from, to), std::max(from, to), t, e, from < to};
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const TriangleEdge& a, const TriangleEdge& b) {
-    return std::tie(a.low, a.high, a.triangle, a.number) < std::tie(b.low, b.high, b.triangle, b.number);
-  });
+  std::size_t begin = 0;
+  for (std::size_t p = 0; p < mesh.points.size(); begin = end[p++]) {
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.begin() + static_cast<std::ptrdiff_t>(end[p]),
+              [](const TriangleEdge& a, const TriangleEdge& b) {
+                return std::tie(a.high, a.triangle, a.number) < std::tie(b.high, b.triangle, b.number);
+              });
+  }
   return edges;
 }
 

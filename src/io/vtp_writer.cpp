@@ -157,6 +157,10 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
   EncodedPiece piece;
   piece.count = particles.position.size();
   piece.corners = particles.corners;
+  if (compression == 0) {
+    // Room for points, their numbers and fields of up to three components, so that nothing is copied as it grows.
+    piece.bytes.reserve(piece.count * sizeof(double) * (5 + 3 * particles.fields.size()));
+  }
   for (const ParticleField<Dim>& field : particles.fields) {
     std::visit(
         [&]<class Value>(std::span<const Value> values) {

@@ -63,7 +63,9 @@ bool is_hidden_from(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::in
   if (context.boundary.screens.empty()) return false;
   const Particles<Dim>& particles = context.particles;
   const int plate = particles.is_fluid(j) ? -1 : context.boundary.plate_of(context.wall_of_row[particles.wall_row[j]]);
-  return is_hidden<Dim>(context.boundary.screens, x, particles.position[j], plate);
+  const Vec<Dim>& there = particles.position[j];
+  return is_hidden<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
+                        plate);
 }
 
 /// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x` that no plate hides from it.

@@ -104,8 +104,8 @@ double available_memory() {
 }
 
 template <int Dim>
-Findings check_memory(const CaseSpec& spec, double available) {
-  const ParticleCount count = expected_particle_count<Dim>(spec);
+Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available) {
+  const ParticleCount count = expected_particle_count(spec, boundary);
   const double needed = memory_estimate<Dim>(count, neighbours_in_support<Dim>(spec.scheme.support));
   if (needed <= available) return {};
   // The particles' memory is proportional to dx^-Dim.
@@ -150,10 +150,10 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   return estimate;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                    \
-  template double neighbours_in_support<Dim>(double);                 \
-  template double memory_estimate<Dim>(const ParticleCount&, double); \
-  template Findings check_memory<Dim>(const CaseSpec&, double);       \
+#define TAILWATER_INSTANTIATE(Dim)                                               \
+  template double neighbours_in_support<Dim>(double);                            \
+  template double memory_estimate<Dim>(const ParticleCount&, double);            \
+  template Findings check_memory(const CaseSpec&, const Boundary<Dim>&, double); \
   template RunEstimate estimate_run<Dim>(const CaseSpec&, Flow<Dim>&, double);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -22,7 +22,7 @@ double available_memory();
 
 /// Call before any particle is made. Error: the case needs more than `available` bytes.
 template <int Dim>
-Findings check_memory(const CaseSpec& spec, double available);
+Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available);
 
 struct RunEstimate {
   ParticleCount particles;

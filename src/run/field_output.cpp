@@ -43,6 +43,8 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
 
 template <int Dim>
 WallFields<Dim>::WallFields(const Boundary<Dim>& boundary) {
+  corner_.reserve(Dim * boundary.faces.size());
+  wall_.reserve(Dim * boundary.faces.size());
   for (const WallFace<Dim>& face : boundary.faces) {
     corner_.insert(corner_.end(), face.corners.begin(), face.corners.end());
     wall_.insert(wall_.end(), Dim, face.wall);

@@ -173,11 +173,9 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 
 template <int Dim>
 void require_sound_geometry_in(const CaseSpec& spec, bool warns) {
-  std::vector<Finding> findings = check_memory<Dim>(spec, available_memory());
-  if (findings.empty()) {
-    const Boundary<Dim> boundary = make_boundary<Dim>(spec);
-    findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
-  }
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  std::vector<Finding> findings = check_memory(spec, boundary, available_memory());
+  if (findings.empty()) findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
   std::string errors;
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {

@@ -21,14 +21,14 @@ void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& par
   if (screens.empty()) return;
   const double radius = kernel_radius(neighbourhood.kernel());
   const Pairs<Dim>& pairs = neighbourhood.pairs();
-  std::vector<Screen<Dim>> near;
+  std::vector<int> near;
   std::size_t row = pairs.owned();
   neighbourhood.keep_pairs([&](std::size_t i, std::size_t k) {
     if (i != row) {  // the first pair of this row
       row = i;
       near.clear();
-      for (const Screen<Dim>& screen : screens) {
-        if (screen.distance(particles.position[i]) < radius) near.push_back(screen);
+      for (const int s : walls.boundary.screens_near(particles.position[i], radius)) {
+        if (screens[s].distance(particles.position[i]) < radius) near.push_back(s);
       }
     }
     const auto j = static_cast<std::size_t>(pairs.j[k]);
@@ -37,7 +37,7 @@ void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& par
     const bool is_forward = particles.id[i] < particles.id[j];
     const Vec<Dim>& from = particles.position[is_forward ? i : j];
     const Vec<Dim>& to = particles.position[is_forward ? j : i];
-    return !is_hidden<Dim>(near, from, to, plate);
+    return !is_hidden<Dim>(screens, near, from, to, plate);
   });
 }
 

@@ -26,7 +26,9 @@ Vec<Dim> carried_by(const WallWays<Dim>& ways, int wall, const Vec<Dim>& before)
 template <int Dim>
 NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways,
                                  const Vec<Dim>& before, const Vec<Dim>& position) {
-  for (const Screen<Dim>& screen : boundary.screens) {
+  // Twice the way, because a wall that moves carries the place where it began.
+  for (const int s : boundary.screens_near(position, 2.0 * (position - before).norm())) {
+    const Screen<Dim>& screen = boundary.screens[s];
     const Vec<Dim> carried = carried_by(ways, screen.wall, before);
     if (!screen.is_between(carried, position)) continue;
     const double height = screen.height(position);

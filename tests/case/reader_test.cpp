@@ -12,8 +12,11 @@ TEST(Reader, GivesDefaultsForAllThatIsAbsent) {
   CaseSpec expected;
   expected.particles.spacing = 0.1;
   expected.time.end = 1.0;
-  expected.fluid.push_back(
-      {.name = "fluid1", .min = {0.0, 0.0}, .max = {1.0, 1.0}, .points = {}, .seed = {}, .velocity = {0.0, 0.0}});
+  FluidTable& block = expected.fluid.emplace_back();
+  block.name = "fluid1";
+  block.min = block.rotate = block.translate = {0.0, 0.0};
+  block.max = {1.0, 1.0};
+  block.velocity = {0.0, 0.0};
   EXPECT_EQ(read_text(required_keys + water), expected);
 }
 

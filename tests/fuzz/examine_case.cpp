@@ -19,9 +19,9 @@ constexpr double most_particles = 2000.0;
 
 template <int Dim>
 Findings check_shapes(const CaseSpec& spec) {
-  const ParticleCount count = expected_particle_count<Dim>(spec);
-  if (count.fluid + count.wall > most_particles) return {};
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  const ParticleCount count = expected_particle_count(spec, boundary);
+  if (count.fluid + count.wall > most_particles) return {};
   return check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
 }
 

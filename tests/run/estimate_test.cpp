@@ -16,14 +16,15 @@ namespace {
 using testing_cases::box_fluid, testing_cases::box_wall, testing_cases::empty_case, testing_cases::tank;
 
 TEST(ParticleCount, FollowsFromTheShapes) {
-  const ParticleCount count = expected_particle_count<2>(tank());
+  const ParticleCount count = expected_particle_count(tank(), make_boundary<2>(tank()));
   EXPECT_NEAR(count.fluid, 40.0, 1e-9);
   EXPECT_NEAR(count.wall, 3 * (6 + 10 + 6), 1e-9);
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
   spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
-  EXPECT_NEAR(expected_particle_count<3>(spec).fluid, 80.0, 1e-9);
-  EXPECT_NEAR(expected_particle_count<3>(spec).wall, 3 * (50 + 2 * 60 + 2 * 30), 1e-9);
+  const ParticleCount in_3d = expected_particle_count(spec, make_boundary<3>(spec));
+  EXPECT_NEAR(in_3d.fluid, 80.0, 1e-9);
+  EXPECT_NEAR(in_3d.wall, 3 * (50 + 2 * 60 + 2 * 30), 1e-9);
 }
 
 void expect_one_error(const Findings& findings, const std::vector<std::string>& parts) {
@@ -36,9 +37,10 @@ void expect_one_error(const Findings& findings, const std::vector<std::string>& 
 
 TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
   CaseSpec spec = tank();
-  EXPECT_TRUE(check_memory<2>(spec, 1e9).empty());
+  EXPECT_TRUE(check_memory(spec, make_boundary<2>(spec), 1e9).empty());
   spec.particles.spacing = 1e-12;
-  expect_one_error(check_memory<2>(spec, 1e9), {"particles.spacing = 1e-12 m", "1 GB are free", "at least"});
+  expect_one_error(check_memory(spec, make_boundary<2>(spec), 1e9),
+                   {"particles.spacing = 1e-12 m", "1 GB are free", "at least"});
 }
 
 TEST(CheckMemory, TheSpacingItProposesFits) {
@@ -46,9 +48,9 @@ TEST(CheckMemory, TheSpacingItProposesFits) {
   spec.fluid = {box_fluid({0, 0}, {1, 1})};
   // Memory for a hundredth of the 1e8 particles: ten times the spacing.
   const double available = memory_estimate<2>({.fluid = 1e6}, neighbours_in_support<2>(spec.scheme.support));
-  expect_one_error(check_memory<2>(spec, available), {"at least 0.001 m"});
+  expect_one_error(check_memory(spec, make_boundary<2>(spec), available), {"at least 0.001 m"});
   spec.particles.spacing = 1.001e-3;
-  EXPECT_TRUE(check_memory<2>(spec, available).empty());
+  EXPECT_TRUE(check_memory(spec, make_boundary<2>(spec), available).empty());
 }
 
 TEST(CheckMemory, ThisMachineHasMemory) { EXPECT_GT(available_memory(), 1e6); }

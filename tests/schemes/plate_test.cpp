@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "geometry/meshes.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 
@@ -122,6 +124,81 @@ TYPED_TEST(PlateTest, IsNotPassed) {
     EXPECT_EQ(keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, dx, {}, from, particles, {}), 0u);
     EXPECT_EQ(particles.position[jumping], over);
   }
+}
+
+/// A sheet of triangles across the tank, from below its bed to above its rim; `x_at(y, z)` in shares of the tank.
+template <class Place>
+WallTable sheet_across(const testing_cases::MeshFolder& folder, double height, Place&& x_at) {
+  TriangleMesh mesh = testing_cases::sheet_mesh(8, [](double, double) { return 0.0; });
+  for (Vec<3>& x : mesh.points) x = {width * x_at(x[0], x[1]), width * x[0], height * x[1]};
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.file = folder.write("sheet.stl", testing_cases::binary_stl(mesh));
+  return plate;
+}
+
+CaseSpec two_depths(const WallTable& plate, double deep, double shallow) {
+  CaseSpec spec = tank_case<3>(dx, width, deep);
+  spec.walls.push_back(plate);
+  spec.fluid.push_back(spec.fluid[0]);
+  spec.fluid[0].max[0] = spec.fluid[1].min[0] = 0.5 * width;
+  spec.fluid[1].max[2] = shallow;
+  return spec;
+}
+
+// The same particles at the same places: pressures differ only by the order in which sums are taken.
+TEST(MeshPlateAtRest, HasThePressuresOfTheRectangle) {
+  const testing_cases::MeshFolder folder;
+  constexpr double deep = 0.4;
+  const auto pressures = [&](const WallTable& plate) {
+    Flow<3> flow(two_depths(plate, deep, 0.2));
+    for (int n = 0; n < 3; ++n) step(flow);
+    const Particles<3>& particles = flow.state.particles;
+    std::vector<double> found(count_fluid(flow));
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      if (particles.is_fluid(i)) found[particles.id[i]] = particles.pressure[i];
+    }
+    return found;
+  };
+  const std::vector<double> expected = pressures(plate_to<3>(2.0 * deep));
+  const std::vector<double> found = pressures(sheet_across(folder, 2.0 * deep, [](double, double) { return 0.5; }));
+  ASSERT_EQ(found.size(), expected.size());
+  // The solver stops at 1e-4 of the right-hand side (its default), which the order of the sums changes at round-off.
+  const double unit = 1000.0 * g * deep;
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-4 * unit);
+}
+
+// A bulging sheet that stands on the bed and in both side walls. Bounds as above.
+TEST(MeshPlateAtRest, HoldsWaterApartWhenItBulges) {
+  const testing_cases::MeshFolder folder;
+  constexpr double depth = 0.4;
+  const auto bulge = [](double y, double z) {
+    return 0.5 + 0.1 * std::sin(std::numbers::pi * y) * std::sin(std::numbers::pi * z);
+  };
+  const auto is_before = [&](const Vec<3>& x) { return x[0] < width * bulge(x[1] / width, x[2] / (2.0 * depth)); };
+  CaseSpec spec = tank_case<3>(dx, width, depth);
+  spec.walls.push_back(sheet_across(folder, 2.0 * depth, bulge));
+  Flow<3> flow(spec);
+  std::vector<bool> was_before(count_fluid(flow));
+  const Particles<3>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) was_before[particles.id[i]] = is_before(particles.position[i]);
+  }
+  const double settling = std::sqrt(g * dx / std::numbers::pi);
+  for (int n = 0; n < 8; ++n) {
+    step(flow);
+    ASSERT_LT(measure(flow).largest_speed, settling);
+  }
+  const double unit = flow.setup.density * g * dx;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const Vec<3>& x = particles.position[i];
+    EXPECT_EQ(is_before(x), was_before[particles.id[i]]) << x.transpose();
+    EXPECT_LT(std::abs(particles.pressure[i] - flow.setup.density * g * (depth - x[2])), unit) << x.transpose();
+    before += is_before(x) ? 1 : 0;
+  }
+  EXPECT_GT(before, count_fluid(flow) / 2);
 }
 
 }  // namespace

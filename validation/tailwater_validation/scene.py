@@ -12,7 +12,7 @@ import vtkmodules.vtkInteractionStyle  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals, vtkStaticCleanPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkCoordinate, vtkLightKit, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                                          vtkWindowToImageFilter)
@@ -74,7 +74,7 @@ def lookup_table(colours):
 def wall_actors(walls):
     """Faces of walls (vtkPolyData) as the water sees them: from behind, as the near side of a tank, they are not drawn, but
     for their edges."""
-    clean = vtkCleanPolyData()
+    clean = vtkStaticCleanPolyData()  # faster than vtkCleanPolyData, by a factor that grows with the mesh
     clean.SetInputData(walls)
     normals = vtkPolyDataNormals()
     normals.SetInputConnection(clean.GetOutputPort())

@@ -33,6 +33,16 @@ void check_box(const FluidTable& block, const std::string& label, std::size_t pa
 }
 
 template <int Dim>
+void check_mesh(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
+                Findings& findings) {
+  if (particles > 0) return;
+  findings.push_back(Finding::error(
+      "{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in walls and "
+      "bodies; use a smaller spacing, or move it (translate)",
+      label, dx, block.file));
+}
+
+template <int Dim>
 void check_fill(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
                 Findings& findings) {
   if (particles > 0) return;
@@ -57,6 +67,7 @@ Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
     const BlockShape shape = spec.fluid[b].shape;
     const auto check = shape == BlockShape::polygon ? check_polygon<Dim>
                        : shape == BlockShape::fill  ? check_fill<Dim>
+                       : shape == BlockShape::mesh  ? check_mesh<Dim>
                                                     : check_box<Dim>;
     check(spec.fluid[b], fluid_label(spec, b), particles[b], spec.particles.spacing, findings);
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
@@ -57,11 +58,14 @@ struct Contacts {
 template <int Dim>
 Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double dx) {
   Contacts<Dim> contacts;
+  std::vector<bool> is_sheet(boundary.walls.size(), false);
+  for (const WallPlate& plate : boundary.plates) is_sheet[plate.wall] = plate.sheet != nullptr;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
     const NearestWall<Dim> near = boundary.nearest(x, infinite);
     const double height = boundary.faces[near.face].height(x);
-    Contact<Dim>& contact = contacts.by_wall[{boundary.faces[near.face].wall, fluid.block[i]}];
+    const int wall = boundary.faces[near.face].wall;
+    Contact<Dim>& contact = contacts.by_wall[{wall, fluid.block[i]}];
     // Beyond a free end of a wall the sign has no meaning. Only places straight in front of or behind a face count.
     const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
     if (near.signed_distance >= 0.0) {
@@ -72,7 +76,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
         contact.nearest_at = x;
       }
       // The particles nearest to a small triangle of a mesh may all be farther away than those beside it.
-      if (!is_square || boundary.mesh_of(near.face) != nullptr) continue;
+      if (!is_square || is_sheet[wall] || boundary.mesh_of(near.face) != nullptr) continue;
       Approach<Dim>& approach = contacts.by_face[{near.face, fluid.block[i]}];
       if (near.signed_distance < approach.distance) approach = {near.signed_distance, x};
     } else if (is_square) {

@@ -52,16 +52,15 @@ std::optional<Vec<3>> crossing(const WallFace<3>& a, const WallFace<3>& b, doubl
   return std::nullopt;
 }
 
-Findings check_self_crossing(const Boundary<3>& boundary, const WallMesh& mesh, const std::string& label,
-                             double tolerance) {
-  const MeshSurface& surface = *mesh.surface;
-  for (int t = mesh.first_face; t < mesh.end_face(); ++t) {
-    const Eigen::AlignedBox<double, 3> box = boundary.faces[t].box();
+Findings check_self_crossing(const MeshSurface& surface, const std::string& label, double tolerance) {
+  const TriangleMesh& mesh = surface.mesh();
+  for (int one = 0; one < static_cast<int>(mesh.triangles.size()); ++one) {
+    const WallFace<3> face = face_of(mesh, one);
+    const Eigen::AlignedBox<double, 3> box = face.box();
     std::optional<Finding> found;
     surface.visit_in(box.min(), box.max(), [&](int other) {
-      const int one = t - mesh.first_face;
-      if (other <= one || found || share_a_point(surface.mesh(), one, other)) return;
-      const auto where = crossing(boundary.faces[t], boundary.faces[mesh.first_face + other], tolerance);
+      if (other <= one || found || share_a_point(mesh, one, other)) return;
+      const auto where = crossing(face, face_of(mesh, other), tolerance);
       if (!where) return;
       found = Finding::error(
           "{} crosses itself at {}, where triangles {} and {} pass through each other: unite the bodies of the file "
@@ -104,12 +103,22 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
 }  // namespace
 
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid) {
+  const double tolerance = corner_tolerance * spec.particles.spacing;
   Findings findings;
   for (const WallMesh& mesh : boundary.meshes) {
     const std::string label = wall_label(boundary, mesh.wall);
     append(findings, check_size(spec, label, *mesh.surface, fluid));
-    append(findings, check_self_crossing(boundary, mesh, label, corner_tolerance * spec.particles.spacing));
+    append(findings, check_self_crossing(*mesh.surface, label, tolerance));
     append(findings, check_thickness(spec, boundary, mesh, label));
+  }
+  for (const WallPlate& plate : boundary.plates) {
+    if (!plate.sheet) continue;
+    const std::string label = wall_label(boundary, plate.wall);
+    append(findings, check_size(spec, label, *plate.sheet, fluid));
+    append(findings, check_self_crossing(*plate.sheet, label, tolerance));
+  }
+  for (std::size_t b = 0; b < boundary.water.size(); ++b) {
+    if (boundary.water[b]) append(findings, check_self_crossing(*boundary.water[b], fluid_label(spec, b), tolerance));
   }
   return findings;
 }
