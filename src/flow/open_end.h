@@ -14,7 +14,7 @@
 namespace tailwater {
 
 template <int Dim>
-class Flow;
+struct Flow;
 
 /// What passed one opening, in one direction, since the start.
 struct Passed {

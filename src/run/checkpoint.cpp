@@ -242,7 +242,8 @@ bool is_sound(std::string_view name, const std::vector<Value>& field) {
     if constexpr (std::is_same_v<Value, ParticleKind>) {
       return value == ParticleKind::fluid || value == ParticleKind::wall;
     } else if constexpr (std::is_same_v<Value, double>) {
-      return std::isfinite(value) && (name != "volume" || value > 0.0);
+      return std::isfinite(value) && (name != "volume" || value > 0.0) &&
+             ((name != "layer_viscosity" && name != "wall_distance") || value >= 0.0);
     } else if constexpr (std::is_same_v<Value, std::int32_t>) {
       return value >= -1;
     } else if constexpr (std::is_same_v<Value, std::int64_t>) {

@@ -163,7 +163,7 @@ def slip(plan):
     dx = spacing(plan)
     return zhou_comparison(
         "slip", "Free slip, partial slip and no slip on walls",
-        "No slip is a wall law here (Werner & Wengle 1991): the stress of a smooth wall, whether or not dx resolves the boundary "
+        "No slip is a law of the wall here, with an eddy viscosity: the stress of a smooth wall, whether or not dx resolves the boundary "
         "layer. The papers' u = 0 on one layer of particles delays the front far more.",
         {"free": zhou_run(plan, dx),
          "partial (0.5)": zhou_run(plan, dx, variant="partial", settings=("wall[0].slip=partial", "wall[0].friction=0.5")),
