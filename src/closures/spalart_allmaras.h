@@ -10,9 +10,8 @@
 // - a layer thinner than dx is known by its thickness. With the parabola kappa u_tau y (1 - y/delta), whose largest
 //   value nu~ is, delta = 4 nu~/(kappa u_tau). The wall law then sees the outer speed at the distance delta, and
 //   production makes the layer grow by d delta/dt = c_b1/kappa u_tau; the balance of momentum asks for kappa u_tau.
-// - beside a wall S = u_tau/(kappa d), as in the logarithmic layer. Elsewhere it is the smaller of the rates of
-// rotation
-//   and of strain: equal in a layer, and 0 in potential flow and in a vortex.
+// - beside a wall S = u_tau/(kappa d), as in the logarithmic layer. Elsewhere it is the smaller of the rates at which
+//   the water rotates and is strained: equal in a layer, and 0 in potential flow and in a vortex.
 // - f_t2 and the trip term are left out, and no flux passes the wall, where nu~ = 0.
 // - d of a rough wall is measured from 0.03 k_s behind it (Aupoix & Spalart 2003).
 #pragma once
@@ -40,11 +39,12 @@ inline constexpr double c_v1 = 7.1;
 /// y u_tau/nu where the laminar and the turbulent law of a smooth wall meet: the thinnest turbulent layer.
 inline constexpr double thinnest_layer = 11.4;
 
+/// 1/f_v1 of nu/nu~.
+inline double damping(double chi_inverse) { return 1.0 + std::pow(c_v1 * chi_inverse, 3); }
+
 /// nu_t [m^2/s] of nu~ in water of viscosity `molecular` [m^2/s].
 inline double eddy_viscosity(double layer_viscosity, double molecular) {
-  if (layer_viscosity == 0.0) return 0.0;
-  const double ratio = molecular / layer_viscosity;
-  return layer_viscosity / (1.0 + std::pow(c_v1 * ratio, 3));
+  return layer_viscosity == 0.0 ? 0.0 : layer_viscosity / damping(molecular / layer_viscosity);
 }
 
 /// nu~ [m^2/s] of the thinnest turbulent layer on a wall.
@@ -60,8 +60,7 @@ inline double thickness(double layer_viscosity, double friction_velocity) {
 /// S~ [1/s] of water at the distance d [m] in which the rate `S` [1/s] is resolved.
 inline double modified_rate(double S, double layer_viscosity, double molecular, double d) {
   const double chi_inverse = molecular / layer_viscosity;
-  const double f_v1 = 1.0 / (1.0 + std::pow(c_v1 * chi_inverse, 3));
-  const double f_v2 = 1.0 - 1.0 / (chi_inverse + f_v1);
+  const double f_v2 = 1.0 - 1.0 / (chi_inverse + 1.0 / damping(chi_inverse));
   const double near = layer_viscosity * f_v2 / std::pow(von_karman * d, 2);
   return std::max(0.3 * S, S + near);
 }

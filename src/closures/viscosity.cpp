@@ -31,7 +31,7 @@ inline Vec<Dim> noise_force(const Pairs<Dim>& pairs, std::size_t k, double volum
   return morris_laplacian_weight(volume_j, pairs.F[k], d.squaredNorm(), spacing) * noise;
 }
 
-/// Whether both particles belong to a boundary layer, whose eddy viscosity dissipates noise as well.
+/// Whether both particles belong to a boundary layer, whose shear the noise viscosity leaves alone.
 template <int Dim>
 inline bool are_in_layer(const Particles<Dim>& particles, std::size_t i, std::int32_t j) {
   return particles.layer_viscosity[i] > 0.0 && particles.layer_viscosity[j] > 0.0;
