@@ -56,11 +56,14 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
   bool is_connected = bed_is_wet;
   double depth = 0.0;
   double share = bed_is_wet ? 1.0 : 0.0;
+  double wet_from = 0.0;  // where the water that the line is in begins
   while (depth < end) {
     const double step = std::min(0.25 * context.spacing, end - depth);
     const double next_share = share_at(depth + step);
+    if (share <= surface_share && next_share > surface_share) wet_from = depth + passage(share, next_share, step);
     if (share > surface_share && next_share <= surface_share) {
       column.highest = depth + passage(share, next_share, step);
+      column.wet += column.highest - wet_from;
       if (is_connected) column.connected = column.highest;
       is_connected = false;
     }
@@ -69,6 +72,7 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
   }
   if (share > surface_share) {  // up to a ceiling
     column.highest = depth;
+    column.wet += depth - wet_from;
     if (is_connected) column.connected = depth;
   }
   return column;
@@ -136,11 +140,11 @@ Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   const auto waves = std::make_shared<WaveRecord>(wave_band * spec.particles.spacing);
   reading.memory = waves->memory();
   reading.memory_grows = true;
-  reading.columns = {"connected_m", "highest_m"};
+  reading.columns = {"connected_m", "highest_m", "wet_m"};
   reading.take = [line, waves](const ProbeContext<Dim>& context) -> std::vector<Row> {
     const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
     waves->add(context.time, column.highest);
-    return {{column.connected, column.highest}};
+    return {{column.connected, column.highest, column.wet}};
   };
   reading.region = [line](double) { return Region<Dim>{line.foot, line.foot, line.up}; };
   reading.summary = [waves] { return waves->summary(); };

@@ -18,6 +18,7 @@ struct WaterColumn {
   double bed = 0.0;        ///< m; height of the bed above the origin
   double connected = 0.0;  ///< m; from the bed to the first surface
   double highest = 0.0;    ///< m; from the bed to the last surface
+  double wet = 0.0;        ///< m; length of the line that is under water, which is what a wire gauge reads
 };
 
 /// A wall face that an upright line crosses.
@@ -51,7 +52,8 @@ double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up);
 template <int Dim>
 WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double top);
 
-/// A depth probe: columns connected_m, highest_m. Throws InputError if there is no gravity or no bed below the place.
+/// A depth probe: columns connected_m, highest_m, wet_m. Throws InputError if there is no gravity or no bed below the
+/// place.
 template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

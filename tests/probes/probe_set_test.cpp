@@ -50,10 +50,12 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   context.totals = {1.5, -2.0, 0.25, 0.5, 0.125};
   probes.record(context);
 
-  const std::vector<std::pair<std::string, std::string>> headers{
-      {"depth", "time_s,connected_m,highest_m"}, {"wall", "time_s,pressure_Pa"},
-      {"mean", "time_s,pressure_Pa,wet_share"},  {"front", "time_s,front_m,front_connected_m"},
-      {"p", "time_s,pressure_Pa,wet"},           {"u", "time_s,u_m_s,v_m_s,wet"}};
+  const std::vector<std::pair<std::string, std::string>> headers{{"depth", "time_s,connected_m,highest_m,wet_m"},
+                                                                 {"wall", "time_s,pressure_Pa"},
+                                                                 {"mean", "time_s,pressure_Pa,wet_share"},
+                                                                 {"front", "time_s,front_m,front_connected_m"},
+                                                                 {"p", "time_s,pressure_Pa,wet"},
+                                                                 {"u", "time_s,u_m_s,v_m_s,wet"}};
   for (const auto& [name, header] : headers) {
     const Lines lines = lines_of(folder.probe(name));
     ASSERT_EQ(lines.size(), 2u) << name;

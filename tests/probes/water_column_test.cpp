@@ -84,7 +84,7 @@ TYPED_TEST(WaterColumnTest, ADryBedReadsZeroEverywhere) {
   using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.0);
   for (const double x : {0.5, 0.02, 0.0, 1.0}) {
-    EXPECT_EQ(TestFixture::depth(tank, x), (Row{0.0, 0.0})) << x;
+    EXPECT_EQ(TestFixture::depth(tank, x), (Row{0.0, 0.0, 0.0})) << x;
   }
 }
 
@@ -97,9 +97,11 @@ TYPED_TEST(WaterColumnTest, TellsConnectedFromHighestWater) {
   });
   EXPECT_NEAR(TestFixture::depth(wet, 0.5)[0], 0.4, TestFixture::bound);
   EXPECT_NEAR(TestFixture::depth(wet, 0.5)[1], 1.0, TestFixture::bound);
+  EXPECT_NEAR(TestFixture::depth(wet, 0.5)[2], 0.4 + 0.3, 3 * TestFixture::bound);  // three surfaces
   const T dry(0.0, [&](const Vec<TestFixture::dimension>& x) { return is_slab(x[TestFixture::dimension - 1]); });
   EXPECT_EQ(TestFixture::depth(dry, 0.5)[0], 0.0);
   EXPECT_NEAR(TestFixture::depth(dry, 0.5)[1], 1.0, TestFixture::bound);
+  EXPECT_NEAR(TestFixture::depth(dry, 0.5)[2], 0.3, 2 * TestFixture::bound);
 }
 
 TYPED_TEST(WaterColumnTest, ASingleDropIsNoWater) {
@@ -176,6 +178,7 @@ TEST(WaterColumn, EndsAtACeiling) {
   const Row depth = reading.take(tank.context()).at(0);
   EXPECT_NEAR(depth[0], 0.5, 1e-12);
   EXPECT_NEAR(depth[1], 0.5, 1e-12);
+  EXPECT_NEAR(depth[2], 0.5, 1e-12);
 }
 
 }  // namespace
