@@ -24,7 +24,7 @@ def sisph(dx, end, folder):
 
 def tailwater(program, dx, end, settings, folder):
     command = [program, "run", ROOT / "cases/zhou1999/case.toml", "--out", f"{folder}/run", "--force", "--quiet"]
-    for setting in (f"particles.spacing={dx}", f"time.end={end}", *settings):
+    for setting in (f"particles.spacing={dx}", f"time.end={end}", "wall.tank.slip=free", *settings):
         command += ["--set", setting]
     subprocess.run(command, check=True)
     run = pathlib.Path(folder) / "run"

@@ -158,7 +158,7 @@ def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
         time, depth = measured(gauge)
         level = (depth + depth_error) * zhou1999.H
         later = time > 5 * zhou1999.TIME_SCALE
-        write_probe(folder, gauge, {"time_s": time, "connected_m": level, "highest_m": level + 0.06 * later})
+        write_probe(folder, gauge, {"time_s": time, "connected_m": level, "wet_m": level, "highest_m": level + 0.06 * later})
     time, pressure = measured("P2")
     # A run's wall is dry until the jet arrives; the gauge's noise before that is its own.
     pressure = np.where(time > zhou1999.LABORATORY_QUIET * zhou1999.TIME_SCALE, pressure, 0) * zhou1999.PRESSURE_SCALE

@@ -105,7 +105,7 @@ def draw_pressure(axes, run, end):
 
 
 def draw_depth(axes, run, gauge, place, end):
-    computed = [(zhou1999.depth(run, gauge), COMPUTED, "computed, joined with the bed"),
+    computed = [(zhou1999.depth(run, gauge), COMPUTED, "computed, length under water"),
                 (zhou1999.depth(run, gauge, "highest_m"), HIGHEST, "computed, highest water")]
     draw_gauge(axes, gauge, zhou1999.H, computed, end)
     axes.set_title(f"{gauge}: water depth, x = {place} m", loc="left")

@@ -9,7 +9,7 @@ from ..metric import Metric
 from ..reading import energy_at, scored, summary, zhou
 from ..study import COMPARISON, Plot, Study
 from .laboratory import case_run, surface_distance
-from .zhou import draw_depths, draw_pressure, mean_of_readings, zhou_run
+from .zhou import FREE_SLIP, draw_depths, draw_pressure, mean_of_readings, zhou_run
 
 
 def milliseconds(run):
@@ -165,9 +165,9 @@ def slip(plan):
         "slip", "Free slip, partial slip and no slip on walls",
         "No slip is a law of the wall here, with an eddy viscosity: the stress of a smooth wall, whether or not dx resolves the boundary "
         "layer. The papers' u = 0 on one layer of particles delays the front far more.",
-        {"free": zhou_run(plan, dx),
+        {"free": zhou_run(plan, dx, variant="free-slip", settings=FREE_SLIP),
          "partial (0.5)": zhou_run(plan, dx, variant="partial", settings=("wall[0].slip=partial", "wall[0].friction=0.5")),
-         "no slip": zhou_run(plan, dx, variant="no-slip", settings=("wall[0].slip=no-slip",))})
+         "no slip": zhou_run(plan, dx)})
 
 
 def time_step(plan):
