@@ -13,8 +13,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from tailwater_validation import exact_flows
-from tailwater_validation.curves import DataError
+from tailwater_validation import exact_flows, shallow_water
+from tailwater_validation.curves import DataError, read_table
 from tailwater_validation.run_folder import RunFolder
 
 FLOAT32 = 2.0**-23  # relative spacing of what field files hold
@@ -325,6 +325,58 @@ class Jet(unittest.TestCase):
         self.assertAlmostEqual(exact_flows.JET_IMPULSE, float(np.sum(4 * (-1.0) ** k / ((2 * k + 1) * math.pi) ** 2)), delta=1e-7)
 
 
+class WaterWedge(RunTest):
+    CASE = """\
+[parameters]
+D = 0.1
+U = 2.0
+[physics]
+density = 1000.0
+gravity = [0.0, 0.0]
+[particles]
+spacing = 0.01
+[[probe]]
+name = "p0"
+type = "wall-pressure"
+at = [0.0, 0.0]
+[[probe]]
+name = "p1"
+type = "wall-pressure"
+at = [0.15, 0.0]
+[[probe]]
+name = "beyond"
+type = "wall-pressure"
+at = [0.25, 0.0]
+[[probe]]
+name = "force"
+type = "force"
+"""
+
+    def test_known_errors_come_back(self):
+        theory = read_table(exact_flows.WEDGE_PRESSURE)
+        x, pressure = theory["x_over_Ut"], theory["pressure"]
+        time = np.linspace(0.001, 0.05, 400)
+
+        def gauge(place, factor):
+            return {"time_s": time, "pressure_Pa": 4000 * factor * np.interp(place / (2 * time), x, pressure)}
+
+        force = 2 * float(np.sum((pressure[1:] + pressure[:-1]) / 2 * np.diff(x)))
+        numbers = exact_flows.water_wedge(self.write_run(self.CASE, [(0.0, np.zeros((1, 2)), {})], {
+            "probes/p0.csv": gauge(0.0, 0.97), "probes/p1.csv": gauge(0.15, 1.0), "probes/beyond.csv": gauge(0.25, 0.5),
+            "probes/force.csv": {"time_s": time, "force_y_N_per_m": -0.9 * force * 8000 * time}}))
+        self.assertAlmostEqual(numbers["middle_error"], -0.03, places=9)
+        self.assertAlmostEqual(numbers["pressure_error"], 0.03 / math.sqrt(2), places=9)
+        self.assertAlmostEqual(numbers["force_error"], -0.1, places=9)
+
+    def test_the_theory_is_between_what_is_known(self):
+        """Wagner's theory, for blunt wedges, gives pi/(2 tan 30 deg) in the middle, which is too little for a sharper one."""
+        theory = read_table(exact_flows.WEDGE_PRESSURE)
+        self.assertLess(2.72, theory["pressure"][0])
+        # The jet's root is where the pressure is highest; a particle that turns round there leaves at twice its speed.
+        root = theory["x_over_Ut"][np.argmax(theory["pressure"])]
+        self.assertAlmostEqual(float(theory["pressure"].max()) / (0.5 * root**2), 1.0, delta=0.25)
+
+
 class ShallowDamBreak(RunTest):
     CASE = """\
 [parameters]
@@ -350,22 +402,22 @@ spacing = 0.1
 
     def test_ritter_keeps_mass(self):
         xi = np.linspace(-1, 2, 3001)
-        h = exact_flows.ritter(xi)
+        h = shallow_water.ritter(xi)
         u = 2 / 3 * (1 + xi)  # the rarefaction's velocity over sqrt(g h0)
         # -xi h' + (h u)' = 0; differences of parabolas over 0.001 are good to 1e-6.
         np.testing.assert_allclose(np.gradient(h * u, xi)[1:-1], xi[1:-1] * np.gradient(h, xi)[1:-1], atol=1e-6)
-        self.assertEqual(list(exact_flows.ritter([-2, 0, 3])), [1, 4 / 9, 0])
+        self.assertEqual(list(shallow_water.ritter([-2, 0, 3])), [1, 4 / 9, 0])
 
     def test_stokers_bore_keeps_mass_and_momentum(self):
         for ahead in (0.05, 0.2, 0.6):
-            depth, speed, bore = exact_flows.stoker_state(ahead)
+            depth, speed, bore = shallow_water.stoker_state(ahead)
             self.assertAlmostEqual(bore * (depth - ahead), speed * depth, places=12)
             self.assertAlmostEqual(bore * speed * depth, speed**2 * depth + 0.5 * (depth**2 - ahead**2), places=12)
             self.assertAlmostEqual(speed + 2 * math.sqrt(depth), 2, places=12)  # the invariant of the rarefaction
 
     def test_theory_has_no_error_and_a_lag_shows_in_the_profile_only(self):
-        cases = ((exact_flows.ritter_dam_break, exact_flows.ritter, "gate_error"),
-                 (exact_flows.stoker_dam_break, lambda xi: exact_flows.stoker(xi, 0.2), "plateau_error"))
+        cases = ((shallow_water.ritter_dam_break, shallow_water.ritter, "gate_error"),
+                 (shallow_water.stoker_dam_break, lambda xi: shallow_water.stoker(xi, 0.2), "plateau_error"))
         for score, theory, other in cases:
             numbers = score(self.run_with(lambda x, T, theory=theory: theory(x / T)))
             for name in ("discharge_error", "front_error", other):
@@ -376,16 +428,16 @@ spacing = 0.1
             self.assertGreater(late["profile_error"], 1e-3)
 
     def test_known_errors_come_back(self):
-        numbers = exact_flows.ritter_dam_break(self.run_with(lambda x, T: 1.02 * exact_flows.ritter(x / T)))
+        numbers = shallow_water.ritter_dam_break(self.run_with(lambda x, T: 1.02 * shallow_water.ritter(x / T)))
         self.assertAlmostEqual(numbers["discharge_error"], 0.02, delta=self.DX)
         self.assertAlmostEqual(numbers["gate_error"], 0.02, delta=self.DX)
-        faster = exact_flows.stoker_dam_break(self.run_with(lambda x, T: exact_flows.stoker(x / (1.1 * T), 0.2)))
+        faster = shallow_water.stoker_dam_break(self.run_with(lambda x, T: shallow_water.stoker(x / (1.1 * T), 0.2)))
         self.assertAlmostEqual(faster["front_error"], 0.1, delta=self.DX)
 
     def test_too_few_profiles_are_told(self):
         self.TIMES = (1.0, 3.0)
         with self.assertRaisesRegex(DataError, "too few"):
-            exact_flows.ritter_dam_break(self.run_with(lambda x, T: exact_flows.ritter(x / T)))
+            shallow_water.ritter_dam_break(self.run_with(lambda x, T: shallow_water.ritter(x / T)))
 
 
 if __name__ == "__main__":

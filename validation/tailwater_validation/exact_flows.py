@@ -16,10 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import flume
-from .curves import DataError
+from . import flume, shallow_water
+from .curves import DataError, read_table
 from .particles import list_frames, read_frame
-from .profiles import profile_at, rms
+from .profiles import rms
 from .run_folder import RunFolder
 
 REST = 5.0  # s from which a tank counts as at rest; at most half the run
@@ -342,106 +342,41 @@ def jet(run):
             "impulse_error": impulse / (JET_IMPULSE * run.case["physics"]["density"] * U * b) - 1}
 
 
-# ------------------------------------------------------------------------------- dam breaks in the shallow-water limit
-
-LATE = 3.0  # T = t sqrt(g/h0) from which a dam break is compared with shallow-water theory
-TIP = 0.1  # of h0: depth whose place counts as the front; the tip itself is thinner than a particle
+# ---------------------------------------------------------------------------------------- a wedge of water on a wall
 
 
-def ritter(similarity):
-    """Depth over h0 at x/(t sqrt(g h0)): Ritter's rarefaction onto a dry bed."""
-    similarity = np.asarray(similarity, dtype=float)
-    return np.where(similarity < -1, 1.0, np.where(similarity < 2, (2 - similarity) ** 2 / 9, 0.0))
+ROOT = 2.4  # U t; beyond it the pressure falls from its peak to that of a thin jet within half a U t
+WEDGE_PRESSURE = Path(__file__).resolve().parents[2] / "cases/verification/data/water_wedge.csv"
 
 
-def stoker_state(ahead):
-    """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a depth
-    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. By bisection."""
-    low, high = ahead, 1.0
-    for _ in range(60):
-        depth = 0.5 * (low + high)
-        bore = math.sqrt(0.5 * depth * (depth + ahead) / ahead)
-        if 2 * (1 - math.sqrt(depth)) > bore * (1 - ahead / depth):  # the rarefaction brings more than the bore takes
-            low = depth
-        else:
-            high = depth
-    return depth, 2 * (1 - math.sqrt(depth)), bore
+def water_wedge(run):
+    """Over the last fifth of the run, when the wedge has gone nearly D; theory is self-similar (water_wedge.py).
+    middle_error: pressure in the middle, relative. pressure_error: rms over the gauges up to ROOT, over that in the middle.
+    force_error: of the force per length, relative."""
+    D, U = run.parameters["D"], run.parameters["U"]
+    scale = run.density * U**2
+    theory = read_table(WEDGE_PRESSURE)
+    x, pressure = theory["x_over_Ut"], theory["pressure"]
 
+    def late(name, column):
+        return run.probe(name, column).window(0.8 * D / U, D / U)
 
-def stoker(similarity, ahead):
-    """Depth over h0 at x/(t sqrt(g h0)): Stoker's dam break onto still water of the depth `ahead`."""
-    depth, speed, bore = stoker_state(ahead)
-    similarity = np.asarray(similarity, dtype=float)
-    return np.where(similarity > bore, ahead, np.where(similarity > speed - math.sqrt(depth), depth, ritter(similarity)))
-
-
-def late_profiles(run, scale):
-    """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
-    times = np.unique(run.profile_table("surface")["time_s"])
-    taken = [profile_at(run, "surface", time) for time in times]
-    depth = run.parameters["h0"]
-    return [(profile.time / scale, profile.x / depth, profile.connected / depth) for profile in taken
-            if profile.time > (LATE - 0.01) * scale]
-
-
-def speed_of(profiles, place):
-    """Slope of place(x, depth) over T, least squares."""
-    return float(np.polyfit([T for T, _, _ in profiles], [place(x, depth) for _, x, depth in profiles], 1)[0])
-
-
-def last_place(x, depth, level):
-    """The farthest x at which the depth is `level`, linear between samples."""
-    above = np.flatnonzero(depth >= level)
-    if above.size == 0 or above[-1] == len(x) - 1:
-        raise DataError(f"the depth passes {level:.3g} h0 nowhere")
-    k = above[-1]
-    return x[k] + (depth[k] - level) / (depth[k] - depth[k + 1]) * (x[k + 1] - x[k])
-
-
-def volume_ahead(x, depth, still):
-    """Water that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
-    return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
-
-
-def shallow_dam_break(run, exact, still, discharge, level, speed):
-    """Numbers that both dam breaks have. A real dam break needs the time sqrt(h0/g) to become shallow: it lags behind by
-    a length that stays, so speeds and the discharge are slopes over T, and the profile is the last one's."""
-    profiles = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))
-    if len(profiles) < 3:
-        raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
-    T, x, depth = profiles[-1]
-    inside = (x > -1.2 * T) & (x < 2.0 * T)
-    return {
-        "discharge_error": speed_of(profiles, partial(volume_ahead, still=still)) / discharge - 1,
-        "front_error": speed_of(profiles, partial(last_place, level=level)) / speed - 1,
-        "profile_error": rms(depth[inside] - exact(x[inside] / T)),
-    }
-
-
-def ritter_dam_break(run):
-    """discharge_error: of the discharge at the gate, 8/27 sqrt(g) h0^1.5, relative. gate_error: of the depth there, 4/9 h0,
-    at the last profile. front_error: of the speed of the place where the depth is TIP, relative. profile_error: rms over
-    h0 of the last profile."""
-    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
-    return shallow_dam_break(run, ritter, 0.0, 8 / 27, TIP, 2 - 3 * math.sqrt(TIP)) | {
-        "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
-
-
-def stoker_dam_break(run):
-    """discharge_error and profile_error as for Ritter's; front_error: of the speed of the bore, where the depth is halfway;
-    plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile, relative."""
-    still = run.parameters["h1"] / run.parameters["h0"]
-    level, speed, bore = stoker_state(still)
-    T, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
-    tail = speed - math.sqrt(level)
-    middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
-    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, 0.5 * (level + still), bore) | {
-        "plateau_error": float(depth[middle].mean()) / level - 1}
+    errors = []
+    for probe in run.case["probe"]:
+        if probe["type"] == "wall-pressure":
+            found = late(probe["name"], "pressure_Pa")
+            place = probe["at"][0] / (U * found.time)
+            if place[0] < ROOT:
+                errors.append(float(np.mean(found.value / scale - np.interp(place, x, pressure))))
+    force = late("force", "force_y_N_per_m")
+    exact = 2 * float(np.sum((pressure[1:] + pressure[:-1]) / 2 * np.diff(x)))
+    return {"middle_error": errors[0] / pressure[0], "pressure_error": rms(errors) / pressure[0],
+            "force_error": float(np.mean(-force.value / (scale * U * force.time))) / exact - 1}
 
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "couette": couette, "ritter": ritter_dam_break, "stoker": stoker_dam_break,
-         "uniform-flow": uniform_flow, "jet": jet, **flume.FLOWS}
+         "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet, "water-wedge": water_wedge, **shallow_water.FLOWS,
+         **flume.FLOWS}
 
 
 def main(arguments=None):

@@ -6,11 +6,15 @@ throw DataError where the run does not have what they need.
 Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
 """
 
+import math
+from functools import lru_cache
+
 import numpy as np
 
+from . import potential_wave
 from .curves import DataError
 from .floating import floating_box
-from .profiles import profile_at
+from .profiles import profile_at, rms
 from .wave_flume import wave_flume
 from .waves import crest, solitary
 
@@ -156,10 +160,39 @@ def run_up(run):
             "height_error": float(height / run.parameters["H"] - 1)}
 
 
+WALL_WINDOW = 3.0  # sqrt(h/g) to each side of the largest force
+GAUGE_HEIGHTS = {"p1": 0.25, "p2": 0.75}  # h above the bed
+
+
+@lru_cache(maxsize=None)
+def wall_history(height):
+    return potential_wave.at_wall(height, tuple(GAUGE_HEIGHTS.values()))
+
+
+def wall_load_errors(run, height):
+    """Of the force on the wall that a solitary wave of this height (h) meets, and of the pressures there."""
+    depth = run.parameters["h"]
+    scale, weight = math.sqrt(depth / run.gravity), run.density * run.gravity
+    exact = wall_history(height)
+    force = run.probe("force", "force_x_N_per_m")
+    load = force.value / (weight * depth**2) - 0.5
+    peak, exact_peak = load.max(), exact.force.max()
+    time = (force.time - force.time[int(np.argmax(load))]) / scale + exact.time[int(np.argmax(exact.force))]
+    near = np.abs(time) < WALL_WINDOW
+    pressures = [abs((run.probe(name, "pressure_Pa").value.max() / weight / depth - (1 - z)) / exact.pressure[z].max() - 1)
+                 for name, z in GAUGE_HEIGHTS.items()]
+    return {"force_error": peak / exact_peak - 1, "pressure_error": max(pressures),
+            "force_rms": rms(load[near] - np.interp(time[near], exact.time, exact.force)) / exact_peak}
+
+
 def solitary_wave(run):
     """speed_error: over Fenton's third order for the mean height at the gauges, less 1. wall_error: largest height of
     connected water on the wall at the end of the channel, above the still water, over that of the third order of Su & Mirie
     for the height at the last gauge, less 1. height_lost: share of the wave's height from the first gauge to the last.
+
+    Of the force on that wall and of the pressures p1 and p2, less those at rest, against potential flow for that height
+    (potential_wave.py): force_error and pressure_error, of the largest values (of p1 or p2, whichever is worse), relative;
+    force_rms, over WALL_WINDOW about the largest force, over the largest.
 
     Su C.H., Mirie R.M. (1980), On head-on collisions between two solitary waves, J. Fluid Mech. 98, 509-525; a wall is the
     plane of symmetry between equal waves."""
@@ -172,6 +205,7 @@ def solitary_wave(run):
     if int(np.argmax(wall.value)) > 0.98 * wall.value.size:
         raise DataError(f"{run.path}: the water still rises at the wall when the run ends, at {wall.time[-1]:.4g} s")
     return {"speed_error": found["difference"], "wall_error": reached / (2 * e + e**2 / 2 + 3 * e**3 / 4) - 1,
+            **wall_load_errors(run, round(e, 4)),
             "height_lost": 1 - heights[-1] / heights[0], "height_error": heights[0] / run.parameters["H"] - 1}
 
 

@@ -160,3 +160,17 @@ def jet(plan):
          ("stagnation_error", "stagnation pressure, error", "", 0.03),
          ("impulse_error", "impulse of first contact, error", "", None),
          ("noise", "largest rms of the pressure about its mean", "", None)), (0.0, 0.3))
+
+
+def water_wedge(plan):
+    runs = tuple(plan.run(f"water_wedge_D{n}", "verification/water_wedge.toml", (f"particles.spacing=D/{n}",), 2 * (n / 4) ** 3.3)
+                 for n in plan.at((8,), (4, 8), (4, 8, 16)))
+    return flow_study(
+        "water-wedge", "Wedge of water on a wall", "water-wedge",
+        "A wedge of water, half-angle 60 degrees, meets a wall at right angles to its axis, without gravity: pressure and force against "
+        "self-similar potential flow, when the wedge has gone D; the pressed part of the wall is then 6 D long.",
+        "Potential flow by boundary elements, for the height of this wedge; with half and twice the height the pressure in the middle "
+        "is 2 to 3 % lower and higher.", runs,
+        (("middle_error", "pressure in the middle, relative error", "", 0.05),
+         ("pressure_error", "pressure along the wall, up to the jet's root, rms error over that in the middle", "", 0.05),
+         ("force_error", "force, relative error", "", None)), (0.0, 0.05), has_histories=False)

@@ -115,6 +115,9 @@ def solitary_wave(plan):
                           8.0 * (n / 8) ** 3.1) for n in plan.at((8,), (12, 16), (12, 20)))
     quantities = (("speed_error", "speed between gauges 2 m apart, relative error", "Fenton (1972), third order", 0.005),
                   ("wall_error", "run-up on an upright wall, relative error", "Su & Mirie (1980), third order", 0.05),
+                  ("force_error", "largest force on the wall, less that at rest, relative error", "potential flow", 0.05),
+                  ("force_rms", "force on the wall over the largest, rms error while the wave is there", "potential flow", 0.03),
+                  ("pressure_error", "largest pressure on the wall, less that at rest, relative error", "potential flow", 0.05),
                   ("height_lost", "share of its height that the wave loses in 10 depths", "none", None))
     return Study(
         "solitary-wave", "Solitary wave in a channel and at a wall", EXACT,

@@ -1,0 +1,290 @@
+"""Dam breaks in the shallow-water limit: theory without friction (Ritter, Stoker), the shallow-water (Saint-Venant)
+equations with the friction of a rough bed, and the errors of runs of cases/verification/{ritter,stoker}.toml against them.
+
+Lengths over the depth h0 of the reservoir, speeds over sqrt(g h0), times over sqrt(h0/g).
+"""
+
+import math
+from functools import lru_cache, partial
+
+import numpy as np
+
+from .curves import DataError
+from .profiles import profile_at, rms
+
+LATE = 3.0  # T = t sqrt(g/h0) from which a dam break is compared with shallow-water theory
+TIP = 0.1  # of h0: depth whose place counts as the front; the tip itself is thinner than a particle
+KARMAN = 0.41
+DRY = 1e-7  # h0; less water than this does not move
+
+
+# --------------------------------------------------------------------------------------------- without friction
+
+
+def ritter(similarity):
+    """Depth over h0 at x/(t sqrt(g h0)): Ritter's rarefaction onto a dry bed."""
+    similarity = np.asarray(similarity, dtype=float)
+    return np.where(similarity < -1, 1.0, np.where(similarity < 2, (2 - similarity) ** 2 / 9, 0.0))
+
+
+def stoker_state(ahead):
+    """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a depth
+    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. By bisection."""
+    low, high = ahead, 1.0
+    for _ in range(60):
+        depth = 0.5 * (low + high)
+        bore = math.sqrt(0.5 * depth * (depth + ahead) / ahead)
+        if 2 * (1 - math.sqrt(depth)) > bore * (1 - ahead / depth):  # the rarefaction brings more than the bore takes
+            low = depth
+        else:
+            high = depth
+    return depth, 2 * (1 - math.sqrt(depth)), bore
+
+
+def stoker(similarity, ahead):
+    """Depth over h0 at x/(t sqrt(g h0)): Stoker's dam break onto still water of the depth `ahead`."""
+    depth, speed, bore = stoker_state(ahead)
+    similarity = np.asarray(similarity, dtype=float)
+    return np.where(similarity > bore, ahead, np.where(similarity > speed - math.sqrt(depth), depth, ritter(similarity)))
+
+
+# ------------------------------------------------------------------------ the shallow-water equations over a bed
+# Finite volumes of second order (MUSCL-Hancock with HLL fluxes, Toro 2001), friction implicit.
+
+
+class RoughBed:
+    """A bed of the roughness k_s (h0) under layers that grow: water begins with a layer k_s thick and takes it along."""
+
+    def __init__(self, roughness):
+        self.roughness, self.y0 = roughness, roughness / 30
+
+    def friction_velocity(self, depth, speed, layer):
+        """u_tau of water that follows the logarithmic law of a rough bed up to `layer` and moves evenly above it; `speed`
+        is its mean over the depth."""
+        layer = np.clip(layer, self.roughness, np.maximum(depth, self.roughness))
+        logarithm = np.log1p(layer / self.y0)
+        share = np.minimum(layer / np.maximum(depth, DRY), 1.0)
+        return KARMAN * np.abs(speed) / (logarithm - share * (1 - self.y0 / layer * logarithm))
+
+    def slow(self, depth, speed, layer, dt):
+        """(speed, layer) after dt. A layer grows by kappa u_tau, by which its missing momentum is what the bed takes."""
+        u_tau = self.friction_velocity(depth, speed, layer)
+        rate = u_tau**2 / np.maximum(np.abs(speed) * depth, DRY)
+        return speed / (1 + dt * rate), np.minimum(layer + dt * KARMAN * u_tau, np.maximum(depth, self.roughness))
+
+
+class EvenBed:
+    """u_tau^2 = coefficient u^2 everywhere; layers mean nothing."""
+
+    roughness = 0.0
+
+    def __init__(self, coefficient):
+        self.coefficient = coefficient
+
+    def slow(self, depth, speed, layer, dt):
+        return speed / (1 + dt * self.coefficient * np.abs(speed) / np.maximum(depth, DRY)), layer
+
+
+def fluxes(depth, speed):
+    return np.array([depth * speed, depth * speed**2 + 0.5 * depth**2])
+
+
+def hll(left, right):
+    """Flux between the states (depth, speed) on both sides of each face; a dry side is what a rarefaction reaches."""
+    (hl, ul), (hr, ur) = left, right
+    cl, cr = np.sqrt(hl), np.sqrt(hr)
+    middle, c = 0.5 * (ul + ur) + cl - cr, np.maximum(0.5 * (cl + cr) + 0.25 * (ul - ur), 0.0)
+    low = np.where(hl <= DRY, ur - 2 * cr, np.where(hr <= DRY, ul - cl, np.minimum(ul - cl, middle - c)))
+    high = np.where(hr <= DRY, ul + 2 * cl, np.where(hl <= DRY, ur + cr, np.maximum(ur + cr, middle + c)))
+    low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
+    span = np.maximum(high - low, 1e-12)
+    states = np.array([hr - hl, hr * ur - hl * ul])
+    return (high * fluxes(hl, ul) - low * fluxes(hr, ur) + high * low * states) / span
+
+
+def limited(values):
+    """Half the slope of each cell, minmod, 0 at the ends."""
+    steps = np.diff(values, axis=-1)
+    slope = np.zeros_like(values)
+    a, b = steps[..., :-1], steps[..., 1:]
+    slope[..., 1:-1] = np.where(a * b > 0, np.sign(a) * np.minimum(np.abs(a), np.abs(b)), 0.0)
+    return 0.5 * slope
+
+
+def dam_break(ahead, bed, times, back, front, cells=2000):
+    """[(x, depth, speed)] at rising `times`: water of depth 1 over -back < x < 0, of depth `ahead` over 0 < x < front,
+    both at rest at 0, over the `bed`. Nothing may reach the ends."""
+    x = (np.arange(cells) + 0.5) * (back + front) / cells - back
+    dx = x[1] - x[0]
+    depth, speed = np.where(x < 0, 1.0, ahead), np.zeros(cells)
+    layer = np.full(cells, bed.roughness)
+    now, states = 0.0, []
+    for time in times:
+        while now < time - 1e-12:
+            dt = min(0.45 * dx / np.max(np.abs(speed) + np.sqrt(depth)), time - now)
+            slope = limited(np.array([depth, speed]))
+            sides = [np.maximum(np.array([depth, speed]) + sign * slope, [[0.0], [-np.inf]]) for sign in (-1, 1)]
+            # Half a step in time of both sides of a cell, in depth and discharge.
+            change = -0.5 * dt / dx * (fluxes(*sides[1]) - fluxes(*sides[0]))
+            moved = []
+            for h, u in sides:
+                later = np.maximum(h + change[0], 0.0)
+                moved.append((later, np.where(later > DRY, (h * u + change[1]) / np.maximum(later, DRY), 0.0)))
+            (hl, ul), (hr, ur) = moved
+            flux = hll((hr[:-1], ur[:-1]), (hl[1:], ul[1:]))
+            carried = flux[0] * np.where(flux[0] > 0, layer[:-1], layer[1:])
+            discharge, layers, depth = depth * speed, depth * layer, depth.copy()
+            for values, through in ((depth, flux[0]), (discharge, flux[1]), (layers, carried)):
+                values[1:-1] -= dt / dx * np.diff(through)
+            depth = np.maximum(depth, 0.0)
+            wet = depth > DRY
+            speed, layer = (np.where(wet, values / np.maximum(depth, DRY), dry)
+                            for values, dry in ((discharge, 0.0), (layers, bed.roughness)))
+            speed, layer = bed.slow(depth, speed, layer, dt)
+            now += dt
+        states.append((x, depth, speed))
+    return states
+
+
+def whitham_front(time, coefficient):
+    """Place of the front over a dry bed with the constant friction coefficient, for small coefficient time^4: Whitham
+    (1955), Proc. R. Soc. Lond. A 227, 399: 2 t - 3.452 (c t^4)^(1/3)."""
+    return 2 * time - 3.452 * (coefficient * time**4) ** (1 / 3)
+
+
+# ----------------------------------------------------------------------------------------------- errors of runs
+
+
+def late_profiles(run, scale):
+    """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
+    times = np.unique(run.profile_table("surface")["time_s"])
+    taken = [profile_at(run, "surface", time) for time in times]
+    depth = run.parameters["h0"]
+    return [(profile.time / scale, profile.x / depth, profile.connected / depth) for profile in taken
+            if profile.time > (LATE - 0.01) * scale]
+
+
+def speed_of(profiles, place):
+    """Slope of place(x, depth) over T, least squares."""
+    return float(np.polyfit([T for T, _, _ in profiles], [place(x, depth) for _, x, depth in profiles], 1)[0])
+
+
+def last_place(x, depth, level):
+    """The farthest x at which the depth is `level`, linear between samples."""
+    above = np.flatnonzero(depth >= level)
+    if above.size == 0 or above[-1] == len(x) - 1:
+        raise DataError(f"the depth passes {level:.3g} h0 nowhere")
+    k = above[-1]
+    return x[k] + (depth[k] - level) / (depth[k] - depth[k + 1]) * (x[k + 1] - x[k])
+
+
+def volume_ahead(x, depth, still):
+    """Water that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
+    return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
+
+
+def shallow_dam_break(run, exact, still, discharge, level, speed):
+    """Numbers that both dam breaks have. A real dam break needs the time sqrt(h0/g) to become shallow: it lags behind by
+    a length that stays, so speeds and the discharge are slopes over T, and the profile is the last one's."""
+    profiles = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))
+    if len(profiles) < 3:
+        raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
+    T, x, depth = profiles[-1]
+    inside = (x > -1.2 * T) & (x < 2.0 * T)
+    return {
+        "discharge_error": speed_of(profiles, partial(volume_ahead, still=still)) / discharge - 1,
+        "front_error": speed_of(profiles, partial(last_place, level=level)) / speed - 1,
+        "profile_error": rms(depth[inside] - exact(x[inside] / T)),
+    }
+
+
+def ritter_dam_break(run):
+    """discharge_error: of the discharge at the gate, 8/27 sqrt(g) h0^1.5, relative. gate_error: of the depth there, 4/9 h0,
+    at the last profile. front_error: of the speed of the place where the depth is TIP, relative. profile_error: rms over
+    h0 of the last profile."""
+    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    return shallow_dam_break(run, ritter, 0.0, 8 / 27, TIP, 2 - 3 * math.sqrt(TIP)) | {
+        "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
+
+
+def stoker_dam_break(run):
+    """discharge_error and profile_error as for Ritter's; front_error: of the speed of the bore, where the depth is halfway;
+    plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile, relative."""
+    still = run.parameters["h1"] / run.parameters["h0"]
+    level, speed, bore = stoker_state(still)
+    T, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    tail = speed - math.sqrt(level)
+    middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
+    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, 0.5 * (level + still), bore) | {
+        "plateau_error": float(depth[middle].mean()) / level - 1}
+
+
+# ------------------------------------------------------------------------------------------------ with friction
+
+
+def front_of(depth, x):
+    """The farthest place that is wet."""
+    return float(x[np.flatnonzero(depth > 1e-4)[-1]])
+
+
+@lru_cache(maxsize=None)
+def rough_theory(ahead, roughness, times, back, front):
+    """States of a dam break over a bed of this roughness, and over a free one where there is water ahead."""
+    return (dam_break(ahead, RoughBed(roughness), times, back, front),
+            dam_break(ahead, EvenBed(0.0), times, back, front) if ahead > 0 else None)
+
+
+def rough_states(run, times):
+    """rough_theory at the rising `times` of a run with a rough bed."""
+    wall, depth = run.case["wall"][0], run.parameters["h0"]
+    if not wall.get("roughness"):
+        raise DataError(f"{run.path}: its bed is not rough; set wall.channel.slip=no-slip and wall.channel.roughness")
+    return rough_theory(run.parameters.get("h1", 0.0) / depth, wall["roughness"] / depth, tuple(times),
+                        run.parameters["back"] / depth, run.parameters["ahead"] / depth)
+
+
+def front_history(run):
+    """[(T, computed front, that of theory)] at the profiles of a run over a rough dry bed."""
+    depth, scale = run.parameters["h0"], math.sqrt(run.parameters["h0"] / run.gravity)
+    times = [T for T, _, _ in late_profiles(run, scale)]
+    front = run.probe("front", "front_m")
+    states, _ = rough_states(run, times)
+    return [(T, float(np.interp(T * scale, front.time, front.value)) / depth, front_of(h, x))
+            for T, (x, h, _) in zip(times, states)]
+
+
+def rough_dry_bed(run):
+    """Of the tip that friction holds back. front_error: of its place at the last profile, relative. speed_error: of its mean
+    speed over the last third, relative. profile_error: rms over h0 of the water ahead of the gate at the last profile."""
+    history = front_history(run)
+    T, found, exact = history[-1]
+    late = [entry for entry in history if entry[0] > 2 / 3 * T]
+    if len(late) < 2:
+        raise DataError(f"{run.path}: has too few profiles from T = {2 / 3 * T:.3g} on for a speed")
+    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    theory_x, theory, _ = rough_states(run, [T for T, _, _ in history])[0][-1]
+    ahead = (x > 0) & (x < max(found, exact))
+    speed = [(late[-1][k] - late[0][k]) / (late[-1][0] - late[0][0]) for k in (1, 2)]
+    return {"front_error": found / exact - 1, "speed_error": speed[0] / speed[1] - 1,
+            "profile_error": rms((depth - np.interp(x, theory_x, theory))[ahead])}
+
+
+def held_back(rough, free):
+    """[(T, computed, that of theory)]: water (h0^2) that has not passed the gate because of the friction of a wet bed, by
+    runs that differ only in that. The lag of the start, which theory has not, is the same in both."""
+    depth, scale = rough.parameters["h0"], math.sqrt(rough.parameters["h0"] / rough.gravity)
+    still = rough.parameters["h1"] / depth
+    pairs = list(zip(late_profiles(rough, scale), late_profiles(free, scale)))
+    states, free_states = rough_states(rough, [T for (T, _, _), _ in pairs])
+    return [(T, volume_ahead(free_x, free_h, still) - volume_ahead(x, h, still),
+             volume_ahead(*free_state[:2], still) - volume_ahead(*state[:2], still))
+            for ((T, x, h), (_, free_x, free_h)), state, free_state in zip(pairs, states, free_states)]
+
+
+def held_back_error(rough, free):
+    """Of the water that the bed's friction has held back by the last profile, relative."""
+    _, found, exact = held_back(rough, free)[-1]
+    return found / exact - 1
+
+
+FLOWS = {"ritter": ritter_dam_break, "stoker": stoker_dam_break, "rough-dry-bed": rough_dry_bed}
