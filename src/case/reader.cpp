@@ -368,22 +368,21 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
                  "scheme.name = \"farzin2014\": the force on a body must be the reaction of that on the water; "
                  "choose these, or give the walls a motion");
   }
-  for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
-    if (std::ranges::find(spec.bodies, spec.moorings[k].body, &BodyTable::name) != spec.bodies.end()) continue;
-    std::vector<std::string_view> names;
-    for (const BodyTable& body : spec.bodies) names.push_back(body.name);
-    const toml::node& node = *root["mooring"][k]["body"].node();
-    problems.add(&node.source(), fmt::format("mooring[{}].body = {}: there is no such body; {}", k, value_text(node),
-                                             unknown_name_hint(spec.moorings[k].body, names)));
-  }
-  for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
-    const std::string& source = spec.inlets[k].water_from;
-    if (source.empty() || std::ranges::find(spec.outlets, source, &OutletTable::name) != spec.outlets.end()) continue;
-    std::vector<std::string_view> names;
-    for (const OutletTable& outlet : spec.outlets) names.push_back(outlet.name);
-    const toml::node& node = *root["inlet"][k]["water_from"].node();
-    problems.add(&node.source(), fmt::format("inlet[{}].water_from = {}: there is no such outlet; {}", k,
-                                             value_text(node), unknown_name_hint(source, names)));
+}
+
+/// Each table of `tables` must name one of `targets`, tables of another kind, under `key`; or none, if that is allowed.
+template <class Table, class Target>
+void check_names(const toml::table& root, std::string_view kind, const std::vector<Table>& tables, std::string_view key,
+                 std::string Table::*member, std::string_view target_kind, const std::vector<Target>& targets,
+                 bool may_be_none, Problems& problems) {
+  std::vector<std::string_view> names;
+  for (const Target& target : targets) names.push_back(target.name);
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const std::string& name = tables[k].*member;
+    if ((may_be_none && name.empty()) || std::ranges::find(names, name) != names.end()) continue;
+    const toml::node& node = *root[kind][k][key].node();
+    problems.add(&node.source(), fmt::format("{}[{}].{} = {}: there is no such {}; {}", kind, k, key, value_text(node),
+                                             target_kind, unknown_name_hint(name, names)));
   }
 }
 
@@ -441,6 +440,10 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
     check_ends_of_series(spec, root, context.problems);
     check_names_of_driven_walls(spec, root, context.problems);
     check_bodies(spec, root, context.problems);
+    check_names(root, "mooring", spec.moorings, "body", &MooringTable::body, "body", spec.bodies, false,
+                context.problems);
+    check_names(root, "inlet", spec.inlets, "water_from", &InletTable::water_from, "outlet", spec.outlets, true,
+                context.problems);
   }
   if (!context.problems.none()) {
     throw InputError(context.problems.text());

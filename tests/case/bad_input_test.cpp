@@ -150,6 +150,10 @@ const std::vector<BadInput> table{
      required_keys + water + "[[mooring]]\nbody = \"barge\"\nat = [0, 0]\nanchor = [0, 1]\nstiffness = 1\n",
      "7:8",
      {"mooring[0].body", "no such body"}},
+    {"mooring_of_a_body_without_a_name",
+     required_keys + water + "[[mooring]]\nbody = \"\"\nat = [0, 0]\nanchor = [0, 1]\nstiffness = 1\n",
+     "7:8",
+     {"mooring[0].body", "no such body"}},
     {"gate_with_the_name_of_a_wall",
      required_keys + water +
          "[[wall]]\nname = \"a\"\npoints = [[0, 0], [1, 0]]\n[[gate]]\nname = \"a\"\nfrom = [1, 0]\nto = [1, 1]\nspeed "

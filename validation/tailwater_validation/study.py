@@ -96,7 +96,8 @@ class CurveCheck(Check):
 
 @dataclass(frozen=True)
 class OrderCheck(Check):
-    """An error on the last of the runs, and its observed order over all of them; `compute` takes one run."""
+    """An error on the last of the runs, and its observed order over all of them if there are several; `compute` takes
+    one run."""
 
     def score(self, out):
         *_, last = self.runs
@@ -104,7 +105,8 @@ class OrderCheck(Check):
         def observed():
             return order({run.spacing: self.compute(run) for run in (finished(run, out) for run in self.runs)})
 
-        return measure(self.metric, value=lambda: self.compute(finished(last, out)), order=observed)
+        more = {"order": observed} if len(self.runs) > 1 else {}
+        return measure(self.metric, value=lambda: self.compute(finished(last, out)), **more)
 
 
 @dataclass(frozen=True)
