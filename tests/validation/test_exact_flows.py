@@ -8,31 +8,13 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
+import synthetic_run
 from tailwater_validation import exact_flows, shallow_water
 from tailwater_validation.curves import DataError, read_table
 from tailwater_validation.run_folder import RunFolder
 
 FLOAT32 = 2.0**-23  # relative spacing of what field files hold
-
-
-def write_frame(path, position, fields):
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.column_stack([position, np.zeros(len(position))]).astype(np.float32), deep=True))
-    data = vtkPolyData()
-    data.SetPoints(points)
-    for name, values in fields.items():
-        array = numpy_to_vtk(values.astype(np.float32), deep=True)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
-    writer = vtkXMLPolyDataWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputData(data)
-    writer.Write()
 
 
 class RunTest(unittest.TestCase):
@@ -50,7 +32,7 @@ class RunTest(unittest.TestCase):
              "particles": {"fluid": len(frames[0][1])}}))
         entries = []
         for k, (time, position, fields) in enumerate(frames):
-            write_frame(folder / "fields" / f"{k}.vtp", position, fields)
+            synthetic_run.write_frame(folder / "fields" / f"{k}.vtp", position.astype(np.float32), **fields)
             entries.append(f'<DataSet timestep="{time}" file="{k}.vtp"/>')
         (folder / "fields" / "fields.pvd").write_text(
             f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>{"".join(entries)}</Collection>'
