@@ -359,6 +359,15 @@ type = "force"
         self.assertAlmostEqual(float(theory["pressure"].max()) / (0.5 * root**2), 1.0, delta=0.25)
 
 
+class WedgeEntry(RunTest):
+    def test_known_errors_come_back(self):
+        time = np.linspace(0.0, 0.05, 400)
+        case = "[parameters]\nD = 0.1\nV = 2.0\n[physics]\ndensity = 1000.0\n"
+        run = self.write_run(case, [(0.0, np.zeros((1, 2)), {})], {
+            "probes/force.csv": {"time_s": time, "force_y_N_per_m": 0.93 * exact_flows.ENTRY_FORCE * 8000 * time}})
+        self.assertAlmostEqual(exact_flows.wedge_entry(run)["force_error"], -0.07, places=9)
+
+
 class ShallowDamBreak(RunTest):
     CASE = """\
 [parameters]

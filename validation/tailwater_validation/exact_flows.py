@@ -374,8 +374,26 @@ def water_wedge(run):
             "force_error": float(np.mean(-force.value / (scale * U * force.time))) / exact - 1}
 
 
+# ------------------------------------------------------------------------------------------ a wedge that enters water
+
+
+# Force over rho V^3 t on a wedge whose faces rise at 30 degrees (Zhao R., Faltinsen O. (1993), Water entry of
+# two-dimensional bodies, J. Fluid Mech. 246, 593-612; similarity solution after Dobrovol'skaya).
+ENTRY_FORCE = 14.139
+
+
+def wedge_entry(run):
+    """force_error: mean force per length of the second half of the run, over that of the similarity solution, less 1."""
+    D, V = run.parameters["D"], run.parameters["V"]
+    force = run.probe("force", "force_y_N_per_m").window(0.5 * D / V, D / V)
+    steps = np.diff(force.time)
+    impulse = float(np.sum((force.value[1:] + force.value[:-1]) / 2 * steps))
+    exact = ENTRY_FORCE * run.density * V**3 * (force.time[-1] ** 2 - force.time[0] ** 2) / 2
+    return {"force_error": impulse / exact - 1}
+
+
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet, "water-wedge": water_wedge, **shallow_water.FLOWS,
+         "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet, "water-wedge": water_wedge, "wedge-entry": wedge_entry, **shallow_water.FLOWS,
          **flume.FLOWS}
 
 
