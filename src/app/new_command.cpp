@@ -20,6 +20,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"river-reach", templates::river_reach},
     {"weir", templates::weir},
     {"broad-weir", templates::broad_weir},
+    {"ogee", templates::ogee},
     {"sluice-gate", templates::sluice_gate},
     {"hydraulic-jump", templates::hydraulic_jump},
     {"circulation", templates::circulation},
@@ -56,8 +57,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
       ->add_option(
           "template", options->kind,
           "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
-          "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, sluice-gate "
-          "and hydraulic-jump (steady flow in a flume), circulation, run-up, pier (3D, a dam breaks against a pier "
+          "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, ogee, "
+          "sluice-gate and hydraulic-jump (steady flow in a flume), circulation, run-up, pier (3D, a dam breaks against a pier "
           "from an STL file), "
           "wave-flume (regular waves, gauges and a damping zone), solitary-wave, sloshing (a tank that rolls) or "
           "floating-box (a body on two lines)")

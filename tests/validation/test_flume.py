@@ -55,6 +55,17 @@ class SteadyFlows(unittest.TestCase):
         self.assertAlmostEqual(numbers["coefficient_error"], 0.0, places=9)
         self.assertAlmostEqual(numbers["crest_over_critical"], 1.0, places=9)
 
+    def test_an_ogee_at_its_design_head_has_no_error(self):
+        # Energy head 0.1 over a crest 0.2 m high: the depth by iteration.
+        q, depth = flume.OGEE_COEFFICIENT * 0.1**1.5, 0.3
+        for _ in range(50):
+            depth = 0.3 - q**2 / (2 * G * depth**2)
+        numbers = flume.ogee(self.run_with({"P": 0.2}, {"upstream": ("connected_m", 0.1, depth),
+                                                        "over_crest": ("volume_m3", 0.0, 1.02 * q)}))
+        # 2 % more water also raises the velocity head that is added to the depth.
+        raised = 0.0404 * q**2 / (2 * G * depth**2)
+        self.assertAlmostEqual(numbers["coefficient_error"], 1.02 * (0.1 / (0.1 + raised)) ** 1.5 - 1, places=9)
+
     def test_a_gate_without_losses(self):
         # Energy 0.2 + q^2/(2 g 0.04) = 0.0305 + q^2/(2 g 0.0305^2)
         q = (2 * G * (0.2 - 0.0305) / (1 / 0.0305**2 - 1 / 0.04)) ** 0.5

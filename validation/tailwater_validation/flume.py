@@ -88,6 +88,21 @@ def broad_weir(run):
             / (discharge**2 / g) ** (1 / 3), "head_drift_m": drift(run, "upstream", "connected_m")}
 
 
+# m^(1/2)/s; q = 2.18 H^1.5 at the design head, for a crest twice as high: 3.95 ft^(1/2)/s (U.S. Bureau of Reclamation,
+# Design of Small Dams). Laboratories and manuals have 2.17 to 2.23.
+OGEE_COEFFICIENT = 2.18
+
+
+def ogee(run):
+    """coefficient_error: discharge over that of the crest for the energy head upstream, less 1."""
+    height = run.parameters["P"]
+    discharge = steady_discharge(run, "over_crest")
+    depth = steady_mean(run, "upstream", "connected_m")
+    head = depth - height + discharge**2 / (2 * run.gravity * depth**2)
+    return {"coefficient_error": discharge / (OGEE_COEFFICIENT * head**1.5) - 1, "energy_head_m": head,
+            "discharge_m2_s": discharge, "head_drift_m": drift(run, "upstream", "connected_m")}
+
+
 def sluice_gate(run):
     """contraction_error: depth of the jet over CONTRACTION times the opening, less 1. discharge_error: discharge over
     that of the energy equation with the depths that were read, less 1."""
@@ -209,6 +224,6 @@ def solitary_wave(run):
             "height_lost": 1 - heights[-1] / heights[0], "height_error": heights[0] / run.parameters["H"] - 1}
 
 
-FLOWS = {"weir": weir, "broad-weir": broad_weir, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
+FLOWS = {"weir": weir, "broad-weir": broad_weir, "ogee": ogee, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
          "channel": channel, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
          "floating-box": floating_box}

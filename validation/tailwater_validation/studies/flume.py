@@ -60,6 +60,16 @@ def broad_weir(plan):
          ("crest_over_critical", "depth in the middle of the crest over the critical depth", "", "critical flow", None)))
 
 
+def ogee(plan):
+    return flume_study(
+        plan, "ogee", "Ogee crest at its design head",
+        "69 l/s per metre over a spillway crest 0.2 m high, shaped by the U.S. Army Engineers' formulas for a head of 0.1 m: discharge for "
+        "the energy head upstream, against 2.18 H^1.5.",
+        "Laboratories and manuals have coefficients of 2.17 to 2.23 m^(1/2)/s for this shape.",
+        "upstream", ("Hd", (8,), (8, 12, 16)), 20.0,
+        (("coefficient_error", "discharge for the energy head, relative error", "", "2.18 H^1.5", 0.03),))
+
+
 def sluice_gate(plan):
     return flume_study(
         plan, "sluice-gate", "Sluice gate: contraction",
