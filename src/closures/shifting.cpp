@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "base/lanes.h"
 #include "closures/fluid_pairs.h"
 
 namespace tailwater {
@@ -16,13 +17,15 @@ template <int Dim>
 Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                         std::size_t i) {
   const double inverse_W = 1.0 / law.W_spacing;
-  Vec<Dim> gradient = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double ratio = pairs.W[k] * inverse_W;
-    const double tensile = 1.0 + 0.2 * ratio * ratio * ratio * ratio;
-    gradient += particles.volume[pairs.j[k]] * tensile * pairs.gradient(k);
-  }
-  return -law.spacing * gradient;
+  VecLanes<Dim> sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const Lanes volume = range.only(range.neighbours(pairs.j.data())(particles.volume.data()));
+    const Lanes ratio = range.load(pairs.W.data()) * inverse_W;
+    const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
+    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
+  });
+  return law.spacing * sum_of(sum);
 }
 
 template <int Dim>

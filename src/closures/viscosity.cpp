@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/for_each.h"
+#include "base/lanes.h"
 #include "closures/fluid_pairs.h"
 #include "closures/wall_law.h"
 #include "operators/laplacian_consistent.h"
@@ -14,28 +15,74 @@
 namespace tailwater {
 namespace {
 
-/// Acceleration of a pair by the noise in its velocity `difference` u_j - u_i, over the viscosity [1/(m s)].
-/// `gradients` is the sum of both particles' velocity gradients.
+/// The volume of fluid particles and 0 of others, which take no part in sums weighted by it.
 template <int Dim>
-inline Vec<Dim> noise_force(const Pairs<Dim>& pairs, std::size_t k, double volume_j, double spacing,
-                            const Vec<Dim>& difference, const Mat<Dim>& gradients, bool are_in_layer) {
-  const Vec<Dim> d = pairs.d[k];  // r_i - r_j
-  const Vec<Dim> explained = -0.5 * (gradients * d);
-  Vec<Dim> noise = difference - explained;
-  if (are_in_layer) {
-    noise -= noise.dot(explained) / std::max(explained.squaredNorm(), std::numeric_limits<double>::min()) * explained;
-  }
-  // No branch, because the sign is unpredictable. The divisor's lower bound prevents 0/0.
-  const double work = std::min(0.0, noise.dot(difference));
-  noise -= work / std::max(difference.squaredNorm(), std::numeric_limits<double>::min()) * difference;
-  return morris_laplacian_weight(volume_j, pairs.F[k], d.squaredNorm(), spacing) * noise;
+std::vector<double> volumes_of_fluid(const Particles<Dim>& particles) {
+  std::vector<double> volume(particles.size());
+  for_each(volume.size(), [&](std::size_t j) { volume[j] = particles.is_fluid(j) ? particles.volume[j] : 0.0; });
+  return volume;
 }
 
-/// Whether both particles belong to a boundary layer, whose shear the noise viscosity leaves alone.
-template <int Dim>
-inline bool are_in_layer(const Particles<Dim>& particles, std::size_t i, std::int32_t j) {
-  return particles.layer_viscosity[i] > 0.0 && particles.layer_viscosity[j] > 0.0;
+/// What morris_laplacian_weight leaves of the weights of pairs that are very near: 1 for nearly all.
+Lanes share_of_weight(Lanes distance_squared, double spacing) {
+  const double least = least_morris_distance * spacing;
+  Lanes share = in_all_lanes(1.0);
+  if (!any_of(distance_squared < in_all_lanes(least * least))) return share;
+  for (int n = 0; n < lane_count; ++n) share[n] = std::min(1.0, std::sqrt(distance_squared[n]) / least);
+  return share;
 }
+
+/// What viscous forces need of several pairs of particle i.
+template <int Dim>
+struct PairLanes {
+  LaneIndices j;
+  Lanes volume;              ///< m^Dim; w_j of fluid, 0 of walls
+  VecLanes<Dim> difference;  ///< m/s; u_j - u_i
+  MatLanes<Dim> gradients;   ///< 1/s; sum of both velocity gradients
+  VecLanes<Dim> d;           ///< m; r_i - r_j
+  Lanes squared;             ///< m^2; d.d
+  Lanes share_of_volume;     ///< m^Dim; of w_j in the weights of the Morris Laplacian
+  Lanes F;                   ///< of the kernel
+  Lanes layer_viscosity;     ///< m^2/s; of j if i belongs to a boundary layer, else 0
+
+  template <class Range>
+  PairLanes(const Pairs<Dim>& pairs, const Range& range, const Particles<Dim>& particles,
+            std::span<const double> volume_of_fluid, double spacing, std::size_t i, std::span<const Vec<Dim>> velocity,
+            std::span<const Mat<Dim>> gradient)
+      : j(range.neighbours(pairs.j.data())),
+        volume(range.only(j(volume_of_fluid.data()))),
+        difference(j(velocity.data())),
+        gradients(j(gradient.data())),
+        d(range.entries()(pairs.d.data())),
+        squared(d.dot(d)),
+        share_of_volume(volume * share_of_weight(squared, spacing)),
+        F(range.load(pairs.F.data())),
+        layer_viscosity(particles.layer_viscosity[i] > 0.0 ? j(particles.layer_viscosity.data()) : Lanes{}) {
+    for (int a = 0; a < Dim; ++a) {
+      difference.at[a] -= velocity[i][a];
+      for (int b = 0; b < Dim; ++b) gradients.column[b].at[a] += gradient[i](a, b);
+    }
+  }
+
+  /// Adds `viscosity` times the acceleration by the noise in the difference of velocity. The shear of a boundary layer,
+  /// to which both particles belong, is left alone.
+  void add_noise_force(double viscosity, VecLanes<Dim>& sum) const {
+    constexpr double least = std::numeric_limits<double>::min();  // prevents 0/0
+    VecLanes<Dim> explained = gradients.times(d);
+    VecLanes<Dim> noise;
+    for (int a = 0; a < Dim; ++a) {
+      explained.at[a] *= -0.5;
+      noise.at[a] = difference.at[a] - explained.at[a];
+    }
+    const Lanes in_shear = noise.dot(explained) / max_of(explained.dot(explained), in_all_lanes(least));
+    const Lanes left_alone = layer_viscosity > Lanes{} ? in_shear : Lanes{};
+    for (int a = 0; a < Dim; ++a) noise.at[a] -= left_alone * explained.at[a];
+    const Lanes work = min_of(Lanes{}, noise.dot(difference));
+    const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
+    const Lanes weight = viscosity * 2.0 * share_of_volume * F;
+    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * (noise.at[a] - given * difference.at[a]);
+  }
+};
 
 }  // namespace
 
@@ -58,22 +105,23 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
                              std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
+  const std::vector<double> volume = volumes_of_fluid(particles);
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      const Vec<Dim> difference = velocity[j] - velocity[i];
-      const Mat<Dim> gradients = gradient[i] + gradient[j];
-      const Vec<Dim> a = pair_vectors[k];
-      const double squared = pairs.d[k].squaredNorm();
+    VecLanes<Dim> sum{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const PairLanes<Dim> pair(pairs, range, particles, volume, spacing, i, velocity, gradient);
+      const VecLanes<Dim> a = range.entries()(pair_vectors.data());
       // Only of pairs that nearly coincide may the corrections turn the sign.
-      const double F = std::max(0.0, -a.dot(pairs.d[k])) / squared;
-      const double laplacian = morris_laplacian_weight(particles.volume[j], F, squared, spacing);
-      const Vec<Dim> force = 0.5 * (viscosity[i] + viscosity[j]) *
-                             (laplacian * difference + particles.volume[j] * (gradients.transpose() * a));
-      if (noise_viscosity == 0.0) return force;
-      return force + noise_viscosity * noise_force<Dim>(pairs, k, particles.volume[j], spacing, difference, gradients,
-                                                        are_in_layer(particles, i, j));
+      const Lanes F = max_of(Lanes{}, -a.dot(pair.d)) / pair.squared;
+      const Lanes laplacian = 2.0 * pair.share_of_volume * F;
+      const Lanes mean = 0.5 * (viscosity[i] + pair.j(viscosity.data()));
+      for (int d = 0; d < Dim; ++d) {
+        sum.at[d] += mean * (laplacian * pair.difference.at[d] + pair.volume * pair.gradients.column[d].dot(a));
+      }
+      if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, sum);
     });
+    acceleration[i] += sum_of(sum);
   });
 }
 
@@ -104,12 +152,14 @@ template <int Dim>
 void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
                          std::span<Vec<Dim>> acceleration) {
+  const std::vector<double> volume = volumes_of_fluid(particles);
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    acceleration[i] += viscosity * sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-                         return noise_force<Dim>(pairs, k, particles.volume[j], spacing, velocity[j] - velocity[i],
-                                                 gradient[i] + gradient[j], are_in_layer(particles, i, j));
-                       });
+    VecLanes<Dim> sum{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      PairLanes<Dim>(pairs, range, particles, volume, spacing, i, velocity, gradient).add_noise_force(viscosity, sum);
+    });
+    acceleration[i] += sum_of(sum);
   });
 }
 

@@ -54,8 +54,10 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
     here.open_faces = here.concentration_gradient;
     return;
   }
-  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), kernel_radius(setup.kernel), flow.state.particles.volume,
-                                   here.interior, here.first_moment, here.pair_vectors, here.open_faces);
+  const Particles<Dim>& particles = flow.state.particles;
+  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), particles.position, kernel_radius(setup.kernel),
+                                   particles.volume, here.interior, here.first_moment, here.pair_vectors,
+                                   here.open_faces);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/fp_traps.h"
 #include "linear/cell_multigrid.h"
 #include "linear/petsc_solver.h"
+#include "linear/triangular_sweeps.h"
 
 namespace tailwater {
 namespace {
@@ -34,6 +35,58 @@ bool is_breakdown(KSPConvergedReason reason) {
 
 /// y = D x, where the diagonal D is 1.
 PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
+
+/// The operation with which PETSc sweeps over the rows of one rank.
+using SweepOperation = PetscErrorCode (*)(Mat, Vec, PetscReal, MatSORType, PetscReal, PetscInt, PetscInt, Vec);
+
+/// The name under which the block of this rank has its FastSweeps.
+constexpr const char* fast_sweeps_name = "tailwater_sweeps";
+
+/// What takes the place of PETSc's sweeps over the rows of this rank.
+struct FastSweeps {
+  LinearSystem* system = nullptr;
+  TriangularSweeps sweeps;
+  bool has_values = false;  ///< whether `sweeps` have the values of the present matrix
+  SweepOperation of_petsc = nullptr;
+};
+
+/// The sweeps of SSOR in Eisenstat's form by TriangularSweeps, and all others by PETSc itself.
+PetscErrorCode sweep(Mat matrix, Vec b, PetscReal omega, MatSORType kind, PetscReal shift, PetscInt iterations,
+                     PetscInt local_iterations, Vec x) noexcept {
+  PetscObject holder = nullptr;
+  void* pointer = nullptr;
+  check_petsc(PetscObjectQuery(reinterpret_cast<PetscObject>(matrix), fast_sweeps_name, &holder));
+  check_petsc(PetscContainerGetPointer(reinterpret_cast<PetscContainer>(holder), &pointer));
+  FastSweeps& fast = *static_cast<FastSweeps*>(pointer);
+  constexpr int from_zero = SOR_ZERO_INITIAL_GUESS;
+  const bool is_eisenstat = kind == SOR_EISENSTAT;
+  const bool is_forward = kind == (from_zero | SOR_LOCAL_FORWARD_SWEEP);
+  const bool is_backward = kind == (from_zero | SOR_LOCAL_BACKWARD_SWEEP);
+  if (shift != 0.0 || iterations * local_iterations != 1 || !(is_eisenstat || is_forward || is_backward)) {
+    return fast.of_petsc(matrix, b, omega, kind, shift, iterations, local_iterations, x);
+  }
+  if (!fast.has_values) {
+    const LinearSystem::Block& own = fast.system->own();
+    fast.sweeps.take(own.begin, own.column, fast.system->diagonal_of_own(), fast.system->values_of_own());
+    fast.has_values = true;
+  }
+  const PetscScalar* from = nullptr;
+  PetscScalar* to = nullptr;
+  check_petsc(VecGetArrayRead(b, &from));
+  check_petsc(VecGetArrayWrite(x, &to));
+  const std::span<const double> b_rows(from, fast.system->size());
+  const std::span<double> x_rows(to, fast.system->size());
+  if (is_eisenstat) {
+    fast.sweeps.eisenstat(omega, b_rows, x_rows);
+  } else if (is_forward) {
+    fast.sweeps.forward(omega, b_rows, x_rows);
+  } else {
+    fast.sweeps.backward(omega, b_rows, x_rows);
+  }
+  check_petsc(VecRestoreArrayWrite(x, &to));
+  check_petsc(VecRestoreArrayRead(b, &from));
+  return 0;
+}
 
 /// correction = multigrid(residual), for PETSc. An exception here has no way out through PETSc and ends the program.
 PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
@@ -83,6 +136,7 @@ struct KrylovSolver::Petsc {
   PetscKrylovSolver solver;
   PetscNullSpace constants;
   std::optional<CellMultigrid> multigrid;
+  FastSweeps fast_sweeps;
   std::uint64_t pattern_number = 0;        ///< of the matrix
   std::optional<std::size_t> solver_size;  ///< rows of this rank; none after a restart with another method
 
@@ -96,7 +150,7 @@ struct KrylovSolver::Petsc {
     // The values in the shared arrays have changed, and PETSc chooses the matrix's operations at an assembly.
     check_petsc(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     check_petsc(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
-    if (!system.ranks().is_alone()) provide_diagonal();
+    provide_sweeps(system);
     return is_new;
   }
 
@@ -126,12 +180,28 @@ struct KrylovSolver::Petsc {
     }
   }
 
-  /// On several ranks, SSOR in Eisenstat's form needs an operation that PETSc 3.18 lacks. PETSc drops the one provided
-  /// here at each assembly.
-  void provide_diagonal() const {
-    Mat own = nullptr;
-    check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
-    check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
+  /// Makes PETSc use our sweeps over the rows of this rank; it drops them at each assembly. On several ranks, SSOR in
+  /// Eisenstat's form also needs an operation that PETSc 3.18 lacks.
+  void provide_sweeps(LinearSystem& system) {
+    Mat own = matrix.get();
+    if (!system.ranks().is_alone()) {
+      check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
+      check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
+    }
+    void (*present)() = nullptr;
+    check_petsc(MatGetOperation(own, MATOP_SOR, &present));
+    if (present != reinterpret_cast<void (*)()>(sweep)) {
+      fast_sweeps.of_petsc = reinterpret_cast<SweepOperation>(present);
+    }
+    fast_sweeps.system = &system;
+    fast_sweeps.has_values = false;
+    PetscContainer holder = nullptr;
+    check_petsc(PetscContainerCreate(PETSC_COMM_SELF, &holder));
+    check_petsc(PetscContainerSetPointer(holder, &fast_sweeps));
+    check_petsc(PetscObjectCompose(reinterpret_cast<PetscObject>(own), fast_sweeps_name,
+                                   reinterpret_cast<PetscObject>(holder)));
+    check_petsc(PetscContainerDestroy(&holder));  // the matrix keeps it
+    check_petsc(MatSetOperation(own, MATOP_SOR, reinterpret_cast<void (*)()>(sweep)));
   }
 
   /// A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over from the old one, and a

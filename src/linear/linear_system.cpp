@@ -41,7 +41,26 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> of_others;  // the entries in others_, whose slots follow those of own_
+  own_.column.reserve(columns.size() + rows);
+  const auto add_own_row = [&](std::size_t i, std::span<const std::int32_t> row) {  // with ascending columns
+    const auto diagonal = static_cast<std::int32_t>(i);
+    const auto behind = std::lower_bound(row.begin(), row.end(), diagonal);
+    const auto before = static_cast<int>(behind - row.begin());
+    const auto begin = static_cast<int>(own_.column.size());
+    own_.column.insert(own_.column.end(), row.begin(), behind);
+    own_.column.push_back(diagonal);
+    own_.column.insert(own_.column.end(), behind, row.end());
+    diagonal_slot_[i] = begin + before;
+    int* const slot = slot_.data() + row_begin[i];
+    for (int k = 0; k < static_cast<int>(row.size()); ++k) slot[k] = begin + k + (k < before ? 0 : 1);
+  };
   for (std::size_t i = 0; i < rows; ++i) {
+    const std::span<const std::int32_t> row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
+    if (row.empty() || (static_cast<std::size_t>(row.back()) < rows && std::is_sorted(row.begin(), row.end()))) {
+      add_own_row(i, row);
+      for (Block* block : {&own_, &others_}) block->begin.push_back(static_cast<int>(block->column.size()));
+      continue;
+    }
     const Entry diagonal{first + static_cast<std::int64_t>(i), -1};
     bool has_diagonal = false;
     entries.clear();

@@ -93,6 +93,7 @@ class LinearSystem {
   std::uint64_t pattern_number() const { return pattern_number_; }
   const Block& own() const { return own_; }        ///< unknowns of this rank, columns counted from its first
   const Block& others() const { return others_; }  ///< unknowns of other ranks, columns counted over all ranks
+  std::span<const int> diagonal_of_own() const { return diagonal_slot_; }  ///< index in values_of_own(), by row
   std::span<double> values_of_own() { return std::span(value_).first(own_.column.size()); }
   std::span<double> values_of_others() { return std::span(value_).subspan(own_.column.size()); }
   std::span<double> rhs() { return rhs_; }

@@ -7,9 +7,9 @@
 // field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface.
 #pragma once
 
-#include <array>
 #include <span>
 
+#include "base/lanes.h"
 #include "neighbours/pairs.h"
 
 namespace tailwater {
@@ -23,22 +23,21 @@ struct KernelSums {
 
 template <int Dim>
 KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume, double W_0) {
-  double concentration = volume[i] * W_0;
-  // Column by column: vectors stay in registers through the loop, whole matrices do not.
-  Vec<Dim> gradient = Vec<Dim>::Zero();
-  std::array<Vec<Dim>, Dim> columns;
-  columns.fill(Vec<Dim>::Zero());
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double volume_j = volume[pairs.j[k]];
-    const Vec<Dim> d = pairs.d[k];
-    const Vec<Dim> weight = (volume_j * pairs.F[k]) * d;
-    concentration += volume_j * pairs.W[k];
-    gradient -= weight;
-    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * d;
-  }
-  KernelSums<Dim> sums{concentration, gradient, {}};
-  for (int b = 0; b < Dim; ++b) sums.first_moment.col(b) = columns[b];
-  return sums;
+  Lanes concentration{};
+  VecLanes<Dim> gradient{};
+  MatLanes<Dim> moment{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const Lanes volume_j = range.only(range.neighbours(pairs.j.data())(volume.data()));
+    const Lanes F = range.load(pairs.F.data());
+    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    concentration += volume_j * range.load(pairs.W.data());
+    for (int b = 0; b < Dim; ++b) {
+      const Lanes weight = volume_j * F * d.at[b];
+      gradient.at[b] -= weight;
+      for (int a = b; a < Dim; ++a) moment.column[b].at[a] += weight * d.at[a];
+    }
+  });
+  return {volume[i] * W_0 + sum_of(concentration), sum_of(gradient), sum_of_lower(moment)};
 }
 
 }  // namespace tailwater

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "base/lanes.h"
 #include "neighbours/pairs.h"
 
 namespace tailwater {
@@ -15,12 +16,14 @@ namespace tailwater {
 template <int Dim>
 double standard_divergence(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                            std::span<const Vec<Dim>> pair_vectors, std::span<const Vec<Dim>> velocity) {
-  double sum = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    sum += volume[j] * (velocity[j] - velocity[i]).dot(pair_vectors[k]);
-  }
-  return sum;
+  Lanes sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    VecLanes<Dim> difference = j(velocity.data());
+    for (int d = 0; d < Dim; ++d) difference.at[d] -= velocity[i][d];
+    sum += range.only(j(volume.data())) * difference.dot(range.entries()(pair_vectors.data()));
+  });
+  return sum_of(sum);
 }
 
 }  // namespace tailwater

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "base/lanes.h"
 #include "neighbours/pairs.h"
 
 namespace tailwater {
@@ -16,12 +17,14 @@ namespace tailwater {
 template <int Dim>
 Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                                std::span<const Vec<Dim>> pair_vectors, std::span<const double> field) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    sum += (volume[j] * (field[i] + field[j])) * pair_vectors[k];
-  }
-  return sum;
+  VecLanes<Dim> sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes weight = range.only(j(volume.data())) * (field[i] + j(field.data()));
+    const VecLanes<Dim> a = range.entries()(pair_vectors.data());
+    for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
+  });
+  return sum_of(sum);
 }
 
 }  // namespace tailwater

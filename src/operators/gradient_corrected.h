@@ -8,9 +8,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <span>
 
+#include "base/lanes.h"
 #include "neighbours/pairs.h"
 #include "operators/symmetric.h"
 
@@ -25,16 +25,17 @@ inline double correction_share(double least_eigenvalue_M) {
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
                             std::span<const double> volume, std::span<const Vec<Dim>> field) {
-  std::array<Vec<Dim>, Dim> columns;  // not a matrix: vectors stay in registers through the loop
-  columns.fill(Vec<Dim>::Zero());
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    const Vec<Dim> weight = volume[j] * pairs.gradient(k);
-    const Vec<Dim> difference = field[j] - field[i];
-    for (int b = 0; b < Dim; ++b) columns[b] += weight[b] * difference;
-  }
-  Mat<Dim> sum;
-  for (int b = 0; b < Dim; ++b) sum.col(b) = columns[b];
+  MatLanes<Dim> sums{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
+    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    const VecLanes<Dim> field_j = j(field.data());
+    for (int b = 0; b < Dim; ++b) {
+      for (int a = 0; a < Dim; ++a) sums.column[b].at[a] -= weight * d.at[b] * (field_j.at[a] - field[i][a]);
+    }
+  });
+  const Mat<Dim> sum = sum_of(sums);
   const double share = correction_share(least_eigenvalue<Dim>(first_moment));
   if (share == 0.0) return sum;
   return sum * (share * first_moment.inverse() + (1.0 - share) * Mat<Dim>::Identity());

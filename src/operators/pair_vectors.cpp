@@ -3,28 +3,40 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
 
+/// Share of the support's radius; pairs nearer than this are rare.
+constexpr double nearness = 1e-3;
+
 /// B_i of owned particles.
 template <int Dim>
-void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<const double> interior,
-                             std::span<const Mat<Dim>> first_moment, std::span<Mat<Dim>> correction) {
+void find_moment_corrections(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
+                             std::span<const double> interior, std::span<const Mat<Dim>> first_moment,
+                             std::span<Mat<Dim>> correction) {
+  const double near = nearness * radius;
   const double inverse_square = 1.0 / (radius * radius);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = interior[i];
     correction[i].setIdentity();
     if (share == 0.0) return;
     // Weights 1 - (r/R)^2: a mean over as many neighbours as there are, and continuous.
-    Mat<Dim> sum = share * first_moment[i];
-    double weights = share;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      const double weight = interior[j] * (1.0 - pairs.d[k].squaredNorm() * inverse_square);
-      sum += weight * first_moment[j];
-      weights += weight;
-    }
+    MatLanes<Dim> sums{};
+    Lanes weight_sums{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const Lanes weight = range.only(j(interior.data())) * (1.0 - d.dot(d) * inverse_square);
+      const MatLanes<Dim> moment = j.symmetric(first_moment.data());
+      for (int b = 0; b < Dim; ++b) {
+        for (int a = b; a < Dim; ++a) sums.column[b].at[a] += weight * moment.column[b].at[a];
+      }
+      weight_sums += weight;
+    });
+    const Mat<Dim> sum = share * first_moment[i] + sum_of_lower(sums);
+    const double weights = share + sum_of(weight_sums);
     const Mat<Dim> mean = sum / weights;
     correction[i] = (1.0 - share) * Mat<Dim>::Identity() + share * mean.inverse();
   });
@@ -37,28 +49,43 @@ struct ClosingEquation {
   std::vector<Vec<Dim>> rhs;    ///< 1/m; -1/2 sum_j w_j a_ij
 };
 
-/// Sets a_ij = -F (B_i + B_j)/2 d_ij of every pair, and poses the equation that closes half of the faces they leave
-/// open.
+/// (B_i + B_j)/2 d_ij of several pairs; B is symmetric.
 template <int Dim>
-ClosingEquation<Dim> find_corrected_gradients(const Pairs<Dim>& pairs, std::span<const double> volume,
-                                              std::span<const double> interior, std::span<const Mat<Dim>> correction,
-                                              std::span<Vec<Dim>> pair_vectors) {
+inline VecLanes<Dim> corrected_difference(std::span<const Mat<Dim>> correction, std::size_t i, const LaneIndices& j,
+                                          const VecLanes<Dim>& d) {
+  MatLanes<Dim> sum = j.symmetric(correction.data());
+  for (int b = 0; b < Dim; ++b) {
+    for (int a = 0; a < Dim; ++a) sum.column[b].at[a] += correction[i](a, b);
+  }
+  VecLanes<Dim> corrected = sum.times(d);
+  for (int a = 0; a < Dim; ++a) corrected.at[a] *= 0.5;
+  return corrected;
+}
+
+/// Poses the equation that closes half of the faces which a_ij = -F (B_i + B_j)/2 d_ij leaves open.
+template <int Dim>
+ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
+                                           std::span<const double> volume, std::span<const double> interior,
+                                           std::span<const Mat<Dim>> correction) {
+  const double near = nearness * radius;
   ClosingEquation<Dim> equation;
   equation.divisor.resize(pairs.owned());
   equation.rhs.resize(pairs.owned());
   for_each(pairs.owned(), [&](std::size_t i) {
-    const Mat<Dim> own = 0.5 * correction[i];
-    Vec<Dim> open = Vec<Dim>::Zero();
-    double diagonal = 0.0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      const Vec<Dim> a = -pairs.F[k] * ((own + 0.5 * correction[j]) * pairs.d[k]);
-      pair_vectors[k] = a;
-      open += volume[j] * a;
-      diagonal += volume[j] * pairs.F[k];
-    }
-    equation.divisor[i] = interior[i] == 0.0 ? 0.0 : diagonal / interior[i];
-    equation.rhs[i] = -0.5 * open;
+    equation.divisor[i] = 0.0;
+    if (interior[i] == 0.0) return;
+    VecLanes<Dim> sums{};
+    Lanes weights{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
+      for (int a = 0; a < Dim; ++a) sums.at[a] += weight * corrected.at[a];
+      weights += weight;
+    });
+    equation.divisor[i] = sum_of(weights) / interior[i];
+    equation.rhs[i] = 0.5 * sum_of(sums);
   });
   return equation;
 }
@@ -70,29 +97,39 @@ void sweep(const Pairs<Dim>& pairs, std::span<const double> volume, const Closin
   for_each(pairs.owned(), [&](std::size_t i) {
     next[i].setZero();
     if (equation.divisor[i] == 0.0) return;
-    Vec<Dim> sum = equation.rhs[i];
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      sum += (volume[j] * pairs.F[k]) * l[j];
-    }
-    next[i] = sum / equation.divisor[i];
+    VecLanes<Dim> sums{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
+      const VecLanes<Dim> l_j = j(l.data());
+      for (int a = 0; a < Dim; ++a) sums.at[a] += weight * l_j.at[a];
+    });
+    next[i] = (equation.rhs[i] + sum_of(sums)) / equation.divisor[i];
   });
 }
 
-/// a_ij <- a_ij + F (l_i - l_j), and their sums.
+/// Sets a_ij = -F [ (B_i + B_j)/2 d_ij - (l_i - l_j) ], and their sums.
 template <int Dim>
-void close_faces(const Pairs<Dim>& pairs, std::span<const double> volume, std::span<const Vec<Dim>> l,
+void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
+                 std::span<const double> volume, std::span<const Mat<Dim>> correction, std::span<const Vec<Dim>> l,
                  std::span<Vec<Dim>> pair_vectors, std::span<Vec<Dim>> open_faces) {
+  const double near = nearness * radius;
   for_each(pairs.owned(), [&](std::size_t i) {
-    const Vec<Dim> own = l[i];
-    Vec<Dim> open = Vec<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      const Vec<Dim> a = pair_vectors[k] + pairs.F[k] * (own - l[j]);
-      pair_vectors[k] = a;
-      open += volume[j] * a;
-    }
-    open_faces[i] = open;
+    VecLanes<Dim> open{};
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const Lanes F = range.load(pairs.F.data());
+      const Lanes volume_j = range.only(j(volume.data()));
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
+      VecLanes<Dim> pair_vector = j(l.data());
+      for (int a = 0; a < Dim; ++a) {
+        pair_vector.at[a] = -F * (corrected.at[a] - (l[i][a] - pair_vector.at[a]));
+        open.at[a] += volume_j * pair_vector.at[a];
+      }
+      range.store(pair_vector, pair_vectors.data());
+    });
+    open_faces[i] = sum_of(open);
   });
 }
 
@@ -105,16 +142,16 @@ void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_
 }
 
 template <int Dim>
-void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
-                                 std::span<const double> volume, std::span<const double> interior,
+void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, std::span<const Vec<Dim>> position,
+                                 double radius, std::span<const double> volume, std::span<const double> interior,
                                  std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
                                  std::vector<Vec<Dim>>& open_faces, int sweeps) {
   std::vector<Mat<Dim>> correction(volume.size());
-  find_moment_corrections<Dim>(pairs, radius, interior, first_moment, correction);
+  find_moment_corrections<Dim>(pairs, position, radius, interior, first_moment, correction);
   halo.exchange(correction);
   pair_vectors.resize(pairs.j.size());
   const ClosingEquation<Dim> equation =
-      find_corrected_gradients<Dim>(pairs, volume, interior, correction, pair_vectors);
+      pose_closing_equation<Dim>(pairs, position, radius, volume, interior, correction);
 
   // The first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(volume.size(), Vec<Dim>::Zero());
@@ -131,14 +168,14 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
     std::swap(l, next);
   }
   open_faces.resize(pairs.owned());
-  close_faces<Dim>(pairs, volume, l, pair_vectors, open_faces);
+  close_faces<Dim>(pairs, position, radius, volume, correction, l, pair_vectors, open_faces);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
-  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, std::vector<Vec<Dim>>&);                                 \
-  template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, double, std::span<const double>, \
-                                                 std::span<const double>, std::span<const Mat<Dim>>,                   \
-                                                 std::vector<Vec<Dim>>&, std::vector<Vec<Dim>>&, int);
+#define TAILWATER_INSTANTIATE(Dim)                                                                     \
+  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, std::vector<Vec<Dim>>&);                 \
+  template void find_corrected_pair_vectors<Dim>(                                                      \
+      const Pairs<Dim>&, const Halo<Dim>&, std::span<const Vec<Dim>>, double, std::span<const double>, \
+      std::span<const double>, std::span<const Mat<Dim>>, std::vector<Vec<Dim>>&, std::vector<Vec<Dim>>&, int);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

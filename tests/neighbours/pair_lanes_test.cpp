@@ -1,0 +1,101 @@
+// Loops in lanes read and write what loops pair by pair do, in rows of any length.
+#include "neighbours/pair_lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace tailwater {
+namespace {
+
+constexpr std::size_t count = 23;
+constexpr double radius = 2.0;
+constexpr double least_distance = 1e-6;
+
+/// Particles in a unit box; the row of particle i has its i neighbours of lower index. The last two are at one place.
+template <int Dim>
+struct Rows {
+  Rows() {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    NeighbourList list;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) list.j.push_back(static_cast<std::int32_t>(j));
+      list.row_begin.push_back(list.j.size());
+      position.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      matrix.push_back(Mat<Dim>::NullaryExpr([&] { return number(random); }));
+      volume.push_back(number(random));
+      id.push_back(static_cast<std::int64_t>(i));
+    }
+    position[count - 1] = position[count - 2];
+    evaluate_pairs<Dim>(WendlandC2<Dim>(radius), position, id, least_distance, list, pairs);
+  }
+
+  std::vector<Vec<Dim>> position;
+  std::vector<Mat<Dim>> matrix;
+  std::vector<double> volume;
+  std::vector<std::int64_t> id;
+  Pairs<Dim> pairs;
+};
+
+template <class Dimension>
+class PairLanes : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PairLanes, Dimensions);
+
+TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
+  constexpr int Dim = TypeParam::value;
+  const Rows<Dim> rows;
+  const Pairs<Dim>& pairs = rows.pairs;
+  ASSERT_EQ(pairs.j.size(), count * (count - 1) / 2);
+  std::vector<int> visits(pairs.j.size(), 0);
+  std::vector<Vec<Dim>> stored(pairs.j.size(), Vec<Dim>::Constant(7.0));
+  for (std::size_t i = 0; i < count; ++i) {
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, rows.position, i, 0.01);
+      const MatLanes<Dim> matrix = j(rows.matrix.data());
+      const Lanes volume = j(rows.volume.data());
+      const Lanes F = range.load(pairs.F.data());
+      for (int n = 0; n < range.count; ++n) {
+        const std::size_t k = range.begin + n;
+        ++visits[k];
+        EXPECT_EQ(F[n], pairs.F[k]);
+        EXPECT_EQ(volume[n], rows.volume[pairs.j[k]]);
+        for (int a = 0; a < Dim; ++a) {
+          EXPECT_EQ(d.at[a][n], pairs.d[k][a]);
+          for (int b = 0; b < Dim; ++b) EXPECT_EQ(matrix.column[b].at[a][n], rows.matrix[pairs.j[k]](a, b));
+        }
+      }
+      range.store(d, stored.data());
+    });
+  }
+  for (std::size_t k = 0; k < visits.size(); ++k) {
+    EXPECT_EQ(visits[k], 1);
+    EXPECT_EQ(stored[k], pairs.d[k]);
+  }
+}
+
+TYPED_TEST(PairLanes, SumsLeaveOutTheLanesLeftOver) {
+  constexpr int Dim = TypeParam::value;
+  const Rows<Dim> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    Lanes lanes{};
+    for_each_lanes(rows.pairs.begin(i), rows.pairs.end(i), [&](auto range) { lanes += range.only(in_all_lanes(1.0)); });
+    EXPECT_EQ(sum_of(lanes), static_cast<double>(i));
+  }
+}
+
+TEST(SymmetricLanes, AreReadAndSummedFromTheLowerTriangle) {
+  const Mat<3> matrix{{1.0, -9.0, -9.0}, {2.0, 3.0, -9.0}, {4.0, 5.0, 6.0}};
+  const MatLanes<3> lanes = LaneIndices([](int) { return 0; }).symmetric(&matrix);
+  const Mat<3> symmetric{{1.0, 2.0, 4.0}, {2.0, 3.0, 5.0}, {4.0, 5.0, 6.0}};
+  EXPECT_EQ(sum_of(lanes), Mat<3>(lane_count * symmetric));
+  EXPECT_EQ(sum_of_lower(lanes), Mat<3>(lane_count * symmetric));
+  const VecLanes<3> product = lanes.times({in_all_lanes(1.0), in_all_lanes(2.0), in_all_lanes(-1.0)});
+  EXPECT_EQ(sum_of(product), Vec<3>(lane_count * symmetric * Vec<3>(1.0, 2.0, -1.0)));
+}
+
+}  // namespace
+}  // namespace tailwater
