@@ -21,7 +21,7 @@ SETUP_ITERATIONS = 10  # of messages in the set-up of multigrid
 COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG prints, 3D assumed
 NEIGHBOURS = {2: 8, 3: 26}
 COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
-START_BYTES = {2: 100, 3: 140}  # per particle of the whole case, on every rank, while it starts
+START_BYTES = {2: 44, 3: 60}  # per particle of the whole case, on every rank, while it starts
 
 
 def read(name):

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
@@ -23,40 +22,36 @@ double reach_of_walls(const Setup<Dim>& setup) {
   return supports * kernel_radius(setup.kernel) + setup.spacing;
 }
 
-/// Fluid first, then the walls that are near; ids in the order of fluid and table.
+/// An equal share of all particles for each rank, wherever they stand: in the order of fluid first, then the walls that
+/// are near. Ids are in the order of fluid and table.
 template <int Dim>
 Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls,
                               const NearWalls<Dim>& near_walls) {
   const std::size_t fluid_count = fluid.position.size();
   const std::vector<std::size_t> rows = indices_where(
       walls.particles.size(), [&](std::size_t row) { return near_walls.is_near(static_cast<std::int32_t>(row)); });
+  const auto ranks = static_cast<std::size_t>(setup.ranks.size());
+  const auto rank = static_cast<std::size_t>(setup.ranks.rank());
+  const std::size_t all = fluid_count + rows.size();
+  const std::size_t first = all * rank / ranks;
   Particles<Dim> particles;
-  particles.resize(fluid_count + rows.size());
+  particles.resize(all * (rank + 1) / ranks - first);
   particles.owned = particles.size();
   for_each(particles.owned, [&](std::size_t i) {
-    const bool is_fluid = i < fluid_count;
-    const std::size_t row = is_fluid ? 0 : rows[i - fluid_count];
-    particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
-    particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
+    const std::size_t n = first + i;
+    const bool is_fluid = n < fluid_count;
+    const std::size_t row = is_fluid ? 0 : rows[n - fluid_count];
+    particles.position[i] = is_fluid ? fluid.position[n] : walls.particles.position[row];
+    particles.velocity[i] = is_fluid ? fluid.velocity[n] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
-    particles.volume[i] = is_fluid ? fluid.volume[i] : power<Dim>(setup.spacing);
+    particles.volume[i] = is_fluid ? fluid.volume[n] : walls.particles.share[row] * power<Dim>(setup.spacing);
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
     particles.layer_viscosity[i] = 0.0;
     particles.wall_distance[i] = far_from_walls;
-    particles.id[i] = static_cast<std::int64_t>(is_fluid ? i : fluid_count + row);
+    particles.id[i] = static_cast<std::int64_t>(is_fluid ? n : fluid_count + row);
   });
   return particles;
-}
-
-/// Every rank has made all particles; leaves each an equal number of them.
-template <int Dim>
-void keep_any_share(const Communicator& ranks, Neighbourhood<Dim>& neighbourhood, Particles<Dim>& particles) {
-  if (ranks.is_alone()) return;
-  const auto begin_of = [&](int rank) { return static_cast<std::int32_t>(particles.owned * rank / ranks.size()); };
-  std::vector<std::int32_t> kept(begin_of(ranks.rank() + 1) - begin_of(ranks.rank()));
-  std::iota(kept.begin(), kept.end(), begin_of(ranks.rank()));
-  neighbourhood.keep(particles, kept);
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
       near_walls(walls, setup.domain, reach_of_walls(setup)) {
   Particles<Dim>& particles = state.particles;
   particles = make_particles(setup, drawing.fluid, walls, near_walls);
-  keep_any_share(ranks, neighbourhood, particles);
+  drawing.fluid = {};
   decomposition.share_out(particles, neighbourhood.work(particles));
   end_of.assign(particles.owned, -1);
   state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());

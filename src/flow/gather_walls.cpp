@@ -25,7 +25,7 @@ void add_walls(Flow<Dim>& flow, std::span<const std::int32_t> rows) {
     particles.position[i] = place_of(own[n]);
     particles.velocity[i].setZero();
     particles.pressure[i] = 0.0;
-    particles.volume[i] = power<Dim>(flow.setup.spacing);
+    particles.volume[i] = flow.walls.particles.share[own[n]] * power<Dim>(flow.setup.spacing);
     particles.kind[i] = ParticleKind::wall;
     particles.wall_row[i] = own[n];
     particles.id[i] = flow.setup.first_wall_id + own[n];

@@ -11,6 +11,7 @@
 
 #include "base/random.h"
 #include "case/named_numbers.h"
+#include "geometry/cut_cells.h"
 #include "geometry/fill.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
@@ -210,6 +211,15 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
 /// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
 template <int Dim>
 Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x, double dx) {
+  if constexpr (Dim == 3) {
+    // What is behind a mesh may be nearer to another wall, in front of it.
+    for (const WallMesh& mesh : boundary.meshes) {
+      const Vec<3> way = boundary.way_of(mesh);
+      const SurfacePlace place = mesh.surface->nearest(x - way, 0.5 * dx);
+      if (place.triangle < 0 || place.is_on_rim || place.signed_distance >= 0.0) continue;
+      x += (least_wall_distance * dx - place.signed_distance) * boundary.faces[mesh.first_face + place.triangle].normal;
+    }
+  }
   // In a corner, a move away from one wall may approach the next. At most Dim walls meet, so Dim moves are enough.
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
@@ -419,10 +429,11 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
     const Places<Dim> places = make_places<Dim>(spec, b, boundary);
     StartVelocity<Dim> velocity(spec, block, owner);
     InBlock<Dim> is_in_block(places.outline, dx);
-    double share = 1.0;  // of its cell's volume that a particle has
+    double share = 1.0;      // of its cell's volume that a particle has
+    bool is_fitted = false;  // whether walls have had their places already
     const auto put = [&](const Cell<Dim>& cell) {
       Vec<Dim> x = places.at(cell);
-      if (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x) || bodies.hold(x)) return;
+      if (!is_fitted && (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x) || bodies.hold(x))) return;
       for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
         x[axis] += jitter * random_number(spec.particles.seed, fluid.position.size(), axis);
       }
@@ -433,7 +444,12 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
       fluid.block.push_back(static_cast<int>(b));
     };
     if (block.shape == BlockShape::fill) {
-      for (const Cell<Dim>& cell : filled_cells<Dim>(spec, block, owner, boundary, places.lattice)) put(cell);
+      std::vector<Cell<Dim>> cells = filled_cells<Dim>(spec, block, owner, boundary, places.lattice);
+      if (!placement_of(spec.scheme.walls).on_wall) {
+        share = fit_to_volume<Dim>(spec, boundary, places.lattice, cells);
+        is_fitted = true;
+      }
+      for (const Cell<Dim>& cell : cells) put(cell);
     } else if (Dim == 3 && block.shape == BlockShape::mesh) {
       if constexpr (Dim == 3) {
         const MeshSurface& surface = *boundary.water[b];

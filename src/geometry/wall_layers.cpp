@@ -30,7 +30,7 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : body_.meshes) {
       // The body is sampled where it is drawn.
-      if (&mesh != own && mesh.surface->first_crossed(place.position, place.foot, tolerance_) >= 0) return true;
+      if (&mesh != own && mesh.surface->first_crossed(place.stands_at(), place.foot, tolerance_) >= 0) return true;
     }
   }
   return false;
@@ -41,9 +41,10 @@ void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place) {
   taken_.add(place.position);
   Vec<Dim> mean = Vec<Dim>::Zero();
   for (const Vec<Dim>& n : place.normals) mean += n;
-  particles_.position.push_back(place.position);
+  particles_.position.push_back(place.stands_at());
   particles_.normal.push_back(mean.normalized());
   particles_.blocked.push_back(blocked_by<Dim>(place.normals));
+  particles_.share.push_back(place.share);
   particles_.wall.push_back(place.wall);
 }
 

@@ -24,10 +24,14 @@ struct WallLayers {
 /// A place for a wall particle.
 template <int Dim>
 struct WallPlace {
-  Vec<Dim> position;
-  Vec<Dim> foot;                  ///< the point of its own wall nearest to it
-  std::vector<Vec<Dim>> normals;  ///< of the faces that act there; several at a corner
-  int wall = 0;                   ///< index into Boundary::walls
+  Vec<Dim> position;                   ///< where it needs room
+  Vec<Dim> foot;                       ///< the point of its own wall nearest to it
+  std::vector<Vec<Dim>> normals;       ///< of the faces that act there; several at a corner
+  int wall = 0;                        ///< index into Boundary::walls
+  Vec<Dim> offset = Vec<Dim>::Zero();  ///< m; from there to where the particle stands
+  double share = 1.0;                  ///< its volume, over dx^Dim
+
+  Vec<Dim> stands_at() const { return position + offset; }
 };
 
 /// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept.
@@ -48,7 +52,7 @@ class WallParticleCollector {
     if (taken_.has_near(place.position)) return;
     bool is_behind = is_behind_mesh(place, own_mesh);
     body_.visit_plain_faces([&](int f) {
-      is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.position, place.foot, tolerance_));
+      is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_));
     });
     if (!is_behind) keep(place);
   }

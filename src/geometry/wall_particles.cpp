@@ -28,6 +28,7 @@ void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::
   put(all.position, part.position);
   put(all.normal, part.normal);
   put(all.blocked, part.blocked);
+  put(all.share, part.share);
   put(all.wall, part.wall);
 }
 

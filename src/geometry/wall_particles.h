@@ -19,8 +19,9 @@ struct WallParticles {
   /// eigenvalues clipped at 1. It is n n^T at a flat wall, I at a right-angled corner, and changes continuously in
   /// between. A free-slip mirror image of velocity u is u - 2 M u.
   std::vector<Mat<Dim>> blocked;
-  std::vector<int> wall;    ///< index into Boundary::walls
-  std::size_t on_wall = 0;  ///< number of particles on the wall itself; they come first, those behind it after them
+  std::vector<double> share;  ///< its volume, over dx^Dim
+  std::vector<int> wall;      ///< index into Boundary::walls
+  std::size_t on_wall = 0;    ///< number of particles on the wall itself; they come first, those behind it after them
 
   std::size_t size() const { return position.size(); }
   bool is_on_wall(std::int32_t row) const { return static_cast<std::size_t>(row) < on_wall; }

@@ -278,8 +278,8 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
   }
 }
 
-TEST(MeshWall, AndWaterAreTogetherTheWholeLattice) {
-  // A sphere in water: every node of the lattice within the layers is water or wall, and none is both.
+TEST(MeshWall, FillsTheSpaceBehindIt) {
+  // A sphere in water.
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);
   spec.fluid = {box_fluid({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0})};
@@ -287,15 +287,28 @@ TEST(MeshWall, AndWaterAreTogetherTheWholeLattice) {
   const Boundary<3> boundary = make_boundary<3>(spec);
   const FluidParticles<3> fluid = make_fluid_particles(spec, boundary);
   const WallParticles<3> walls = make_dummy_particles(boundary, 0.1, 3);
-  std::size_t inner = 0;  // deeper in the sphere than the layers
+  const Vec<3> centre(0.03, 0.02, 0.01);
+  double volume = 0.0;
+  double moment = 0.0;  // of inertia, of all parts as points
+  const auto add = [&](const Vec<3>& x, double part) {
+    volume += part;
+    moment += part * (x - centre).squaredNorm();
+  };
+  for (std::size_t i = 0; i < walls.size(); ++i) add(walls.position[i], walls.share[i] * 1e-3);
   for (int n = 0; n < 8000; ++n) {
     const Vec<3> x = Vec<3>(n % 20, n / 20 % 20, n / 400) * 0.1 - Vec<3>::Constant(0.95);
-    inner += boundary.nearest(x, infinite).signed_distance < -0.3 ? 1 : 0;
+    if (boundary.nearest(x, infinite).signed_distance < -0.3) add(x, 1e-3);  // deeper in the sphere than the layers
   }
-  EXPECT_EQ(fluid.position.size() + walls.size() + inner, 8000u);
+  // A third of a cell, p wide, is cut by a plane, and the sphere falls away from a plane by p^2/(6 R) in the mean.
+  const double exact = volume_of(sphere_mesh(centre, 0.55, 24));
+  const double bound = 4.0 * std::numbers::pi * 0.55 * 0.55 * 0.1 * 0.1 / (9.0 * 6.0 * 0.55);
+  EXPECT_NEAR(volume, exact, bound);
+  // A point has none of the moment of its cell, dx^2/4 times its volume.
+  const double moment_of_sphere = 0.6 * 0.55 * 0.55 * exact;
+  EXPECT_GT(moment, moment_of_sphere - 0.1 * 0.1 / 4.0 * exact - 0.55 * 0.55 * bound);
+  EXPECT_LT(moment, moment_of_sphere + 0.55 * 0.55 * bound);
   // The share of the lattice that is not water is the sphere's, to the noise of counting nodes on its surface.
-  const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(0.55, 3);
-  EXPECT_NEAR((8000.0 - static_cast<double>(fluid.position.size())) * 1e-3, volume, 0.02 * volume);
+  EXPECT_NEAR((8000.0 - static_cast<double>(fluid.position.size())) * 1e-3, exact, 0.02 * exact);
   for (const Vec<3>& x : fluid.position) EXPECT_GT(boundary.nearest(x, infinite).signed_distance, 0.0249);
 }
 
@@ -439,13 +452,41 @@ TEST(Fill, RunsAroundCornersAndOverASheet) {
   const auto volume_at = [&](double level) {
     fill.level = level;
     spec.fluid = {fill};
+    const FluidParticles<3> fluid = make_fluid_particles(spec, make_boundary<3>(spec));
     double volume = 0.0;
-    for (const double v : make_fluid_particles(spec, make_boundary<3>(spec)).volume) volume += v;
+    for (const double v : fluid.volume) volume += v;
+    EXPECT_NEAR(static_cast<double>(fluid.position.size()), volume / power<3>(0.025), 0.5 + 1e-6);
     return volume;
   };
+  // A third of a cell that two walls cut counts as cut by the nearer: less than half of its section is wrong along the
+  // lines, less than 6 m long, on which the hill meets the tank and where its two slopes meet.
+  const double bound = 6.0 * 0.5 * std::pow(0.025 / 3.0, 2);
   const double slope = 0.5 * 0.5 / 1.2 * 0.5;  // of the wedge on one side, up to z = 0.6
-  EXPECT_NEAR(volume_at(0.6), slope, 0.03 * slope);
-  EXPECT_NEAR(volume_at(0.9), 0.9 - 0.4, 0.03 * 0.5);
+  EXPECT_NEAR(volume_at(0.6), slope, bound);
+  EXPECT_NEAR(volume_at(0.9), 0.9 - 0.4, bound);
+}
+
+TEST(Fill, OverASlopeHasTheVolumeOfTheWater) {
+  CaseSpec spec = empty_case(0.025, 2);
+  WallTable tank;
+  tank.name = "tank";
+  const double rise = std::tan(std::numbers::pi / 18.0);
+  tank.points = {{0.0, 0.6}, {0.0, 0.0}, {0.5, 0.5 * rise}, {0.5, 0.6}};
+  spec.walls = {tank};
+  FluidTable fill;
+  fill.shape = BlockShape::fill;
+  fill.seed = {0.25, 0.27};
+  fill.level = 0.3;
+  spec.fluid = {fill};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const FluidParticles<2> fluid = make_fluid_particles(spec, boundary);
+  double volume = 0.0;
+  for (const double v : fluid.volume) volume += v;
+  // As above: less than half of a third of a cell is wrong in each corner.
+  const double exact = 0.5 * (0.3 - 0.25 * rise);
+  EXPECT_NEAR(volume, exact, std::pow(0.025 / 3.0, 2));
+  EXPECT_EQ(fluid.position.size(), static_cast<std::size_t>(std::lround(exact / (0.025 * 0.025))));
+  for (const Vec<2>& x : fluid.position) EXPECT_GT(boundary.nearest(x, infinite).signed_distance, 0.2499 * 0.025);
 }
 
 TEST(Fill, ThatCannotBeIsRefused) {

@@ -51,7 +51,11 @@ def relative_error(computed, exact):
 
 
 def bottom_distance(run, position):
-    """Distance (m) from the parts of the tank's bottom that are not vertical. In 3D the bottom is the lowest plane."""
+    """Distance (m) from the parts of the tank's bottom that are not vertical. In 3D the bottom is the lowest plane or,
+    if the case's parameters have a `radius`, the round valley of that radius in the middle."""
+    if "radius" in run.parameters:
+        radius = run.parameters["radius"]
+        return radius - np.hypot(position[:, 0] - 0.5 * run.parameters["L"], position[:, 2] - radius)
     wall, = run.case["wall"]
     if run.dimension == 3:
         return position[:, 2] - wall["min"][2]

@@ -348,6 +348,8 @@ def gates(bench):
         tank_gate(bench, "tank-step", "the same with a step", "robustness/tank_step.toml", 0.02, 10, 15),
         tank_gate(bench, "tank-corner", "the same with a corner of 45 degrees", "robustness/tank_corner.toml", 0.02,
                   10, 16),
+        tank_gate(bench, "tank-valley", "the same with a round valley for a bed", "robustness/tank_valley.toml", 0.02,
+                  10, 16),
         tank_gate(bench, "tank-deep", "2 m deep", "robustness/tank_deep.toml", 0.02, 10, 80),
         tank_gate(bench, "tank-3d", "3D tank, 5 s, twice the bars", "robustness/tank_3d.toml", 0.025, 5, 80,
                   factor=2.0),
