@@ -13,8 +13,8 @@
 namespace tailwater {
 namespace {
 
-/// Shares that differ by less are equal: those of cells that are images of each other in a symmetric case.
-constexpr double round_off = 1e-9;
+/// Shares that differ by less are the same: those of cells that are images of each other in a symmetric case.
+constexpr double same_share = 1e-9;
 
 constexpr double deepest = 0.25;  // dx; a particle behind a wall is put in front of it from no deeper
 
@@ -168,14 +168,14 @@ double fit_to_volume(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   bool is_cut = false;
   const auto consider = [&](const Cell<Dim>& cell, bool is_reached) {
     const double share = cutter.share_in_front(cell);
-    is_cut = is_cut || share < 1.0 - round_off;
+    is_cut = is_cut || share < 1.0 - same_share;
     const double volume = edges_of<Dim>(lattice, cell).prod();
     water += share * volume;
     of_cells += is_reached ? volume : 0.0;
     const double height = cutter.least_height(centre_of<Dim>(lattice, cell));
     if (!is_reached && height < -deepest * dx) return;
-    candidates.push_back(
-        {cell, std::round(share / round_off) * round_off, random_number(spec.particles.seed, cell_key<Dim>(cell), 0)});
+    candidates.push_back({cell, std::round(share / same_share) * same_share,
+                          random_number(spec.particles.seed, cell_key<Dim>(cell), 0)});
   };
   std::unordered_set<std::uint64_t> seen;
   for (const Cell<Dim>& cell : cells) seen.insert(cell_key<Dim>(cell));
