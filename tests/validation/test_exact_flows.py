@@ -425,6 +425,36 @@ spacing = 0.1
         faster = shallow_water.stoker_dam_break(self.run_with(lambda x, T: shallow_water.stoker(x / (1.1 * T), 0.2)))
         self.assertAlmostEqual(faster["front_error"], 0.1, delta=self.DX)
 
+    def rough_run(self, ahead, states, roughness=0.04, front=1.0):
+        """A run over a bed of this roughness (m) whose surfaces are `states`, and whose front is `front` times theirs."""
+        scale = math.sqrt(2.0 / 9.81)
+        rows = [np.column_stack([np.full(x.size, T * scale), 2 * x, 0 * x, 2 * h, 2 * h])
+                for T, (x, h, _) in zip(self.LATE_TIMES, states)]
+        names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
+        places = [2 * front * shallow_water.front_of(x, h) for x, h, _ in states]
+        return self.write_run(
+            f"[parameters]\nh0 = 2.0\nh1 = {2 * ahead}\nback = 10.0\nahead = 16.0\n[physics]\ngravity = [0.0, -9.81]\n"
+            f"[particles]\nspacing = 0.1\n[[wall]]\nroughness = {roughness}\n", [(0.0, np.zeros((1, 2)), {})],
+            {"probes/surface.csv": dict(zip(names, np.concatenate(rows).T)),
+             "probes/front.csv": {"time_s": scale * np.array(self.LATE_TIMES), "front_m": np.array(places)}})
+
+    LATE_TIMES = (3.0, 3.5, 4.0)
+
+    def test_a_tip_that_is_too_fast_by_a_known_share(self):
+        theory, _ = shallow_water.rough_theory(0.0, 0.02, self.LATE_TIMES, 5.0, 8.0)
+        numbers = shallow_water.rough_dry_bed(self.rough_run(0.0, theory, front=1.02))
+        self.assertAlmostEqual(numbers["front_error"], 0.02, places=6)
+        self.assertAlmostEqual(numbers["speed_error"], 0.02, places=6)
+        self.assertAlmostEqual(numbers["profile_error"], 0.0, places=6)
+        with self.assertRaisesRegex(DataError, "not rough"):
+            shallow_water.rough_dry_bed(self.rough_run(0.0, theory, roughness=0.0))
+
+    def test_water_that_is_held_back_by_a_known_share_too_much(self):
+        rough, free = shallow_water.rough_theory(0.2, 0.02, self.LATE_TIMES, 5.0, 8.0)
+        more = [(x, h - 0.1 * (free_h - h), u) for (x, h, u), (_, free_h, _) in zip(rough, free)]
+        runs = self.rough_run(0.2, more), self.rough_run(0.2, free)
+        self.assertAlmostEqual(shallow_water.held_back_error(*runs), 0.1, places=6)
+
     def test_too_few_profiles_are_told(self):
         self.TIMES = (1.0, 3.0)
         with self.assertRaisesRegex(DataError, "too few"):

@@ -29,7 +29,7 @@ class WithFriction(unittest.TestCase):
         # What is left out is of higher order in the loss over the way: the differences fall faster than the losses.
         for coefficient, least in ((1e-4, 0.15), (1e-3, 0.3)):
             (x, depth, _), = dam_break(0.0, EvenBed(coefficient), [2.0], 3, 5, cells=2000)
-            loss = 4.0 - front_of(depth, x)
+            loss = 4.0 - front_of(x, depth)
             self.assertAlmostEqual(loss / (4.0 - shallow_water.whitham_front(2.0, coefficient)), 1.0, delta=least)
 
     def test_a_layer_that_fills_the_depth_has_the_logarithmic_law(self):

@@ -222,7 +222,7 @@ def stoker_dam_break(run):
 # ------------------------------------------------------------------------------------------------ with friction
 
 
-def front_of(depth, x):
+def front_of(x, depth):
     """The farthest place that is wet."""
     return float(x[np.flatnonzero(depth > 1e-4)[-1]])
 
@@ -249,7 +249,7 @@ def front_history(run):
     times = [T for T, _, _ in late_profiles(run, scale)]
     front = run.probe("front", "front_m")
     states, _ = rough_states(run, times)
-    return [(T, float(np.interp(T * scale, front.time, front.value)) / depth, front_of(h, x))
+    return [(T, float(np.interp(T * scale, front.time, front.value)) / depth, front_of(x, h))
             for T, (x, h, _) in zip(times, states)]
 
 
