@@ -76,14 +76,19 @@ def weir(run):
             "head_m": head, "discharge_m2_s": discharge, "head_drift_m": drift(run, "upstream", "connected_m")}
 
 
+def flow_over_crest(run):
+    """(discharge (m^2/s), depth upstream (m), energy head over the crest (m)) of steady flow over a weir P high."""
+    discharge = steady_discharge(run, "over_crest")
+    depth = steady_mean(run, "upstream", "connected_m")
+    return discharge, depth, depth - run.parameters["P"] + discharge**2 / (2 * run.gravity * depth**2)
+
+
 def broad_weir(run):
     """coefficient_error: discharge over that of critical flow on the crest, sqrt(g) (2 H/3)^1.5 with the energy head H
     upstream, less 1."""
-    height, g = run.parameters["P"], run.gravity
-    discharge = steady_discharge(run, "over_crest")
-    depth = steady_mean(run, "upstream", "connected_m")
-    head = depth - height + discharge**2 / (2 * g * depth**2)
-    return {"coefficient_error": discharge / (g**0.5 * (2 * head / 3) ** 1.5) - 1, "head_m": depth - height,
+    discharge, depth, head = flow_over_crest(run)
+    g = run.gravity
+    return {"coefficient_error": discharge / (g**0.5 * (2 * head / 3) ** 1.5) - 1, "head_m": depth - run.parameters["P"],
             "discharge_m2_s": discharge, "crest_over_critical": steady_mean(run, "crest", "connected_m")
             / (discharge**2 / g) ** (1 / 3), "head_drift_m": drift(run, "upstream", "connected_m")}
 
@@ -95,10 +100,7 @@ OGEE_COEFFICIENT = 2.18
 
 def ogee(run):
     """coefficient_error: discharge over that of the crest for the energy head upstream, less 1."""
-    height = run.parameters["P"]
-    discharge = steady_discharge(run, "over_crest")
-    depth = steady_mean(run, "upstream", "connected_m")
-    head = depth - height + discharge**2 / (2 * run.gravity * depth**2)
+    discharge, _, head = flow_over_crest(run)
     return {"coefficient_error": discharge / (OGEE_COEFFICIENT * head**1.5) - 1, "energy_head_m": head,
             "discharge_m2_s": discharge, "head_drift_m": drift(run, "upstream", "connected_m")}
 

@@ -155,8 +155,14 @@ def whitham_front(time, coefficient):
 # ----------------------------------------------------------------------------------------------- errors of runs
 
 
-def late_profiles(run, scale):
+def time_unit(run):
+    """sqrt(h0/g), s."""
+    return math.sqrt(run.parameters["h0"] / run.gravity)
+
+
+def late_profiles(run):
     """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
+    scale = time_unit(run)
     times = np.unique(run.profile_table("surface")["time_s"])
     taken = [profile_at(run, "surface", time) for time in times]
     depth = run.parameters["h0"]
@@ -186,7 +192,7 @@ def volume_ahead(x, depth, still):
 def shallow_dam_break(run, exact, still, discharge, level, speed):
     """Numbers that both dam breaks have. A real dam break needs the time sqrt(h0/g) to become shallow: it lags behind by
     a length that stays, so speeds and the discharge are slopes over T, and the profile is the last one's."""
-    profiles = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))
+    profiles = late_profiles(run)
     if len(profiles) < 3:
         raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
     T, x, depth = profiles[-1]
@@ -202,7 +208,7 @@ def ritter_dam_break(run):
     """discharge_error: of the discharge at the gate, 8/27 sqrt(g) h0^1.5, relative. gate_error: of the depth there, 4/9 h0,
     at the last profile. front_error: of the speed of the place where the depth is TIP, relative. profile_error: rms over
     h0 of the last profile."""
-    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    _, x, depth = late_profiles(run)[-1]
     return shallow_dam_break(run, ritter, 0.0, 8 / 27, TIP, 2 - 3 * math.sqrt(TIP)) | {
         "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
 
@@ -212,7 +218,7 @@ def stoker_dam_break(run):
     plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile, relative."""
     still = run.parameters["h1"] / run.parameters["h0"]
     level, speed, bore = stoker_state(still)
-    T, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    T, x, depth = late_profiles(run)[-1]
     tail = speed - math.sqrt(level)
     middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
     return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, 0.5 * (level + still), bore) | {
@@ -245,8 +251,8 @@ def rough_states(run, times):
 
 def front_history(run):
     """[(T, computed front, that of theory)] at the profiles of a run over a rough dry bed."""
-    depth, scale = run.parameters["h0"], math.sqrt(run.parameters["h0"] / run.gravity)
-    times = [T for T, _, _ in late_profiles(run, scale)]
+    depth, scale = run.parameters["h0"], time_unit(run)
+    times = [T for T, _, _ in late_profiles(run)]
     front = run.probe("front", "front_m")
     states, _ = rough_states(run, times)
     return [(T, float(np.interp(T * scale, front.time, front.value)) / depth, front_of(x, h))
@@ -261,7 +267,7 @@ def rough_dry_bed(run):
     late = [entry for entry in history if entry[0] > 2 / 3 * T]
     if len(late) < 2:
         raise DataError(f"{run.path}: has too few profiles from T = {2 / 3 * T:.3g} on for a speed")
-    _, x, depth = late_profiles(run, math.sqrt(run.parameters["h0"] / run.gravity))[-1]
+    _, x, depth = late_profiles(run)[-1]
     theory_x, theory, _ = rough_states(run, [T for T, _, _ in history])[0][-1]
     ahead = (x > 0) & (x < max(found, exact))
     speed = [(late[-1][k] - late[0][k]) / (late[-1][0] - late[0][0]) for k in (1, 2)]
@@ -272,9 +278,8 @@ def rough_dry_bed(run):
 def held_back(rough, free):
     """[(T, computed, that of theory)]: water (h0^2) that has not passed the gate because of the friction of a wet bed, by
     runs that differ only in that. The lag of the start, which theory has not, is the same in both."""
-    depth, scale = rough.parameters["h0"], math.sqrt(rough.parameters["h0"] / rough.gravity)
-    still = rough.parameters["h1"] / depth
-    pairs = list(zip(late_profiles(rough, scale), late_profiles(free, scale)))
+    still = rough.parameters["h1"] / rough.parameters["h0"]
+    pairs = list(zip(late_profiles(rough), late_profiles(free)))
     states, free_states = rough_states(rough, [T for (T, _, _), _ in pairs])
     return [(T, volume_ahead(free_x, free_h, still) - volume_ahead(x, h, still),
              volume_ahead(*free_state[:2], still) - volume_ahead(*state[:2], still))

@@ -4,7 +4,7 @@ the first contact, by a boundary element method that is marched to its steady st
 Lengths over U t, speeds over U, potentials over U^2 t, pressures over rho U^2, with t since the contact: x along the wall
 from the axis, y from the wall. With s = ln t a particle of the surface obeys dx/ds = grad phi - x and
 dphi/ds = |grad phi|^2/2 + 1/2 - phi (Bernoulli at p = 0). The thin jet is cut off where it is CUT thick. The water is
-bounded at the height `reach`, where it moves undisturbed; that lowers the pressure by some 1/(2 reach).
+bounded at the height `reach`, where it moves undisturbed, which lowers the pressure.
 
 Usage: python -m tailwater_validation.water_wedge > cases/verification/data/water_wedge.csv     (some minutes)
 """
@@ -90,7 +90,6 @@ class Wedge:
 
     def __init__(self, half_angle, reach):
         self.far = np.array([math.tan(half_angle) * (1 + reach), reach])
-        self.ends = self.far
         start = np.array([math.tan(half_angle) * (1 + CUT), CUT])
         arc = stretched(math.dist(start, self.far))
         self.ends = start + (self.far - start) * (arc / arc[-1])[:, None]

@@ -25,11 +25,10 @@ def draw_profiles(theory, label, *runs):
     """The latest profile of each run and the earlier ones of the last, over x/t."""
     figure = plots.new_figure(height=3.0)
     axes = figure.subplots()
-    scale = math.sqrt(runs[0].parameters["h0"] / runs[0].gravity)
     for run, style in zip(runs, plots.CYCLE):
-        T, x, depth = shallow_water.late_profiles(run, scale)[-1]
+        T, x, depth = shallow_water.late_profiles(run)[-1]
         axes.plot(x / T, depth, label=f"dx = {run.spacing:g} $h_0$, T = {T:.1f}", linewidth=1.3, zorder=3, **style)
-    T, x, depth = shallow_water.late_profiles(runs[-1], scale)[0]
+    T, x, depth = shallow_water.late_profiles(runs[-1])[0]
     axes.plot(x / T, depth, label=f"dx = {runs[-1].spacing:g} $h_0$, T = {T:.1f}", color=plots.GREY, linewidth=0.9)
     similarity = np.linspace(-1.6, 2.2, 2000)
     axes.plot(similarity, theory(similarity), label=label, **plots.EXACT)
