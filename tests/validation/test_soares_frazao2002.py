@@ -89,6 +89,13 @@ class SoaresFrazao(synthetic_run.CaseTest):
         self.assertAlmostEqual(self.metrics["volume 3"]["value"], area / particles - 1,
                                delta=0.3 * SPACING**2 / particles)
 
+    def test_a_run_that_goes_on_has_the_scores_that_need_no_summary(self):
+        (self.folder / "summary.json").write_text('{"status": "running", "particles": {"fluid": 3200}}')
+        metrics = {metric["name"]: metric for metric in soares_frazao2002.score(self.folder)["metrics"]}
+        self.assertEqual(metrics["behind 3"], self.metrics["behind 3"])
+        self.assertIsNone(metrics["volume 3"]["value"])
+        self.assertIn("has not ended", metrics["volume 3"]["note"])
+
     def test_distance_of_two_runs(self):
         other = RunFolder(write_run(self.folder.with_name("other"), level=0.072))
         for instant, typical, largest in soares_frazao2002.distances(other, RunFolder(self.folder)):

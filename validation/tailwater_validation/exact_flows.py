@@ -84,7 +84,7 @@ def tank(run):
     hydrostatic = run.density * run.gravity * (depth - height)
     kinetic = run.step_curve("kinetic_J")
     rest = min(REST, 0.5 * kinetic.time[-1])
-    mass = run.density * dx**run.dimension * run.summary["particles"]["fluid"]
+    mass = run.density * dx**run.dimension * run.fluid_particles
     level = run.probe("level", "connected_m").window(rest, math.inf).value + run.parameters.get("bed", 0.0)
     return {
         "u_rms": math.sqrt(2 * kinetic.window(rest, math.inf).value.max() / mass / (run.gravity * depth)),

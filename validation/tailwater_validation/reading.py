@@ -45,7 +45,7 @@ def interventions(run, *kinds):
     """Clamps, limiters and fallbacks of these kinds, or of all, per particle and step."""
     counts = {kind: count for kind, count in run.summary["interventions"].items() if isinstance(count, int)}
     return (sum(counts[kind] for kind in kinds or counts)
-            / (run.summary["particles"]["fluid"] * run.summary["steps"]["count"]))
+            / (run.fluid_particles * run.summary["steps"]["count"]))
 
 
 def energy_at(T, run):

@@ -55,6 +55,13 @@ class RunFolder:
             raise DataError(f"{path}: {error}") from error
 
     @property
+    def fluid_particles(self):
+        """How many there are at the end. Throws DataError if the run has not ended."""
+        if "particles" not in self.summary:
+            raise DataError(f"{self.path}: the run has not ended")
+        return self.summary["particles"]["fluid"]
+
+    @property
     def spacing(self):
         return self.case["particles"]["spacing"]
 

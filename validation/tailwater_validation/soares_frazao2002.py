@@ -57,7 +57,7 @@ def score_profiles(run):
         def whole(instant=instant):
             profile = profile_at(run, "surface", instant)
             # Between the middles of the first and last piece and the walls the surface is taken as level.
-            return profile.area(0, LENGTH) / (run.summary["particles"]["fluid"] * run.spacing**2) - 1
+            return profile.area(0, LENGTH) / (run.fluid_particles * run.spacing**2) - 1
         metrics += [measure(Metric(f"behind {instant:g}", f"water behind the crest, t = {instant:g} s", "m^2", ""),
                             value=behind),
                     measure(Metric(f"volume {instant:g}", f"area below the surface over that of the particles, "
