@@ -1,0 +1,289 @@
+#!/usr/bin/python3
+"""A dam break of ours by OpenFOAM's interFoam (volume of fluid, water and air), scored like a run of Tailwater.
+
+It tells what a computation without air, turbulence and surface tension misses, since each can be switched here.
+
+Usage: benchmarks/interfoam.py zhou1999|martin_moyce1952 OUT --dx METRES [--turbulence none|kOmegaSST]
+                               [--air-density 1.2] [--surface-tension 0] [--walls slip|no-slip] [--n2 1] [--end SECONDS]
+OUT is made anew: the case that interFoam ran, and scores.json. Needs Debian's package openfoam.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "validation"))
+
+import numpy  # noqa: E402
+from tailwater_validation import martin_moyce1952, zhou1999  # noqa: E402
+from tailwater_validation.curves import Curve  # noqa: E402
+from tailwater_validation.metric import Metric  # noqa: E402
+
+OPENFOAM = "/usr/share/openfoam"  # where Debian has what its programs read
+THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM wants in two dimensions
+WALLS = ("left", "right", "bottom")
+SAMPLES = 1000  # of every probe over a run
+
+
+def header(kind, name):
+    return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
+
+
+class Case:
+    """The parts of a case that all dam breaks share. A subclass has `size` and `column` (length, height, m), `end` (s),
+    `gauges` (names of probes: field and places), and what `scores` needs of a run: `probe` and `spacing`."""
+
+    def __init__(self, options):
+        self.options = options
+        self.folder = options.out
+        self.cells = tuple(round(length / options.dx) for length in self.size)
+        self.spacing = self.size[0] / self.cells[0]
+
+    def centres(self, axis):
+        return (numpy.arange(self.cells[axis]) + 0.5) * self.size[axis] / self.cells[axis]
+
+    def write(self, path, text, kind="dictionary"):
+        file = self.folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(header(kind, file.name) + text)
+
+    def mesh(self):
+        (length, height), (along, up) = self.size, self.cells
+        corners = [(x, y, z) for z in (0, height) for x, y in ((0, 0), (length, 0), (length, THICKNESS), (0, THICKNESS))]
+        vertices = "\n".join(f"({x} {y} {z})" for x, y, z in corners)
+        self.write("system/blockMeshDict", f"""
+vertices ({vertices});
+blocks (hex (0 1 2 3 4 5 6 7) ({along} 1 {up}) simpleGrading (1 1 1));
+boundary
+(
+    left   {{ type wall; faces ((0 4 7 3)); }}
+    right  {{ type wall; faces ((1 2 6 5)); }}
+    bottom {{ type wall; faces ((0 3 2 1)); }}
+    top    {{ type patch; faces ((4 5 6 7)); }}
+    sides  {{ type empty; faces ((0 1 5 4) (3 7 6 2)); }}
+);
+""")
+
+    def field(self, name, dimensions, inside, wall, top, vector=False):
+        walls = "".join(f"{patch} {{ {wall} }}\n" for patch in WALLS)
+        self.write(f"0/{name}", f"dimensions {dimensions};\ninternalField uniform {inside};\n"
+                                f"boundaryField {{ {walls} sides {{ type empty; }} top {{ {top} }} }}\n",
+                   "volVectorField" if vector else "volScalarField")
+
+    def fields(self):
+        outside = "type inletOutlet; inletValue uniform {0}; value uniform {0};"
+        wall = "type slip;" if self.options.walls == "slip" else "type noSlip;"
+        self.field("U", "[0 1 -1 0 0 0 0]", "(0 0 0)", wall,
+                   "type pressureInletOutletVelocity; value uniform (0 0 0);", vector=True)
+        self.field("p_rgh", "[1 -1 -2 0 0 0 0]", 0, "type fixedFluxPressure; value uniform 0;",
+                   "type totalPressure; p0 uniform 0;")
+        self.field("alpha.water", "[0 0 0 0 0 0 0]", 0, "type zeroGradient;", outside.format(0))
+        if self.options.turbulence != "none":
+            # Still water: as good as no turbulence at the start.
+            self.field("k", "[0 2 -2 0 0 0 0]", 1e-6, "type kqRWallFunction; value uniform 1e-6;", outside.format(1e-6))
+            self.field("omega", "[0 0 -1 0 0 0 0]", 1, "type omegaWallFunction; value uniform 1;", outside.format(1))
+            self.field("nut", "[0 2 -1 0 0 0 0]", 0, "type nutkWallFunction; value uniform 0;",
+                       "type calculated; value uniform 0;")
+
+    def properties(self):
+        self.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);", "uniformDimensionedVectorField")
+        self.write("constant/transportProperties", f"""
+phases (water air);
+water {{ transportModel Newtonian; nu 1e-06; rho 1000; }}
+air   {{ transportModel Newtonian; nu 1.48e-05; rho {self.options.air_density:g}; }}
+sigma {self.options.surface_tension:g};
+""")
+        model = self.options.turbulence
+        self.write("constant/turbulenceProperties", "simulationType laminar;" if model == "none" else
+                   f"simulationType RAS; RAS {{ RASModel {model}; turbulence on; printCoeffs off; }}")
+
+    def schemes(self):
+        self.write("system/fvSchemes", """
+ddtSchemes { default Euler; }
+gradSchemes { default Gauss linear; }
+divSchemes
+{
+    default none;
+    div(rhoPhi,U) Gauss linearUpwind grad(U);
+    div(phi,alpha) Gauss vanLeer;
+    div(phirb,alpha) Gauss linear;
+    div(phi,k) Gauss upwind;
+    div(phi,omega) Gauss upwind;
+    div(((rho*nuEff)*dev2(T(grad(U))))) Gauss linear;
+}
+laplacianSchemes { default Gauss linear corrected; }
+interpolationSchemes { default linear; }
+snGradSchemes { default corrected; }
+wallDist { method meshWave; }
+""")
+        self.write("system/fvSolution", """
+solvers
+{
+    "alpha.water.*" { nAlphaCorr 2; nAlphaSubCycles 1; cAlpha 1; MULESCorr yes; nLimiterIter 5;
+                      solver smoothSolver; smoother symGaussSeidel; tolerance 1e-8; relTol 0; }
+    "pcorr.*"  { solver PCG; preconditioner DIC; tolerance 1e-5; relTol 0; }
+    p_rgh      { solver PCG; preconditioner { preconditioner GAMG; smoother GaussSeidel; tolerance 1e-7; relTol 0; }
+                 tolerance 1e-7; relTol 0.02; }
+    p_rghFinal { solver PCG; preconditioner { preconditioner GAMG; smoother GaussSeidel; tolerance 1e-8; relTol 0; }
+                 tolerance 1e-8; relTol 0; }
+    "(U|k|omega).*" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-7; relTol 0; minIter 1; }
+}
+PIMPLE { momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonalCorrectors 0; }
+relaxationFactors { equations { ".*" 1; } }
+""")
+
+    def control(self):
+        def probes(name, field, points):
+            places = " ".join(f"({x:.6g} {THICKNESS / 2} {z:.6g})" for x, z in points)
+            return (f"{name} {{ type probes; libs (sampling); fields ({field}); writeControl adjustableRunTime; "
+                    f"writeInterval {self.end / SAMPLES:.6g}; probeLocations ({places}); }}\n")
+        functions = "".join(probes(name, *gauge) for name, gauge in self.gauges().items())
+        self.write("system/controlDict", f"""
+application interFoam;
+startFrom startTime; startTime 0; stopAt endTime; endTime {self.end:.6g};
+deltaT 1e-4; adjustTimeStep yes; maxCo 0.4; maxAlphaCo 0.4; maxDeltaT {self.end / SAMPLES:.6g};
+writeControl adjustableRunTime; writeInterval {self.end / 16:.6g};
+writeFormat binary; writePrecision 8; timePrecision 8; runTimeModifiable no;
+functions {{ {functions} }}
+""")
+        self.write("system/setFieldsDict", f"""
+defaultFieldValues (volScalarFieldValue alpha.water 0);
+regions (boxToCell {{ box (-1 -1 -1) ({self.column[0]} 1 {self.column[1]});
+                      fieldValues (volScalarFieldValue alpha.water 1); }});
+""")
+
+    def run(self):
+        for part in (self.mesh, self.fields, self.properties, self.schemes, self.control):
+            part()
+        environment = {"WM_PROJECT_DIR": OPENFOAM} | os.environ
+        for program in ("blockMesh", "setFields", "interFoam"):
+            with (self.folder / f"log.{program}").open("w") as log:
+                subprocess.run([program], cwd=self.folder, env=environment, check=True, stdout=log,
+                               stderr=subprocess.STDOUT)
+
+    def table(self, name, field):
+        """Times, and one row of values for each."""
+        file = self.folder / "postProcessing" / name / "0" / field
+        rows = numpy.loadtxt(file, comments="#", ndmin=2)
+        return rows[:, 0], rows[:, 1:]
+
+    def column_of_cells(self, x, below):
+        """Places of the centres of cells above x, in that column of cells which is nearest, up to a height."""
+        near = min(self.centres(0), key=lambda centre: abs(centre - x))
+        return [(near, z) for z in self.centres(1) if z < below]
+
+    def wet_length(self, name):
+        times, wet = self.table(name, "alpha.water")
+        return Curve(times, wet.sum(axis=1) * self.size[1] / self.cells[1])
+
+    def front(self):
+        times, wet = self.table("floor", "alpha.water")
+        last = [max(numpy.flatnonzero(row > 0.5), default=0) for row in wet]
+        return Curve(times, (numpy.array(last) + 1) * self.spacing)
+
+    def floor(self):
+        return "alpha.water", [(x, self.centres(1)[0]) for x in self.centres(0)]
+
+
+class Zhou(Case):
+    size = zhou1999.TANK, 2.0
+    column = 2 * zhou1999.H, zhou1999.H
+    end = 8 * zhou1999.TIME_SCALE
+    wires = {"H1": 2.725, "H2": 2.228}
+    plate = 0.115, 0.205  # m above the floor
+    second_impact_within = 5.0, 8.0  # T
+
+    def gauges(self):
+        wires = {name: ("alpha.water", self.column_of_cells(x, self.size[1])) for name, x in self.wires.items()}
+        return wires | {"floor": self.floor(), "wall": ("p", self.column_of_cells(self.size[0], 0.4))}
+
+    def probe(self, name, _column):
+        if name in self.wires:
+            return self.wet_length(name)
+        if name == "front":
+            return self.front()
+        times, pressure = self.table("wall", "p")
+        heights = [z for _, z in self.column_of_cells(self.size[0], 0.4)]
+        places = numpy.linspace(*self.plate, 91) if name == "P2" else zhou1999.POINT_HEIGHTS[name]
+        return Curve(times, numpy.array([numpy.interp(places, heights, row).mean() for row in pressure]))
+
+    def scores(self):
+        yield from zhou1999.score_impact(self)
+        yield from (metric for metric in zhou1999.score_curves(self)
+                    if "joined" not in metric.what and "highest" not in metric.what)
+        late = zhou1999.pressure(self, zhou1999.READ_AT).window(*self.second_impact_within)
+        yield Metric("second_impact", "second impact, z = 0.12 m", "T", "about 5.9",
+                     value=float(late.time[late.value.argmax()]))
+        yield Metric("second_peak", "second peak, z = 0.12 m", "rho g H", "0.80..0.86", value=float(late.value.max()))
+
+
+class MartinMoyce(Case):
+    a = 0.05715  # m
+
+    def __init__(self, options):
+        self.parameters = {"n2": options.n2, "a": self.a}
+        self.column = self.a, options.n2 * self.a
+        self.size = 15 * self.a, 1.5 * self.column[1]
+        self.end = 0.5
+        super().__init__(options)
+
+    def gauges(self):
+        return {"height": ("alpha.water", self.column_of_cells(0, self.size[1])), "floor": self.floor()}
+
+    def probe(self, name, _column):
+        return self.front() if name == "front" else self.wet_length(name)
+
+    def scores(self):
+        yield from martin_moyce1952.score_speed(self)
+        yield from martin_moyce1952.score_fronts(self)
+        yield from martin_moyce1952.score_height(self)
+
+
+CASES = {"zhou1999": Zhou, "martin_moyce1952": MartinMoyce}
+
+
+def cpu_seconds(log):
+    return float(re.findall(r"ExecutionTime = ([\d.]+) s", log.read_text())[-1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("case", choices=CASES)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--dx", type=float, required=True, help="size of the cells, m")
+    parser.add_argument("--turbulence", default="none", choices=("none", "kOmegaSST"))
+    parser.add_argument("--air-density", type=float, default=1.2, help="kg/m^3")
+    parser.add_argument("--surface-tension", type=float, default=0.0, help="N/m; of water 0.072")
+    parser.add_argument("--walls", default="slip", choices=("slip", "no-slip"))
+    parser.add_argument("--n2", type=int, default=1, choices=(1, 2), help="martin_moyce1952: height of the column over its width")
+    parser.add_argument("--end", type=float, help="s")
+    parser.add_argument("--score", action="store_true", help="run nothing, score what OUT holds")
+    options = parser.parse_args()
+    if not shutil.which("interFoam"):
+        print("error: interFoam is not installed; remedy: apt-get install openfoam", file=sys.stderr)
+        return 2
+    if options.out.exists() and not options.score:
+        print(f"error: {options.out} exists; remedy: name a new folder", file=sys.stderr)
+        return 2
+    case = CASES[options.case](options)
+    case.end = options.end or case.end
+    if not options.score:
+        case.run()
+    metrics = list(case.scores())
+    for metric in metrics:
+        value = metric.note if metric.value is None else f"{metric.value:.3f} {metric.unit}"
+        shifted = "" if metric.shifted_value is None else f" (at the best shift {metric.shifted_value:.3f})"
+        print(f"{metric.what}, for {metric.against}: {value}{shifted}")
+    cost = {"cpu_s": cpu_seconds(options.out / "log.interFoam")}
+    (options.out / "scores.json").write_text(
+        json.dumps(cost | {metric.name: metric.value for metric in metrics}, indent=2) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
