@@ -83,10 +83,28 @@ class SteadyFlows(unittest.TestCase):
         profiles = "time_s,x_m,bed_m,connected_m,highest_m\n" + "".join(
             f"{t},{place:.9g},0,{depth:.9g},{depth:.9g}\n" for t in (5.0, 6.0, 7.0)
             for place, depth in zip(x, np.where(x < speed * t + 0.605, before, behind)))
-        numbers = flume.hydraulic_jump(self.run_with({"q": q}, {"before": ("connected_m", 0.1, before),
-                                                                "behind": ("connected_m", 0.1, behind)}, profiles))
+        run = self.run_with({"q": q}, {"before": ("connected_m", 0.1, before), "behind": ("connected_m", 0.1, behind)},
+                            profiles)
+        after = q + speed * (behind - before)  # what leaves while the water behind the jump grows longer
+
+        def jump_with(profile):
+            rows = "".join(f"6.0,{height},{u},0,{behind},{after / behind},0\n" for height, u in profile)
+            (run.path / "probes/velocity_behind.csv").write_text(
+                "time_s,height_m,u_m_s,v_m_s,depth_m,mean_u_m_s,mean_v_m_s\n" + rows)
+            return flume.hydraulic_jump(RunFolder(run.path))
+
+        even = after / behind
+        numbers = jump_with(((0.25 * behind, even), (0.75 * behind, even)))
         self.assertAlmostEqual(numbers["wander_m_s"], speed, places=9)
         self.assertAlmostEqual(numbers["conjugate_error"], 0.0, places=9)
+        self.assertAlmostEqual(numbers["momentum_error"], 0.0, places=8)
+        # Half as fast above, half as fast again below: a quarter more momentum, so the depth is more than momentum allows.
+        numbers = jump_with(((0.25 * behind, 1.5 * even), (0.75 * behind, 0.5 * even)))
+        self.assertAlmostEqual(numbers["momentum_coefficient"], 1.25, places=9)
+        less = behind / (1 + numbers["momentum_error"])
+        relative = q - speed * before
+        self.assertAlmostEqual(0.5 * G * less**2 + relative**2 / less + 0.25 * after**2 / behind,
+                               0.5 * G * before**2 + relative**2 / before, places=9)
 
     def test_even_flow_is_told_from_its_levels(self):
         numbers = flume.channel(self.run_with({"H": 0.2, "q": 0.1}, {"depth_upstream": ("connected_m", 0.2, 0.201),

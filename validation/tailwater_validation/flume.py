@@ -117,9 +117,28 @@ def sluice_gate(run):
             "upstream_m": upstream, "jet_m": jet, "upstream_drift_m": drift(run, "upstream", "connected_m")}
 
 
+def uneven_momentum(run, probe):
+    """Flux of momentum over the density (m^3/s^2) through a velocity profile beyond that of even flow of the same depth
+    and discharge, the integral of u^2 less q^2/h. It is the same for an observer that moves."""
+    columns = run.profile_table(probe)
+    depth, discharge, squares = [], [], []
+    for time in np.unique(columns["time_s"][columns["time_s"] >= STEADY * run.case["time"]["end"]]):
+        rows = columns["time_s"] == time
+        height, u, h = (columns[name][rows] for name in ("height_m", "u_m_s", "depth_m"))
+        edges = np.append(0.5 * (height[1:] + height[:-1]), h[0])
+        thickness = np.diff(edges, prepend=0.0)
+        depth.append(h[0])
+        discharge.append(thickness @ u)
+        squares.append(thickness @ u**2)
+    if not depth:
+        raise DataError(f"{run.path}: its probe '{probe}' has no reading of the steady flow")
+    return float(np.mean(squares) - np.mean(discharge) ** 2 / np.mean(depth))
+
+
 def hydraulic_jump(run):
     """conjugate_error: depth behind the jump over Belanger's for the depth and the speed before it, both seen from the
-    jump, which may wander, less 1. wander_m_s: its speed."""
+    jump, which may wander, less 1. momentum_error: the same over the depth that momentum asks for if the flow behind it
+    is as uneven as it is. wander_m_s: the jump's speed. momentum_coefficient: h/q^2 times the integral of u^2 behind it."""
     g = run.gravity
     before = steady_mean(run, "before", "connected_m")
     behind = steady_mean(run, "behind", "connected_m")
@@ -130,10 +149,16 @@ def hydraulic_jump(run):
     profiles = [profile_at(run, "surface", time) for time in times]
     places = [p.x[np.flatnonzero(p.connected > 0.5 * (before + behind))[0]] for p in profiles]
     speed = float(np.polyfit(times, places, 1)[0])
-    froude = (discharge / before - speed) / (g * before) ** 0.5
+    passing = discharge - speed * before
+    froude = passing / before / (g * before) ** 0.5
     conjugate = 0.5 * before * ((1 + 8 * froude**2) ** 0.5 - 1)
-    return {"conjugate_error": behind / conjugate - 1, "before_m": before, "behind_m": behind, "froude": froude,
-            "wander_m_s": speed}
+    uneven = uneven_momentum(run, "velocity_behind")
+    critical = (passing**2 / g) ** (1 / 3)
+    specific_force = 0.5 * g * before**2 + passing**2 / before - uneven
+    with_profile = solve(lambda h: 0.5 * g * h**2 + passing**2 / h - specific_force, critical, 2 * conjugate)
+    return {"conjugate_error": behind / conjugate - 1, "momentum_error": behind / with_profile - 1,
+            "momentum_coefficient": 1 + uneven * behind / (discharge + speed * (behind - before)) ** 2,
+            "before_m": before, "behind_m": behind, "froude": froude, "wander_m_s": speed}
 
 
 def channel(run):

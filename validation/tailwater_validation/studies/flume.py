@@ -88,6 +88,8 @@ def hydraulic_jump(plan):
         "Belanger's formula follows from mass and momentum alone, however the energy is lost.",
         "behind", ("h1", (4,), (4, 6, 9)), 45.0,
         (("conjugate_error", "depth behind the jump, relative error", "", "Belanger", 0.02),
+         ("momentum_error", "the same, with the uneven velocity there", "", "momentum", 0.02),
+         ("momentum_coefficient", "momentum of the flow behind the jump over that of even flow", "", "1", None),
          ("wander_m_s", "speed at which the jump wanders", "m/s", "at rest", None)))
 
 
