@@ -41,6 +41,8 @@ class SteadyFlows(unittest.TestCase):
         numbers = flume.weir(self.run_with({"P": 0.2}, {"upstream": ("connected_m", 0.5, 0.2 + head),
                                                         "over_crest": ("volume_m3", 0.0, 1.01 * discharge)}))
         self.assertAlmostEqual(numbers["coefficient_error"], 0.01, places=9)
+        self.assertAlmostEqual(numbers["ideal_error"], 1.01 * discharge / ((1.782 + 0.24 * head / 0.2) * head**1.5) - 1,
+                               places=9)
         self.assertLess(numbers["head_error"], 0.0)
         self.assertAlmostEqual(numbers["head_m"], head, places=9)
 

@@ -20,6 +20,7 @@ from .waves import crest, solitary
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
 CONTRACTION = 0.61  # of the water behind a sluice gate
+SURFACE_TENSION_HEAD = 0.0011  # m, Rehbock's, of surface tension and viscosity
 
 
 def steady(run, probe, column):
@@ -58,21 +59,22 @@ def solve(function, low, high):
     return 0.5 * (low + high)
 
 
-def rehbock(head, height):
+def rehbock(head, height, added=SURFACE_TENSION_HEAD):
     """Discharge per width (m^2/s) over a thin weir `height` (m) high: Rehbock T. (1929), Discussion of "Precise weir
-    measurements", Trans. ASCE 93, 1143-1162. The 1.1 mm stand for surface tension and viscosity."""
-    effective = head + 0.0011
+    measurements", Trans. ASCE 93, 1143-1162. Water without surface tension and viscosity has no head `added` (m)."""
+    effective = head + added
     return (1.782 + 0.24 * effective / height) * effective**1.5
 
 
 def weir(run):
-    """coefficient_error: discharge over what Rehbock has for the head upstream, less 1. head_error: the head over what he
-    has for the discharge, less 1."""
+    """coefficient_error: discharge over what Rehbock has for the head upstream, less 1. ideal_error: the same for
+    water without surface tension. head_error: the head over what he has for the discharge, less 1."""
     height = run.parameters["P"]
     discharge = steady_discharge(run, "over_crest")
     head = steady_mean(run, "upstream", "connected_m") - height
     expected = solve(lambda h: rehbock(h, height) - discharge, 0.0, 10.0 * head)
-    return {"coefficient_error": discharge / rehbock(head, height) - 1, "head_error": head / expected - 1,
+    return {"coefficient_error": discharge / rehbock(head, height) - 1,
+            "ideal_error": discharge / rehbock(head, height, 0.0) - 1, "head_error": head / expected - 1,
             "head_m": head, "discharge_m2_s": discharge, "head_drift_m": drift(run, "upstream", "connected_m")}
 
 

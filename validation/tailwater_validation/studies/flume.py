@@ -45,6 +45,7 @@ def weir(plan):
         "1.8 % of the discharge here, which this water does not have.",
         "upstream", ("P", (10,), (12, 16, 24)), 16.0,
         (("coefficient_error", "discharge for the head upstream, relative error", "", "Rehbock (1929)", 0.03),
+         ("ideal_error", "the same, of water without surface tension", "", "Rehbock (1929) without 1.1 mm", 0.03),
          ("head_error", "head for the discharge, relative error", "", "Rehbock (1929)", None)), LABORATORY)
 
 
