@@ -1,4 +1,4 @@
-"""Regular waves of which everything is known, at the gauges of cases/wave_flume."""
+"""Waves of which everything is known, at the gauges of cases/wave_flume."""
 
 import tempfile
 import unittest
@@ -55,6 +55,57 @@ class WaveFlume(unittest.TestCase):
 
     def test_the_linear_wave_number_is_the_cases(self):
         self.assertAlmostEqual(float(wave_numbers(1 / PERIOD, DEPTH, G)) * LENGTH, 2 * np.pi, places=6)
+
+
+class IrregularWaves(unittest.TestCase):
+    PERIODS = 40
+
+    def run_with(self, height_factor=1.0, stretch=1.0, reflected=0.0):
+        """A sea of one sine per frequency of the record, `height_factor` times as high and `stretch` times as long as what is
+        asked for, of which a share comes back."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name)
+        (path / "probes").mkdir()
+        start, count = 2 * PERIOD, 60 * self.PERIODS
+        t = start + self.PERIODS * PERIOD / count * np.arange(count)
+        end = start + self.PERIODS * PERIOD
+        share = np.arange(self.PERIODS // 2, 5 * self.PERIODS // 2) / self.PERIODS
+        amplitude = height_factor * HEIGHT / 4 * np.sqrt(2 * stretch * wave_flume.jonswap(share * stretch) / self.PERIODS)
+        frequency = share / PERIOD
+        k, phase = wave_numbers(frequency, DEPTH, G), np.random.default_rng(3).uniform(0, 2 * np.pi, share.size)
+        tables = ""
+        for n, x in enumerate(0.5 * LENGTH + LENGTH * np.array([0, 0.1, 0.25, 0.4]), 1):
+            tables += f'[[probe]]\nname = "a{n}"\ntype = "depth"\nat = [{x}, 0.0]\n'
+            angle = 2 * np.pi * np.outer(t, frequency)
+            level = (np.cos(angle - k * x + phase) + reflected * np.cos(angle + k * x)) @ amplitude
+            (path / "probes" / f"a{n}.csv").write_text("time_s,highest_m\n" + "".join(
+                f"{time:.12g},{DEPTH + z:.12g}\n" for time, z in zip(t, level)))
+        (path / "case.effective.toml").write_text(
+            f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {end}\n"
+            f"[parameters]\nh = {DEPTH}\nT = {PERIOD}\nH = {HEIGHT}\nwindow = {start}\n{tables}")
+        return RunFolder(path)
+
+    def test_the_sea_that_was_asked_for(self):
+        numbers = wave_flume.irregular_waves(self.run_with(reflected=0.1))
+        self.assertAlmostEqual(numbers["height_error"], 0.0, delta=2e-3)
+        self.assertAlmostEqual(numbers["period_error"], 0.0, delta=2e-3)
+        self.assertLess(numbers["parts_in_scatters"], 0.02)
+        self.assertAlmostEqual(numbers["reflection"], 0.1, delta=5e-3)
+
+    def test_a_lower_sea_and_a_longer_one_are_seen(self):
+        self.assertAlmostEqual(wave_flume.irregular_waves(self.run_with(height_factor=0.8))["height_error"], -0.2, delta=2e-3)
+        longer = wave_flume.irregular_waves(self.run_with(stretch=1.1))
+        self.assertAlmostEqual(longer["period_error"], 0.1, delta=0.02)
+        self.assertGreater(longer["parts_in_scatters"], 1.0)
+
+    def test_the_scatter_is_that_of_the_theory(self):
+        """The energy m of a record of length D has the variance of the integral of S^2, over D."""
+        numbers = wave_flume.irregular_waves(self.run_with())
+        f = np.linspace(*wave_flume.BAND, 5001)
+        density = wave_flume.jonswap(f)
+        energy, square = density.mean() * np.ptp(f), (density**2).mean() * np.ptp(f)
+        self.assertAlmostEqual(numbers["height_scatter"], 0.5 * np.sqrt(square / self.PERIODS) / energy, delta=0.006)
 
 
 if __name__ == "__main__":
