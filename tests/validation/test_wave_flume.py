@@ -1,4 +1,4 @@
-"""Regular waves of which everything is known, at the gauges of cases/wave_flume."""
+"""Waves of which everything is known, at the gauges of cases/wave_flume."""
 
 import tempfile
 import unittest
@@ -55,6 +55,64 @@ class WaveFlume(unittest.TestCase):
 
     def test_the_linear_wave_number_is_the_cases(self):
         self.assertAlmostEqual(float(wave_numbers(1 / PERIOD, DEPTH, G)) * LENGTH, 2 * np.pi, places=6)
+
+
+class IrregularWaves(unittest.TestCase):
+    PERIODS, SEED, COMPONENTS = 40, 7, 200
+
+    def run_with(self, height_factor=1.0, high_factor=1.0, reflected=0.0):
+        """The sea of a seed, `height_factor` times as high, and above the peak `high_factor` times as that, of which a share
+        comes back."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name)
+        (path / "probes").mkdir()
+        start = 2 * PERIOD
+        end = start + self.PERIODS * PERIOD
+        t = np.linspace(0, end, 2500)
+        amplitude, omega, k, phase = wave_flume.sea(self.SEED, self.COMPONENTS, HEIGHT, PERIOD, DEPTH, G)
+        amplitude = amplitude * height_factor * np.where(omega > 1.1 * 2 * np.pi / PERIOD, high_factor, 1.0)
+        tables = (f'[[wave_maker]]\nname = "piston"\nseed = {self.SEED}\ncomponents = {self.COMPONENTS}\n')
+        for n, x in enumerate(0.5 * LENGTH + LENGTH * np.array([0, 0.1, 0.25, 0.4]), 1):
+            tables += f'[[probe]]\nname = "a{n}"\ntype = "depth"\nat = [{x}, 0.0]\n'
+            angle = np.outer(t, omega) + phase
+            level = (np.cos(angle - k * x) + reflected * np.cos(angle + k * x)) @ amplitude
+            (path / "probes" / f"a{n}.csv").write_text("time_s,highest_m\n" + "".join(
+                f"{time:.12g},{DEPTH + z:.12g}\n" for time, z in zip(t, level)))
+        (path / "case.effective.toml").write_text(
+            f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {end}\n"
+            f"[parameters]\nh = {DEPTH}\nT = {PERIOD}\nH = {HEIGHT}\nwindow = {start}\n{tables}")
+        return RunFolder(path)
+
+    def test_the_sea_that_was_made(self):
+        numbers = wave_flume.irregular_waves(self.run_with())
+        for name in ("height_error", "period_error", "parts_error"):
+            self.assertAlmostEqual(numbers[name], 0.0, delta=1e-3)
+
+    def test_a_sea_that_loses_height_and_one_that_loses_its_short_waves(self):
+        self.assertAlmostEqual(wave_flume.irregular_waves(self.run_with(height_factor=0.8))["height_error"], -0.2, delta=1e-3)
+        shorter = wave_flume.irregular_waves(self.run_with(high_factor=0.5))
+        self.assertAlmostEqual(shorter["parts_error"], 0.75, delta=0.05)
+        self.assertLess(shorter["height_error"], -0.05)
+
+    def test_waves_that_come_back_are_told_apart(self):
+        numbers = wave_flume.irregular_waves(self.run_with(reflected=0.2))
+        self.assertAlmostEqual(numbers["reflection"], 0.2, delta=0.05)
+        self.assertAlmostEqual(numbers["height_error"], 0.0, delta=0.02)
+
+    def test_the_sines_are_those_of_the_spectrum(self):
+        amplitude, omega, k, _ = wave_flume.sea(self.SEED, self.COMPONENTS, HEIGHT, PERIOD, DEPTH, G)
+        self.assertAlmostEqual(4 * np.sqrt((amplitude**2).sum() / 2), HEIGHT, places=12)
+        self.assertLess(np.abs(omega**2 / (G * k * np.tanh(k * DEPTH)) - 1).max(), 1e-9)
+        self.assertTrue((np.diff(omega) > 0).all())
+
+    def test_the_scatter_is_that_of_the_theory(self):
+        """The energy m of a record of length D has the variance of the integral of S^2, over D."""
+        numbers = wave_flume.irregular_waves(self.run_with())
+        f = np.linspace(*wave_flume.BAND, 5001)
+        density = wave_flume.jonswap(f)
+        energy, square = density.mean() * np.ptp(f), (density**2).mean() * np.ptp(f)
+        self.assertAlmostEqual(numbers["height_scatter"], 0.5 * np.sqrt(square / self.PERIODS) / energy, delta=0.006)
 
 
 if __name__ == "__main__":

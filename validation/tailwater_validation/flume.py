@@ -15,7 +15,7 @@ from . import potential_wave
 from .curves import DataError
 from .floating import floating_box
 from .profiles import profile_at, rms
-from .wave_flume import wave_flume
+from .wave_flume import irregular_waves, wave_flume
 from .waves import crest, solitary
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
@@ -255,4 +255,4 @@ def solitary_wave(run):
 
 FLOWS = {"weir": weir, "broad-weir": broad_weir, "ogee": ogee, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
          "channel": channel, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
-         "floating-box": floating_box}
+         "irregular-waves": irregular_waves, "floating-box": floating_box}

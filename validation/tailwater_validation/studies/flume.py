@@ -171,10 +171,32 @@ def wave_flume(plan):
         (Plot("Depth at the first and at the last gauge over time.", (run,), draw_waves),), shown=run)
 
 
-def draw_waves(run):
+def irregular_waves(plan):
+    rows, periods, seconds = plan.at((8, 12, 35.0), (10, 40, 130.0), (16, 40, 600.0))
+    run = plan.run(f"irregular_waves_h{rows}", "wave_flume/irregular.toml",
+                   (f"particles.spacing=h/{rows}", f"time.end=window+{periods}*T"), seconds)
+    made = "linear theory of the maker"
+    quantities = (("height_error", "significant height, relative error", made, 0.05),
+                  ("period_error", "period of the peak, relative error", made, 0.02),
+                  ("parts_error", "energy below, at and above the peak, largest relative error", made, None),
+                  ("reflection", "height that the absorber sends back over that which comes", "none", None),
+                  ("height_of_draw", "height of the sines made in this record over the spectrum's, less 1", "JONSWAP spectrum", None),
+                  ("height_scatter", "standard deviation of that in records as long", "", None))
+    return Study(
+        "irregular-waves", "Irregular waves: the JONSWAP spectrum", EXACT,
+        f"A piston makes irregular waves over 0.2 m of water, {rows} particles of depth: what runs away from it between 0.5 and 1.8 "
+        "times the peak's frequency, against the sines that its seed makes it make, at the same gauges and times.",
+        f"A record of {periods} periods is one draw of a sea, which scatters about the spectrum asked for; the sines of the seed do "
+        "not. The theory is linear.",
+        tuple(Check(Metric(f"irregular-waves.{key}", words, "", against, high=high), (run,), partial(exact, "irregular-waves", key))
+              for key, words, against, high in quantities),
+        (Plot("Depth at the first and at the last gauge over time.", (run,), partial(draw_waves, names=("a1", "a4"))),), shown=run)
+
+
+def draw_waves(run, names=("a1", "b1")):
     figure = plots.new_figure(height=2.6)
     axes = figure.subplots()
-    for name, style in zip(("a1", "b1"), plots.CYCLE):
+    for name, style in zip(names, plots.CYCLE):
         curve = run.probe(name, "highest_m")
         axes.plot(curve.time, curve.value, label=name, linewidth=1.0, **style)
     axes.set(xlabel="t (s)", ylabel="depth (m)")
