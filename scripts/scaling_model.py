@@ -21,7 +21,9 @@ SETUP_ITERATIONS = 10  # of messages in the set-up of multigrid
 COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG prints, 3D assumed
 NEIGHBOURS = {2: 8, 3: 26}
 COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
-START_BYTES = {2: 44, 3: 60}  # per particle of the whole case, on every rank, while it starts
+# While a run starts (docs/scaling.md): per particle of a rank, and per row of the walls, which all ranks list.
+START_BYTES, ROW_BYTES = 420, 300
+ROWS = {2: lambda n: 33 * n ** (1 / 2), 3: lambda n: 27 * n ** (2 / 3)}  # of a tank as there
 
 
 def read(name):
@@ -70,7 +72,7 @@ def main():
             total = own + lost + halo + sums + multigrid
             print(f"| {dimension}D | {particles:.0e} | {ranks:.0e} | {particles / ranks:.0e} | {own:.2f} | {lost:.2f} | "
                   f"{1e3 * halo:.1f} | {1e3 * sums:.1f} | {1e3 * multigrid:.0f} | {total:.2f} | {own / total:.0%} | "
-                  f"{1e-9 * START_BYTES[dimension] * particles:.1f} |")
+                  f"{1e-9 * (START_BYTES * particles / ranks + ROW_BYTES * ROWS[dimension](particles)):.1f} |")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/for_each.h"
 #include "flow/verbs.h"
 
@@ -22,12 +23,12 @@ double reach_of_walls(const Setup<Dim>& setup) {
   return supports * kernel_radius(setup.kernel) + setup.spacing;
 }
 
-/// An equal share of all particles for each rank, wherever they stand: in the order of fluid first, then the walls that
-/// are near. Ids are in the order of fluid and table.
+/// An equal share of all particles for each rank, wherever they stand: first its part of the fluid, then of the walls
+/// that are near. Ids are in the order of fluid and table.
 template <int Dim>
 Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls,
                               const NearWalls<Dim>& near_walls) {
-  const std::size_t fluid_count = fluid.position.size();
+  const auto fluid_count = static_cast<std::size_t>(fluid.all);
   const std::vector<std::size_t> rows = indices_where(
       walls.particles.size(), [&](std::size_t row) { return near_walls.is_near(static_cast<std::int32_t>(row)); });
   const auto ranks = static_cast<std::size_t>(setup.ranks.size());
@@ -37,14 +38,16 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   Particles<Dim> particles;
   particles.resize(all * (rank + 1) / ranks - first);
   particles.owned = particles.size();
+  TAILWATER_ASSERT(fluid.position.empty() || static_cast<std::size_t>(fluid.first) == first,
+                   "the water is shared out as all particles are");
   for_each(particles.owned, [&](std::size_t i) {
     const std::size_t n = first + i;
     const bool is_fluid = n < fluid_count;
     const std::size_t row = is_fluid ? 0 : rows[n - fluid_count];
-    particles.position[i] = is_fluid ? fluid.position[n] : walls.particles.position[row];
-    particles.velocity[i] = is_fluid ? fluid.velocity[n] : Vec<Dim>(Vec<Dim>::Zero());
+    particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
+    particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
-    particles.volume[i] = is_fluid ? fluid.volume[n] : walls.particles.share[row] * power<Dim>(setup.spacing);
+    particles.volume[i] = is_fluid ? fluid.volume[i] : walls.particles.share[row] * power<Dim>(setup.spacing);
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
     particles.layer_viscosity[i] = 0.0;
@@ -57,7 +60,7 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
 }  // namespace
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks) : Flow(spec, ranks, Drawing<Dim>(spec)) {}
+Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks) : Flow(spec, ranks, Drawing<Dim>(spec, ranks)) {}
 
 template <int Dim>
 Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing)

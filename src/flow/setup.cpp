@@ -41,25 +41,18 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model) {
   return walls;
 }
 
-/// Height of the fluid along gravity [m]; its largest extent where there is no gravity.
+/// Height of the fluid along gravity [m]; its largest extent where there is no gravity. Collective.
 template <int Dim>
 double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
-  if (fluid.position.empty()) return 0.0;
-  Vec<Dim> low = fluid.position[0];
-  Vec<Dim> high = fluid.position[0];
-  for (const Vec<Dim>& position : fluid.position) {
-    low = low.cwiseMin(position);
-    high = high.cwiseMax(position);
-  }
-  if (gravity.norm() == 0.0) return (high - low).maxCoeff() + spacing;
-  const Vec<Dim> down = gravity.normalized();
-  double lowest = down.dot(fluid.position[0]);
-  double highest = lowest;
-  for (const Vec<Dim>& position : fluid.position) {
-    lowest = std::max(lowest, down.dot(position));
-    highest = std::min(highest, down.dot(position));
-  }
-  return lowest - highest + spacing;
+  if (fluid.all == 0) return 0.0;
+  if (gravity.norm() == 0.0) return fluid.box().sizes().maxCoeff() + spacing;
+  return fluid.extent_along(gravity.normalized()) + spacing;
+}
+
+/// Wall particles that are among the particles from the start: those that move.
+template <int Dim>
+std::int64_t moving_rows(const Walls<Dim>& walls) {
+  return std::ranges::count_if(walls.particles.wall, [&](int wall) { return walls.boundary.walls[wall].moves(); });
 }
 
 bool asks_for_wall_forces(const ProbeTable& probe) { return probe.type == ProbeType::force; }
@@ -100,11 +93,11 @@ std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
 }  // namespace
 
 template <int Dim>
-Drawing<Dim>::Drawing(const CaseSpec& spec)
+Drawing<Dim>::Drawing(const CaseSpec& spec, const Communicator& ranks)
     : wall_model(make_wall_model<Dim>(spec.scheme.walls)),
       walls(make_walls(spec, *wall_model)),
       wall_motion(spec, walls.boundary, walls.particles),
-      fluid(make_fluid_particles(spec, walls.boundary)) {}
+      fluid(make_fluid_particles(spec, walls.boundary, ranks, moving_rows(walls))) {}
 
 template <int Dim>
 Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<Dim>& drawing)
@@ -112,7 +105,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       scheme(spec.scheme),
       density(spec.physics.density),
       spacing(spec.particles.spacing),
-      first_wall_id(static_cast<std::int64_t>(drawing.fluid.position.size())),
+      first_wall_id(drawing.fluid.all),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
       length(scheme.length > 0.0 ? scheme.length
                                  : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),

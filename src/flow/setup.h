@@ -21,11 +21,11 @@
 
 namespace tailwater {
 
-/// The walls and the water of a case at the start. All ranks draw the whole case.
+/// The walls of a case, and this rank's part of its water at the start.
 template <int Dim>
 struct Drawing {
-  /// Throws InputError for an impossible geometry.
-  explicit Drawing(const CaseSpec& spec);
+  /// Throws InputError for an impossible geometry. Collective.
+  Drawing(const CaseSpec& spec, const Communicator& ranks);
 
   std::shared_ptr<const WallModel<Dim>> wall_model;
   Walls<Dim> walls;

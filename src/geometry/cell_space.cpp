@@ -10,19 +10,13 @@
 namespace tailwater {
 
 template <int Dim>
-CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, std::span<const Vec<Dim>> water,
-                          double most)
+CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces,
+                          const Eigen::AlignedBox<double, Dim>& water, double most)
     : tolerance_(corner_tolerance * spec.particles.spacing) {
-  low_ = faces[0].corners[0];
-  Vec<Dim> high = low_;
-  const auto enclose = [&](const Vec<Dim>& x) {
-    low_ = low_.cwiseMin(x);
-    high = high.cwiseMax(x);
-  };
-  for (const WallFace<Dim>& face : faces) {
-    for (const Vec<Dim>& corner : face.corners) enclose(corner);
-  }
-  for (const Vec<Dim>& x : water) enclose(x);
+  Eigen::AlignedBox<double, Dim> box = water;
+  for (const WallFace<Dim>& face : faces) box.extend(face.box());
+  low_ = box.min();
+  const Vec<Dim> high = box.max();
   const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);
   double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
   // Where the case is thinner than such a cell, there would be more of them along its other extents.
@@ -51,6 +45,13 @@ std::size_t CellSpace<Dim>::index(const Cell& c) const {
   std::size_t i = 0;
   for (int axis = Dim - 1; axis >= 0; --axis) i = i * count_[axis] + c[axis];
   return i;
+}
+
+template <int Dim>
+typename CellSpace<Dim>::Cell CellSpace<Dim>::cell(std::size_t index) const {
+  Cell c;
+  for (int axis = 0; axis < Dim; index /= count_[axis++]) c[axis] = static_cast<int>(index % count_[axis]);
+  return c;
 }
 
 template <int Dim>
@@ -168,11 +169,16 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
 }
 
 template <int Dim>
-std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, std::span<const Vec<Dim>> positions) {
-  std::vector<typename CellSpace<Dim>::Cell> cells;
-  for (const Vec<Dim>& x : positions) {
+std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid) {
+  std::vector<int> is_wet(space.count(), 0);
+  for (const Vec<Dim>& x : fluid.position) {
     const auto c = space.cell_of(x);
-    if (space.face_between(c, x, space.centre(c)) < 0) cells.push_back(c);
+    if (space.face_between(c, x, space.centre(c)) < 0) is_wet[space.index(c)] = 1;
+  }
+  fluid.ranks.largest_of_each(is_wet);
+  std::vector<typename CellSpace<Dim>::Cell> cells;
+  for (std::size_t c = 0; c < is_wet.size(); ++c) {
+    if (is_wet[c] != 0) cells.push_back(space.cell(c));
   }
   return cells;
 }
@@ -181,7 +187,7 @@ std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space,
   template class CellSpace<Dim>;                                                                        \
   template Spread<Dim> spread(const CellSpace<Dim>&, const std::vector<typename CellSpace<Dim>::Cell>&, \
                               const Vec<Dim>&);                                                         \
-  template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, std::span<const Vec<Dim>>);
+  template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, const FluidParticles<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -3,27 +3,29 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/sampling.h"
 
 namespace tailwater {
 
-/// Cells that cover `faces` and `water`. Their size is dx, or larger to limit their number to `most`. Whether a path
-/// meets a wall does not depend on their size.
+/// Cells that cover `faces` and the box of the `water`. Their size is dx, or larger to limit their number to `most`.
+/// Whether a path meets a wall does not depend on their size.
 template <int Dim>
 class CellSpace {
  public:
   using Cell = std::array<int, Dim>;
 
-  CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, std::span<const Vec<Dim>> water, double most);
+  CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Eigen::AlignedBox<double, Dim>& water,
+            double most);
 
   std::size_t count() const { return near_faces_.size() - 1; }
   double volume() const { return size_.prod(); }  ///< of a cell, m^Dim
   std::size_t index(const Cell& c) const;
+  Cell cell(std::size_t index) const;
   Vec<Dim> centre(const Cell& c) const;
   Cell cell_of(const Vec<Dim>& x) const;
   /// The neighbour of a cell; empty if it is outside all cells.
@@ -91,8 +93,8 @@ template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down);
 
-/// The cells of water at `positions`, without positions that a wall separates from the centre of their cell.
+/// The cells of the water of all ranks, without places that a wall separates from the centre of their cell. Collective.
 template <int Dim>
-std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, std::span<const Vec<Dim>> positions);
+std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid);
 
 }  // namespace tailwater

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
 
 #include "base/random.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
+#include "parallel/at_start.h"
 
 namespace tailwater {
 namespace {
@@ -42,78 +42,113 @@ void for_each_around(const Cell<Dim>& cell, Visit&& visit) {
   }
 }
 
-/// Where walls cut cells.
+/// Where walls, and the surface of a block, cut cells.
 template <int Dim>
 class Cutter {
  public:
-  Cutter(const Boundary<Dim>& boundary, const Lattice<Dim>& lattice, double spacing)
-      : boundary_(boundary), lattice_(lattice), reach_(2.0 * spacing) {
+  Cutter(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const WaterShape<Dim>& shape,
+         const Lattice<Dim>& lattice)
+      : boundary_(boundary), shape_(shape), lattice_(lattice), reach_(2.0 * spec.particles.spacing) {
     plain_.walls = boundary.walls;
     boundary.visit_plain_faces([&](int f) {
-      if (boundary.plate_of(boundary.faces[f].wall) < 0) plain_.faces.push_back(boundary.faces[f]);
+      const WallFace<Dim>& face = boundary.faces[f];
+      if (boundary.plate_of(face.wall) >= 0) return;
+      plain_.faces.push_back(face);
+      cuts_.push_back(adapts_to_wall(spec, block, face));
     });
     plain_.file_faces(reach_);
   }
 
-  /// The share of a cell that is in front of all walls, as if they were flat over a part of it.
-  double share_in_front(const Cell<Dim>& cell) const {
+  /// The share of a cell that is in the block and in front of all walls, as if they were flat over a part of it.
+  double share_of_water(const Cell<Dim>& cell) const {
+    return share(cell, [&](const Vec<Dim>& x, auto&& visit) {
+      visit_walls(x, visit);
+      visit_shape(x, visit);
+    });
+  }
+
+  /// The same without walls, of a cell whose centre the block holds or not.
+  double share_of_shape(const Cell<Dim>& cell, bool holds_centre) const {
+    const double half = half_diagonal(cell);
+    bool is_near = false;
+    visit_shape(centre_of<Dim>(lattice_, cell),
+                [&](const Vec<Dim>&, double height) { is_near = std::abs(height) < half; });
+    if (!is_near) return holds_centre ? 1.0 : 0.0;
+    return share(cell, [&](const Vec<Dim>& x, auto&& visit) { visit_shape(x, visit); });
+  }
+
+  /// m; of the centre of a cell above the walls and the surface, negative behind any of them, infinite far from all.
+  double least_height(const Cell<Dim>& cell) const {
+    const Vec<Dim> x = centre_of<Dim>(lattice_, cell);
+    double least = std::numeric_limits<double>::infinity();
+    const auto see = [&](const Vec<Dim>&, double height) { least = std::min(least, height); };
+    visit_walls(x, see);
+    visit_shape(x, see);
+    return least;
+  }
+
+  double half_diagonal(const Cell<Dim>& cell) const { return 0.5 * edges_of<Dim>(lattice_, cell).norm(); }
+
+ private:
+  template <class VisitNear>
+  double share(const Cell<Dim>& cell, VisitNear&& visit_near) const {
     const Vec<Dim> centre = centre_of<Dim>(lattice_, cell);
     const Vec<Dim> edge = edges_of<Dim>(lattice_, cell);
+    double least = std::numeric_limits<double>::infinity();
+    const auto share_of_part = [&](const Vec<Dim>& x, const Vec<Dim>& part) {
+      double share = 1.0;
+      visit_near(x, [&](const Vec<Dim>& normal, double height) {
+        share = std::min(share, part_in_front<Dim>(part, normal, height).share);
+        least = std::min(least, height);
+      });
+      return share;
+    };
     const double whole = share_of_part(centre, edge);
-    const double of_ball = 0.5 * edge.norm();
-    if (whole <= 0.0 || least_height(centre) >= of_ball) return whole;
+    if (whole <= 0.0 || least >= 0.5 * edge.norm()) return whole;
     double sum = 0.0;
     for_each_part<Dim>(centre, edge, [&](const Vec<Dim>& x, const Vec<Dim>& part) { sum += share_of_part(x, part); });
     return sum / parts_of_cell<Dim>;
   }
 
-  /// m; of a place above the walls, negative behind any of them, infinite far from all.
-  double least_height(const Vec<Dim>& x) const {
-    double least = std::numeric_limits<double>::infinity();
-    visit_walls(x, [&](const Vec<Dim>&, double height) { least = std::min(least, height); });
-    return least;
+  /// Calls visit(normal, height), where the nearest point of something is and how high x is above it.
+  template <class Visit>
+  void tell(const Vec<Dim>& x, const Vec<Dim>& point, double height, const Vec<Dim>& normal, Visit&& visit) const {
+    const bool is_on_it = std::abs(height) < corner_tolerance * reach_;
+    visit(is_on_it ? normal : Vec<Dim>((x - point) / height), height);
   }
 
- private:
   /// Calls visit(normal, height) for the walls that are no meshes and for each mesh. What is behind a mesh may be
   /// nearer to another wall, in front of it.
   template <class Visit>
   void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
-    const auto tell = [&](const Vec<Dim>& point, double height, const Vec<Dim>& normal) {
-      const bool is_on_wall = std::abs(height) < corner_tolerance * reach_;
-      visit(is_on_wall ? normal : Vec<Dim>((x - point) / height), height);
-    };
-    if (const NearestWall<Dim> wall = plain_.nearest(x, reach_); wall.face >= 0) {
-      tell(wall.point, wall.signed_distance, plain_.faces[wall.face].normal);
+    if (const NearestWall<Dim> wall = plain_.nearest(x, reach_); wall.face >= 0 && cuts_[wall.face]) {
+      tell(x, wall.point, wall.signed_distance, plain_.faces[wall.face].normal, visit);
     }
     if constexpr (Dim == 3) {
       for (const WallMesh& mesh : boundary_.meshes) {
         const Vec<3> way = boundary_.way_of(mesh);
         const SurfacePlace place = mesh.surface->nearest(x - way, reach_);
         if (place.triangle < 0 || place.is_on_rim) continue;
-        tell(place.point + way, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal);
+        tell(x, place.point + way, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal,
+             visit);
       }
     }
   }
 
-  double share_of_part(const Vec<Dim>& x, const Vec<Dim>& edge) const {
-    double share = 1.0;
-    visit_walls(x, [&](const Vec<Dim>& normal, double height) {
-      share = std::min(share, part_in_front<Dim>(edge, normal, height).share);
+  template <class Visit>
+  void visit_shape(const Vec<Dim>& x, Visit&& visit) const {
+    shape_.visit_surface(x, reach_, [&](const Vec<Dim>& point, double height, const Vec<Dim>& normal) {
+      tell(x, point, height, normal, visit);
     });
-    return share;
   }
 
   const Boundary<Dim>& boundary_;
+  const WaterShape<Dim>& shape_;
   const Lattice<Dim>& lattice_;
-  double reach_;         ///< m
-  Boundary<Dim> plain_;  ///< without meshes and plates
+  double reach_;            ///< m
+  Boundary<Dim> plain_;     ///< without meshes and plates
+  std::vector<bool> cuts_;  ///< by its faces
 };
-
-template <int Dim>
-bool is_before(const Cell<Dim>& a, const Cell<Dim>& b) {
-  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
-}
 
 }  // namespace
 
@@ -152,71 +187,144 @@ PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height) 
   return {std::min(share, 1.0), distance};
 }
 
+namespace {
+
+/// What is summed over cells, row by row, so that the sums do not depend on who makes them.
+struct RowSums {
+  double reached = 0.0;          ///< cells
+  double volume_reached = 0.0;   ///< m^Dim
+  double whole = 0.0;            ///< cells that are all water
+  double volume_whole = 0.0;     ///< m^Dim
+  double volume_of_water = 0.0;  ///< m^Dim, in all cells
+  double volume_in_shape = 0.0;  ///< m^Dim, the same without walls
+};
+constexpr std::size_t numbers_of_row = sizeof(RowSums) / sizeof(double);
+
+/// Calls visit(row) for this rank's part of the rows.
+template <int Dim, class Visit>
+void for_each_own_row(const LatticeBlock<Dim>& lattice, const Communicator& ranks, Visit&& visit) {
+  const std::int64_t rows = lattice.rows();
+  const std::int64_t end = rows * (ranks.rank() + 1) / ranks.size();
+  for (std::int64_t row = rows * ranks.rank() / ranks.size(); row < end; ++row) visit(row);
+}
+
+/// Whether a cell beside this one is reached.
 template <int Dim>
-double fit_to_volume(const CaseSpec& spec, const Boundary<Dim>& boundary, const Lattice<Dim>& lattice,
-                     std::vector<Cell<Dim>>& cells) {
-  struct Candidate {
-    Cell<Dim> cell;
-    double share;
-    double draw;
-  };
-  const double dx = spec.particles.spacing;
-  const Cutter<Dim> cutter(boundary, lattice, dx);
-  std::vector<Candidate> candidates;
-  double water = 0.0;  // m^Dim
-  double of_cells = 0.0;
-  bool is_cut = false;
-  const auto consider = [&](const Cell<Dim>& cell, bool is_reached) {
-    const double share = cutter.share_in_front(cell);
-    is_cut = is_cut || share < 1.0 - same_share;
-    const double volume = edges_of<Dim>(lattice, cell).prod();
-    water += share * volume;
-    of_cells += is_reached ? volume : 0.0;
-    const double height = cutter.least_height(centre_of<Dim>(lattice, cell));
-    if (!is_reached && height < -deepest * dx) return;
-    candidates.push_back({cell, std::round(share / same_share) * same_share,
-                          random_number(spec.particles.seed, cell_key<Dim>(cell), 0)});
-  };
-  std::unordered_set<std::uint64_t> seen;
-  for (const Cell<Dim>& cell : cells) seen.insert(cell_key<Dim>(cell));
-  for (const Cell<Dim>& cell : cells) consider(cell, true);
-  // Beside them, the cells whose centres are behind a wall.
-  for (const Cell<Dim>& cell : cells) {
-    for_each_around<Dim>(cell, [&](Cell<Dim> beside) {
-      for (int axis = 0; axis < Dim; ++axis) {
-        const int count = lattice[axis].count();
-        if (!periodic_range(spec.domain, axis).empty()) beside[axis] = (beside[axis] + count) % count;
-        if (beside[axis] < 0 || beside[axis] >= count) return;
+bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+                     const Cell<Dim>& cell) {
+  bool found = false;
+  for_each_around<Dim>(cell, [&](Cell<Dim> beside) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const int count = lattice.count[axis];
+      if (!periodic_range(spec.domain, axis).empty()) beside[axis] = (beside[axis] + count) % count;
+      if (beside[axis] < 0 || beside[axis] >= count) return;
+    }
+    found = found || is_reached(beside);
+  });
+  return found;
+}
+
+}  // namespace
+
+template <int Dim>
+FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
+                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+                           const Communicator& ranks) {
+  const Cutter<Dim> cutter(spec, boundary, block, shape, lattice.axes);
+  std::vector<RowSums> rows(static_cast<std::size_t>(lattice.rows()));
+  FittedCells<Dim> fitted;
+  for_each_own_row(lattice, ranks, [&](std::int64_t row) {
+    RowSums& sums = rows[row];
+    lattice.visit_row(row, [&](const Cell<Dim>& cell) {
+      const double volume = edges_of<Dim>(lattice.axes, cell).prod();
+      if (shape.has_surface()) {
+        const bool holds_centre = shape.holds(cell, centre_of<Dim>(lattice.axes, cell));
+        sums.volume_in_shape += cutter.share_of_shape(cell, holds_centre) * volume;
       }
-      if (seen.contains(cell_key<Dim>(beside))) return;
-      if (cutter.least_height(centre_of<Dim>(lattice, beside)) >= 0.0) return;
-      seen.insert(cell_key<Dim>(beside));
-      consider(beside, false);
+      const bool is_cell_reached = is_reached(cell);
+      double height = 0.0;
+      if (!is_cell_reached) {
+        height = cutter.least_height(cell);
+        const bool is_cut = height < 0.0 && height > -cutter.half_diagonal(cell);
+        if (!is_cut || !is_beside_water<Dim>(spec, lattice, is_reached, cell)) return;
+      }
+      const double share = cutter.share_of_water(cell);
+      if (!is_cell_reached && share < same_share) return;
+      sums.volume_of_water += share * volume;
+      if (is_cell_reached) {
+        sums.reached += 1.0;
+        sums.volume_reached += volume;
+      }
+      if (is_cell_reached && share > 1.0 - same_share) {
+        sums.whole += 1.0;
+        sums.volume_whole += volume;
+      } else if (height > -deepest * spec.particles.spacing) {
+        const double draw = random_number(spec.particles.seed, cell_key<Dim>(cell), 0);
+        fitted.cut.push_back({cell, std::round(share / same_share) * same_share, draw, false});
+      }
     });
+  });
+  fitted.cut = gather_on_all(ranks, fitted.cut);
+  ranks.sum_of_each({&rows[0].reached, rows.size() * numbers_of_row});
+  RowSums all;
+  for (const RowSums& row : rows) {
+    fitted.in_row.push_back(row.whole);
+    all.reached += row.reached;
+    all.volume_reached += row.volume_reached;
+    all.whole += row.whole;
+    all.volume_whole += row.volume_whole;
+    all.volume_of_water += row.volume_of_water;
+    all.volume_in_shape += row.volume_in_shape;
   }
-  if (!is_cut) return 1.0;
+  if (all.reached == 0.0 || (fitted.cut.empty() && !shape.has_surface())) return fitted;
+
+  // The parts of cells leave out corners of the surface; what its formula gives is exact.
+  double exact = 1.0;
+  if (shape.has_surface()) exact = all.volume_in_shape > 0.0 ? shape.volume() / all.volume_in_shape : 0.0;
+  const double water = exact * all.volume_of_water;
   // Cells have much the same volume, that of dx^Dim.
-  const double mean = of_cells / static_cast<double>(cells.size());
-  const std::size_t count =
-      std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(water / mean)), 1, candidates.size());
-  std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
+  const auto count = std::lround(water / (all.volume_reached / all.reached) - all.whole);
+  const auto taken = static_cast<std::size_t>(std::clamp<long>(count, 0, static_cast<long>(fitted.cut.size())));
+  using Cut = typename FittedCells<Dim>::Cut;
+  std::ranges::sort(fitted.cut, [](const Cut& a, const Cut& b) {
     if (a.share != b.share) return a.share > b.share;
     if (a.draw != b.draw) return a.draw < b.draw;
     return is_before<Dim>(a.cell, b.cell);
   });
-  candidates.resize(count);
-  cells.clear();
-  of_cells = 0.0;
-  for (const Candidate& candidate : candidates) cells.push_back(candidate.cell);
-  std::ranges::sort(cells, is_before<Dim>);
-  for (const Cell<Dim>& cell : cells) of_cells += edges_of<Dim>(lattice, cell).prod();
-  return water / of_cells;
+  for (std::size_t k = 0; k < taken; ++k) fitted.cut[k].is_taken = true;
+  std::ranges::sort(fitted.cut, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
+  double of_cells = all.volume_whole;
+  double in_cells = all.volume_whole;
+  for (const Cut& cut : fitted.cut) {
+    if (!cut.is_taken) continue;
+    const double volume = edges_of<Dim>(lattice.axes, cut.cell).prod();
+    of_cells += volume;
+    in_cells += cut.share * volume;
+    fitted.in_row[lattice.row_of(cut.cell)] += 1.0;
+  }
+  if (of_cells > 0.0) fitted.share = water / of_cells;
+  if (all.volume_of_water > 0.0) fitted.missed = 1.0 - in_cells / all.volume_of_water;
+  return fitted;
 }
 
-template double fit_to_volume<2>(const CaseSpec&, const Boundary<2>&, const Lattice<2>&, std::vector<Cell<2>>&);
-template double fit_to_volume<3>(const CaseSpec&, const Boundary<3>&, const Lattice<3>&, std::vector<Cell<3>>&);
+template <int Dim>
+std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+                                  const Communicator& ranks) {
+  std::vector<double> in_row(static_cast<std::size_t>(lattice.rows()), 0.0);
+  for_each_own_row(lattice, ranks, [&](std::int64_t row) {
+    lattice.visit_row(row, [&](const Cell<Dim>& cell) { in_row[row] += is_reached(cell) ? 1.0 : 0.0; });
+  });
+  ranks.sum_of_each(in_row);
+  return in_row;
+}
 
-template PartOfBox part_in_front<2>(const Vec<2>&, const Vec<2>&, double);
-template PartOfBox part_in_front<3>(const Vec<3>&, const Vec<3>&, double);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
+  template PartOfBox part_in_front(const Vec<Dim>&, const Vec<Dim>&, double);                                          \
+  template FittedCells<Dim> fit_cells<Dim>(const CaseSpec&, const Boundary<Dim>&, const FluidTable&, WaterShape<Dim>&, \
+                                           const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);      \
+  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

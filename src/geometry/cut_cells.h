@@ -1,12 +1,17 @@
-// Cells of the water's lattice that walls cut, and how many particles their water makes.
+// Cells of the water's lattice that walls, and the surface of a block, cut, and how many particles their water makes.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "geometry/point_grid.h"
+#include "geometry/water_shape.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 
@@ -40,12 +45,70 @@ void for_each_part(const Vec<Dim>& centre, const Vec<Dim>& edge, Visit&& visit) 
   }
 }
 
-/// Fits the cells that a fill has reached to the volume of its water: as many cells as the water has volume, to the
-/// nearest whole number, and those that have the largest shares of their volumes in front of the walls. Cells with
-/// equal shares are taken in an order drawn from `particles.seed`. Returns the volume of the water over that of the
-/// cells left, which keep their order, along x first. Where walls cut no cell, nothing changes and this is 1.
+/// The order of cells, along x first.
 template <int Dim>
-double fit_to_volume(const CaseSpec& spec, const Boundary<Dim>& boundary, const Lattice<Dim>& lattice,
-                     std::vector<Cell<Dim>>& cells);
+bool is_before(const Cell<Dim>& a, const Cell<Dim>& b) {
+  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+}
+
+/// A block's lattice, as far as it has places for particles. Its rows lie along x.
+template <int Dim>
+struct LatticeBlock {
+  const Lattice<Dim>& axes;
+  std::array<int, Dim> count;  ///< of places along each axis
+
+  std::int64_t rows() const {
+    std::int64_t rows = 1;
+    for (int axis = 1; axis < Dim; ++axis) rows *= count[axis];
+    return rows;
+  }
+  std::int64_t row_of(const Cell<Dim>& cell) const {
+    std::int64_t row = 0;
+    for (int axis = Dim - 1; axis > 0; --axis) row = row * count[axis] + cell[axis];
+    return row;
+  }
+  /// Calls visit(cell) along a row.
+  template <class Visit>
+  void visit_row(std::int64_t row, Visit&& visit) const {
+    Cell<Dim> cell{};
+    for (int axis = 1; axis < Dim; row /= count[axis++]) cell[axis] = row % count[axis];
+    for (; cell[0] < count[0]; ++cell[0]) visit(cell);
+  }
+};
+
+/// The cells of a block that become particles.
+template <int Dim>
+struct FittedCells {
+  /// A cell that something cuts.
+  struct Cut {
+    Cell<Dim> cell;
+    double share;  ///< of its volume that is water
+    double draw;
+    bool is_taken;
+  };
+
+  std::vector<double> in_row;  ///< how many cells of each row are taken
+  std::vector<Cut> cut;        ///< in their order
+  double share = 1.0;          ///< of its cell's volume that a particle has
+  double missed = 0.0;         ///< share of the water that is in cells that are not taken
+};
+
+template <int Dim>
+using IsReached = std::function<bool(const Cell<Dim>&)>;
+
+/// Fits the cells of a block to the volume of its water: as many as it has volume, to the nearest whole number, and
+/// those that have the largest shares of their volumes in front of the walls and in the block. `is_reached` says of
+/// which cells the centre is there; of those beside them whose centre is not, the shares count as well. Cells with
+/// equal shares are taken in an order drawn from `particles.seed`. Where nothing cuts a cell, all that are reached are
+/// taken with their own volumes. Each rank looks at its part of the rows, and all get the same result. Collective.
+template <int Dim>
+FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
+                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+                           const Communicator& ranks);
+
+/// How many cells of each row are reached. Each rank looks at its part of the rows. Collective.
+template <int Dim>
+std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+                                  const Communicator& ranks);
 
 }  // namespace tailwater

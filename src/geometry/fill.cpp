@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
@@ -40,26 +41,17 @@ class Fill {
     }
   }
 
-  std::vector<Cell<Dim>> run() {
+  CellSet<Dim> run() {
     require_sound_seed();
-    std::vector<Cell<Dim>> cells = first_cells();
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      const Vec<Dim> here = centre(cells[k]);
-      for (int move = 0; move < 2 * Dim; ++move) {
-        Cell<Dim> next = cells[k];
-        next[move / 2] += move % 2 == 0 ? -1 : 1;
-        Vec<Dim> there = centre(next);
-        if (!is_open(here, there)) continue;
-        if (period_[move / 2] > 0) next[move / 2] = (next[move / 2] + period_[move / 2]) % period_[move / 2];
-        there = centre(next);
-        require_inside(there, here);
-        if (reached_.insert(cell_key<Dim>(next)).second) cells.push_back(next);
-      }
+    reached_ = CellSet<Dim>(corner_of(-1), corner_of(1));
+    // Only the cells that the water has just reached are listed.
+    std::vector<Cell<Dim>> front{first_cell()};
+    while (!front.empty()) {
+      std::vector<Cell<Dim>> beyond;
+      for (const Cell<Dim>& cell : front) spread_from(cell, beyond);
+      front = std::move(beyond);
     }
-    std::ranges::sort(cells, [](const Cell<Dim>& a, const Cell<Dim>& b) {
-      return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
-    });
-    return cells;
+    return std::move(reached_);
   }
 
  private:
@@ -109,16 +101,43 @@ class Fill {
     }
   }
 
-  std::vector<Cell<Dim>> first_cells() {
-    std::vector<Cell<Dim>> cells;
-    Cell<Dim> around;
-    for (int axis = 0; axis < Dim; ++axis) around[axis] = lattice_[axis].cell_at(seed_[axis]);
+  Cell<Dim> cell_at(const Vec<Dim>& x) const {
+    Cell<Dim> cell;
+    for (int axis = 0; axis < Dim; ++axis) cell[axis] = lattice_[axis].cell_at(x[axis]);
+    return cell;
+  }
+
+  /// The lowest cell that the water may reach, for `side` -1, or the highest, for 1. A seed is tried with the cells
+  /// around its own.
+  Cell<Dim> corner_of(int side) const {
+    Eigen::AlignedBox<double, Dim> box = box_;
+    box.max()[Dim - 1] = std::min(box.max()[Dim - 1], level_);
+    box.extend(seed_);
+    Cell<Dim> corner = cell_at(side < 0 ? box.min() : box.max());
+    for (std::int64_t& number : corner) number += side;
+    return corner;
+  }
+
+  void spread_from(const Cell<Dim>& cell, std::vector<Cell<Dim>>& beyond) {
+    const Vec<Dim> here = centre(cell);
+    for (int move = 0; move < 2 * Dim; ++move) {
+      Cell<Dim> next = cell;
+      next[move / 2] += move % 2 == 0 ? -1 : 1;
+      if (!is_open(here, centre(next))) continue;
+      if (period_[move / 2] > 0) next[move / 2] = (next[move / 2] + period_[move / 2]) % period_[move / 2];
+      require_inside(centre(next), here);
+      if (reached_.add(next)) beyond.push_back(next);
+    }
+  }
+
+  Cell<Dim> first_cell() {
+    const Cell<Dim> around = cell_at(seed_);
     for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
       Cell<Dim> cell = around;
       for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) cell[axis] += (rest + 1) % 3 - 1;
       if (!is_open(seed_, centre(cell))) continue;
-      reached_.insert(cell_key<Dim>(cell));
-      return {cell};
+      reached_.add(cell);
+      return cell;
     }
     throw InputError(
         fmt::format("{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from "
@@ -146,20 +165,20 @@ class Fill {
   FaceGrid<Dim> near_;
   Eigen::AlignedBox<double, Dim> box_;
   std::array<int, Dim> period_{};  ///< cells after which an axis repeats; 0: never
-  std::unordered_set<std::uint64_t> reached_;
+  CellSet<Dim> reached_;
 };
 
 }  // namespace
 
 template <int Dim>
-std::vector<Cell<Dim>> filled_cells(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
-                                    const Boundary<Dim>& boundary, const Lattice<Dim>& lattice) {
+CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+                          const Boundary<Dim>& boundary, const Lattice<Dim>& lattice) {
   return Fill<Dim>(spec, block, owner, boundary, lattice).run();
 }
 
-template std::vector<Cell<2>> filled_cells<2>(const CaseSpec&, const FluidTable&, const std::string&,
-                                              const Boundary<2>&, const Lattice<2>&);
-template std::vector<Cell<3>> filled_cells<3>(const CaseSpec&, const FluidTable&, const std::string&,
-                                              const Boundary<3>&, const Lattice<3>&);
+template CellSet<2> filled_cells<2>(const CaseSpec&, const FluidTable&, const std::string&, const Boundary<2>&,
+                                    const Lattice<2>&);
+template CellSet<3> filled_cells<3>(const CaseSpec&, const FluidTable&, const std::string&, const Boundary<3>&,
+                                    const Lattice<3>&);
 
 }  // namespace tailwater

@@ -81,8 +81,8 @@ void require_triangles_with_area(const TriangleMesh& mesh, double least_height, 
     if (count++ == 0) first = t;
   }
   if (count == 0) return;
-  refuse("{} has no area, nor have {} more: its corners are equal or on a line; remove degenerate triangles",
-         refuse.triangle(first), count - 1);
+  refuse("{} has no area{}: its corners are equal or on a line; remove degenerate triangles", refuse.triangle(first),
+         count == 1 ? "" : fmt::format(", nor have {} others", count - 1));
 }
 
 void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse) {

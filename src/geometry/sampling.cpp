@@ -5,17 +5,20 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <span>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
 #include "base/random.h"
 #include "case/named_numbers.h"
 #include "geometry/cut_cells.h"
-#include "geometry/fill.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/polygon.h"
+#include "geometry/water_shape.h"
 
 namespace tailwater {
 namespace {
@@ -25,44 +28,13 @@ constexpr double least_edge = 3.0;
 
 constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 
-/// Between the volume of a mesh and that of the cells inside it, over the latter. Particles with volumes farther from
-/// those of their cells would start with a jolt.
-constexpr double largest_misfit = 0.2;
+/// Share of the volume of a mesh that may be in cells without particles: at a surface half of the cells that it cuts
+/// are left out, with a quarter of their volume, which is 0.3 of a ball of three spacings in diameter.
+constexpr double largest_misfit = 0.4;
 
 template <int Dim>
 bool is_axis_parallel(const WallFace<Dim>& face) {
   return face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
-}
-
-/// The places where one block may have particles.
-template <int Dim>
-struct Places {
-  Lattice<Dim> lattice;
-  std::array<int, Dim> count;     ///< of places along each axis
-  std::array<double, Dim> share;  ///< of the way through its cell at which a place stands
-  std::vector<Vec<2>> outline;    ///< corners of a polygon
-
-  Vec<Dim> at(const Cell<Dim>& cell) const {
-    Vec<Dim> x;
-    for (int axis = 0; axis < Dim; ++axis) x[axis] = lattice[axis].at(static_cast<int>(cell[axis]), share[axis]);
-    return x;
-  }
-  double volume(const Cell<Dim>& cell) const {
-    double volume = 1.0;
-    for (int axis = 0; axis < Dim; ++axis) volume *= lattice[axis].width(static_cast<int>(cell[axis]));
-    return volume;
-  }
-};
-
-std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner) {
-  std::vector<Vec<2>> outline;
-  for (std::size_t k = 0; k < block.points.size(); ++k) {
-    outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
-  }
-  if (outline.size() < 3) {
-    throw InputError(fmt::format("{} has {} points: a polygon needs at least 3", owner, outline.size()));
-  }
-  return outline;
 }
 
 /// The box around a box or polygon.
@@ -125,19 +97,12 @@ std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing
   return planes;
 }
 
-template <int Dim>
-Places<Dim> make_places(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary) {
-  const FluidTable& block = spec.fluid[index];
-  Places<Dim> places{.lattice = make_lattice<Dim>(spec, index, boundary), .count = {}, .share = {}, .outline = {}};
-  if (block.shape == BlockShape::polygon) {
-    if constexpr (Dim == 2) places.outline = outline_of(block, fluid_label(spec, index));
+/// The same of a polygon.
+void append_flat_sides(const std::vector<Vec<2>>& outline, int axis, double spacing, std::vector<double>& planes) {
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec<2> side = outline[(k + 1) % outline.size()] - outline[k];
+    if (side[axis] == 0.0 && side.norm() >= least_edge * spacing) planes.push_back(outline[k][axis]);
   }
-  for (int axis = 0; axis < Dim; ++axis) {
-    const bool is_on_nodes = placement_of(spec.scheme.walls).on_wall && periodic_range(spec.domain, axis).empty();
-    places.count[axis] = places.lattice[axis].count() + (is_on_nodes ? 1 : 0);
-    places.share[axis] = is_on_nodes ? 0.0 : 0.5;
-  }
-  return places;
 }
 
 /// The starting velocity of one block.
@@ -188,13 +153,6 @@ class StartVelocity {
   std::vector<Component> varying_;
 };
 
-/// Whether the lattice of `block` is fitted to this face. Elsewhere a misfit is the case file's, and check_geometry
-/// reports it.
-template <int Dim>
-bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
-  return block.shape != BlockShape::box || !is_axis_parallel(face);
-}
-
 /// Whether no fluid particle takes the lattice place `x`, because a wall particle stands there or because it is behind
 /// the wall.
 template <int Dim>
@@ -205,12 +163,13 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   if (placement_of(spec.scheme.walls).on_wall) {
     return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   }
-  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
+  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 
 /// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
 template <int Dim>
-Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x, double dx) {
+Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x) {
+  const double dx = spec.particles.spacing;
   if constexpr (Dim == 3) {
     // What is behind a mesh may be nearer to another wall, in front of it.
     for (const WallMesh& mesh : boundary.meshes) {
@@ -224,7 +183,7 @@ Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, 
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
     const double missing = least_wall_distance * dx - wall.signed_distance;
-    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) break;
+    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
     const WallFace<Dim>& face = boundary.faces[wall.face];
     // From the edge of a mesh straight away: the normal of one of its faces leads along the other.
     const bool is_at_edge = boundary.mesh_of(wall.face) != nullptr && wall.signed_distance > corner_tolerance * dx &&
@@ -234,136 +193,138 @@ Vec<Dim> kept_off_walls(const Boundary<Dim>& boundary, const FluidTable& block, 
   return x;
 }
 
-/// Chooses the places of a block's lattice that are in the block. In a box these are all, in a polygon those inside and
-/// every second one on its outline.
+/// The water of one block: which places of its lattice hold particles.
 template <int Dim>
-class InBlock {
+class BlockWater {
  public:
-  InBlock(const std::vector<Vec<2>>& outline, double dx) : outline_(outline), tolerance_(corner_tolerance * dx) {}
-
-  /// Call once for each place, in order.
-  bool operator()(const Vec<Dim>& x) {
-    if constexpr (Dim == 2) {
-      if (!outline_.empty()) {
-        const Where where = where_in(outline_, x, tolerance_);
-        if (where == Where::on_outline) return takes_next_on_outline_ = !takes_next_on_outline_;
-        return where == Where::inside;
-      }
+  /// Collective.
+  BlockWater(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary, const Bodies<Dim>& bodies,
+             const Communicator& ranks)
+      : spec_(spec),
+        block_(spec.fluid[index]),
+        boundary_(boundary),
+        bodies_(bodies),
+        owner_(fluid_label(spec, index)),
+        axes_(make_lattice<Dim>(spec, index, boundary)),
+        shape_(spec, index, boundary, axes_),
+        velocity_(spec, block_, owner_),
+        lattice_{axes_, {}},
+        stands_on_walls_(placement_of(spec.scheme.walls).on_wall) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const bool is_on_nodes = stands_on_walls_ && periodic_range(spec.domain, axis).empty();
+      lattice_.count[axis] = axes_[axis].count() + (is_on_nodes ? 1 : 0);
+      share_[axis] = is_on_nodes ? 0.0 : 0.5;
     }
-    return true;
+    const IsReached<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
+    if (stands_on_walls_) {
+      if (block_.shape == BlockShape::polygon) leave_out_half_of_outline();
+      fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
+      return;
+    }
+    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, ranks);
+    if (block_.shape == BlockShape::mesh) require_room(index);
+  }
+
+  std::int64_t particles() const {
+    return std::llround(std::accumulate(fitted_.in_row.begin(), fitted_.in_row.end(), 0.0));
+  }
+
+  /// Calls put(position, velocity, volume) for the particles `from` to `to` - 1 of this block; its first one is number
+  /// `first` of all.
+  template <class Put>
+  void make(std::int64_t from, std::int64_t to, std::int64_t first, Put&& put) {
+    const double jitter = spec_.particles.jitter * spec_.particles.spacing;
+    std::int64_t number = 0;
+    for (std::int64_t row = 0; row < lattice_.rows() && number < to; ++row) {
+      const std::int64_t in_row = std::llround(fitted_.in_row[row]);
+      if (number + in_row <= from) {
+        number += in_row;
+        continue;
+      }
+      lattice_.visit_row(row, [&](const Cell<Dim>& cell) {
+        if (!takes(cell)) return;
+        const std::int64_t n = number++;
+        if (n < from || n >= to) return;
+        Vec<Dim> x = at(cell);
+        for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
+          x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
+        }
+        x = kept_off_walls(spec_, boundary_, block_, x);
+        double volume = fitted_.share;
+        for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
+        put(x, velocity_.at(x), volume);
+      });
+    }
   }
 
  private:
-  const std::vector<Vec<2>>& outline_;  ///< empty for a box
-  double tolerance_;
-  bool takes_next_on_outline_ = false;
-};
-
-/// Bodies that stand in the water.
-template <int Dim>
-class Bodies {
- public:
-  Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary)
-      : boundary_(boundary), tolerance_(corner_tolerance * spec.particles.spacing) {
-    for (std::size_t w = 0; w < spec.walls.size(); ++w) {
-      const WallTable& wall = spec.walls[w];
-      if (wall.fluid_side != FluidSide::outside) continue;
-      const std::string owner = wall_label(boundary, static_cast<int>(w));
-      if (wall.shape == WallShape::box) {
-        boxes_.emplace_back(to_vec<Dim>(wall.min, owner, "min"), to_vec<Dim>(wall.max, owner, "max"));
-      } else if constexpr (Dim == 2) {
-        std::vector<Vec<2>>& outline = outlines_.emplace_back();
-        for (const Coordinates& point : wall.points) outline.push_back(to_vec<2>(point, owner, "points"));
-      }
-    }
-    for (const WallMesh& mesh : boundary.meshes) {
-      if (spec.walls[mesh.wall].fluid_side == FluidSide::outside) meshes_.push_back(&mesh);
-    }
+  Vec<Dim> at(const Cell<Dim>& cell) const {
+    Vec<Dim> x;
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = axes_[axis].at(static_cast<int>(cell[axis]), share_[axis]);
+    return x;
   }
 
-  /// Whether `x` is inside one of them, and not on its surface.
-  bool hold(const Vec<Dim>& x) const {
-    const Vec<Dim> margin = Vec<Dim>::Constant(tolerance_);
-    for (const Eigen::AlignedBox<double, Dim>& box : boxes_) {
-      if (((x - margin).array() > box.min().array()).all() && ((x + margin).array() < box.max().array()).all()) {
-        return true;
-      }
-    }
+  /// Whether the place of a cell is in the water.
+  bool reaches(const Cell<Dim>& cell) {
+    const Vec<Dim> x = at(cell);
+    // What is poured in has been stopped by walls already.
+    if (block_.shape == BlockShape::fill && !stands_on_walls_) return shape_.holds(cell, x);
+    return shape_.holds(cell, x) && !left_out_.contains(cell_key<Dim>(cell)) &&
+           !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
+  }
+
+  bool takes(const Cell<Dim>& cell) {
+    const auto cut = std::ranges::lower_bound(fitted_.cut, cell, is_before<Dim>, &FittedCells<Dim>::Cut::cell);
+    if (cut != fitted_.cut.end() && cut->cell == cell) return cut->is_taken;
+    return reaches(cell);
+  }
+
+  /// Of the places on the outline of a polygon every second one, in their order, because half of their cells is inside.
+  void leave_out_half_of_outline() {
     if constexpr (Dim == 2) {
-      for (const std::vector<Vec<2>>& outline : outlines_) {
-        if (where_in(outline, x, tolerance_) == Where::inside) return true;
+      const std::vector<Vec<2>> outline = outline_of(block_, owner_);
+      const double tolerance = corner_tolerance * spec_.particles.spacing;
+      bool takes_next = false;
+      for (std::int64_t row = 0; row < lattice_.rows(); ++row) {
+        lattice_.visit_row(row, [&](const Cell<2>& cell) {
+          if (where_in(outline, at(cell), tolerance) != Where::on_outline) return;
+          takes_next = !takes_next;
+          if (!takes_next) left_out_.insert(cell_key<2>(cell));
+        });
       }
     }
-    return std::ranges::any_of(meshes_, [&](const WallMesh* mesh) {
-      return boundary_.height_above(*mesh, x, std::numeric_limits<double>::infinity()) < -tolerance_;
-    });
   }
 
- private:
+  /// Throws InputError if a mesh is too thin for the spacing.
+  void require_room(std::size_t index) const {
+    if constexpr (Dim == 3) {
+      const MeshSurface& surface = *boundary_.water[index];
+      const double dx = spec_.particles.spacing;
+      const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * dx;
+      if (!is_thin && fitted_.missed <= largest_misfit) return;
+      throw InputError(fmt::format(
+          "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
+          "leave out {:.0f} % of that: it is too small or too thin for them; use a smaller spacing, or correct scale = "
+          "{:g}",
+          owner_, block_.file, place<3>(surface.low()), place<3>(surface.high()), shape_.volume(), dx,
+          100.0 * fitted_.missed, block_.scale));
+    }
+  }
+
+  const CaseSpec& spec_;
+  const FluidTable& block_;
   const Boundary<Dim>& boundary_;
-  double tolerance_;  ///< m
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
-  std::vector<std::vector<Vec<2>>> outlines_;
-  std::vector<const WallMesh*> meshes_;
+  const Bodies<Dim>& bodies_;
+  std::string owner_;
+  Lattice<Dim> axes_;
+  WaterShape<Dim> shape_;
+  StartVelocity<Dim> velocity_;
+  LatticeBlock<Dim> lattice_;
+  bool stands_on_walls_;
+  std::array<double, Dim> share_{};  ///< of the way through its cell at which a place stands
+  FittedCells<Dim> fitted_;
+  std::unordered_set<std::uint64_t> left_out_;  ///< places on the outline of a polygon
 };
-
-/// Whether places are inside a closed mesh or on it. Asked along a line it looks at the mesh seldom: what is nearer to
-/// the last place than the surface was is on the same side.
-class InMesh {
- public:
-  InMesh(const MeshSurface& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
-
-  bool holds(const Vec<3>& x) {
-    if (const double way = (x - last_).norm(); !(way < std::abs(height_) - tolerance_)) {
-      last_ = x;
-      height_ = surface_.nearest(x, std::numeric_limits<double>::infinity()).signed_distance;
-    }
-    return height_ <= tolerance_;
-  }
-
- private:
-  const MeshSurface& surface_;
-  double tolerance_;  ///< m
-  Vec<3> last_ = Vec<3>::Zero();
-  double height_ = 0.0;  ///< m; of the last place above the surface
-};
-
-/// Calls visit(cell) for every cell with a place, along x first.
-template <int Dim, class Visit>
-void for_each_cell(const std::array<int, Dim>& count, Visit&& visit) {
-  Cell<Dim> cell{};
-  for (int axis = 0; axis < Dim;) {
-    visit(cell);
-    for (axis = 0; axis < Dim && ++cell[axis] == count[axis]; ++axis) cell[axis] = 0;
-  }
-}
-
-/// The cells whose places are inside a mesh.
-std::vector<Cell<3>> cells_inside(const MeshSurface& surface, const Places<3>& places, double dx) {
-  InMesh mesh(surface, corner_tolerance * dx);
-  std::vector<Cell<3>> cells;
-  for_each_cell<3>(places.count, [&](const Cell<3>& cell) {
-    if (mesh.holds(places.at(cell))) cells.push_back(cell);
-  });
-  return cells;
-}
-
-/// The volume of a mesh over that of the cells whose centres are inside it. Throws InputError if they differ too much.
-double volume_per_cell(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
-                       const MeshSurface& surface, const Places<3>& places, const std::vector<Cell<3>>& cells) {
-  const double volume = six_volumes(surface.mesh(), [](int) { return true; }) / 6.0;
-  double of_cells = 0.0;
-  for (const Cell<3>& cell : cells) of_cells += places.volume(cell);
-  const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * spec.particles.spacing;
-  if (is_thin || std::abs(volume - of_cells) > largest_misfit * of_cells) {
-    throw InputError(fmt::format(
-        "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
-        "have {:.4g} m^3: it is too small or too thin for them; use a smaller spacing, or correct scale = {:g}",
-        owner, block.file, place<3>(surface.low()), place<3>(surface.high()), volume, spec.particles.spacing, of_cells,
-        block.scale));
-  }
-  return volume / of_cells;
-}
 
 }  // namespace
 
@@ -390,16 +351,15 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
     const double low = box.min()[axis];
     const double high = box.max()[axis];
     std::vector<double> planes{low, high};
-    if (water.shape == BlockShape::polygon) {
-      // Every place of the box around it, at distances of exactly dx.
-      planes = {low, low + dx * std::max(1.0, std::ceil((high - low) / dx - corner_tolerance))};
-    } else if (const std::vector<double>& range = periodic_range(spec.domain, axis);
-               water.shape == BlockShape::fill && range.size() == 2) {
+    if (const std::vector<double>& range = periodic_range(spec.domain, axis);
+        water.shape == BlockShape::fill && range.size() == 2) {
       planes = range;
     } else {
       const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(least_edge * dx, Dim - 1));
       planes.insert(planes.end(), walls.begin(), walls.end());
-      if constexpr (Dim == 3) {
+      if constexpr (Dim == 2) {
+        if (water.shape == BlockShape::polygon) append_flat_sides(outline_of(water, owner), axis, dx, planes);
+      } else {
         const auto divide_at = [&](const MeshSurface& mesh) {
           if (!inside.intersects(Eigen::AlignedBox<double, 3>(mesh.low(), mesh.high()))) return;
           for (const double plane : planes_in(mesh.mesh(), axis, dx)) {
@@ -418,58 +378,76 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
 }
 
 template <int Dim>
-FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const double dx = spec.particles.spacing;
-  const double jitter = spec.particles.jitter * dx;
+Eigen::AlignedBox<double, Dim> FluidParticles<Dim>::box() const {
+  // Least values, of the highest places with the sign turned.
+  std::array<double, 2 * Dim> least;
+  least.fill(std::numeric_limits<double>::max());
+  for (const Vec<Dim>& x : position) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      least[axis] = std::min(least[axis], x[axis]);
+      least[Dim + axis] = std::min(least[Dim + axis], -x[axis]);
+    }
+  }
+  ranks.least_of_each(least);
+  Eigen::AlignedBox<double, Dim> box;
+  if (all == 0) return box;
+  for (int axis = 0; axis < Dim; ++axis) {
+    box.min()[axis] = least[axis];
+    box.max()[axis] = -least[Dim + axis];
+  }
+  return box;
+}
+
+template <int Dim>
+double FluidParticles<Dim>::extent_along(const Vec<Dim>& direction) const {
+  std::array<double, 2> least;
+  least.fill(std::numeric_limits<double>::max());
+  for (const Vec<Dim>& x : position) {
+    const double height = direction.dot(x);
+    least[0] = std::min(least[0], height);
+    least[1] = std::min(least[1], -height);
+  }
+  ranks.least_of_each(least);
+  return all == 0 ? 0.0 : -least[1] - least[0];
+}
+
+template <int Dim>
+FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary, const Communicator& ranks,
+                                         std::int64_t others) {
   const Bodies<Dim> bodies(spec, boundary);
+  std::vector<std::unique_ptr<BlockWater<Dim>>> blocks;
   FluidParticles<Dim> fluid;
+  fluid.ranks = ranks;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
-    const FluidTable& block = spec.fluid[b];
-    const std::string owner = fluid_label(spec, b);
-    const Places<Dim> places = make_places<Dim>(spec, b, boundary);
-    StartVelocity<Dim> velocity(spec, block, owner);
-    InBlock<Dim> is_in_block(places.outline, dx);
-    double share = 1.0;      // of its cell's volume that a particle has
-    bool is_fitted = false;  // whether walls have had their places already
-    const auto put = [&](const Cell<Dim>& cell) {
-      Vec<Dim> x = places.at(cell);
-      if (!is_fitted && (!is_in_block(x) || is_taken_by_wall(spec, boundary, block, x) || bodies.hold(x))) return;
-      for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
-        x[axis] += jitter * random_number(spec.particles.seed, fluid.position.size(), axis);
-      }
-      x = kept_off_walls(boundary, block, x, dx);
+    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks));
+    fluid.all += blocks.back()->particles();
+  }
+  const auto begin_of = [&](int rank) { return std::min((fluid.all + others) * rank / ranks.size(), fluid.all); };
+  fluid.first = begin_of(ranks.rank());
+  const std::int64_t end = begin_of(ranks.rank() + 1);
+  fluid.position.reserve(end - fluid.first);
+  fluid.velocity.reserve(end - fluid.first);
+  fluid.volume.reserve(end - fluid.first);
+  fluid.block.reserve(end - fluid.first);
+  std::int64_t first = 0;  // of a block
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const auto put = [&](const Vec<Dim>& x, const Vec<Dim>& velocity, double volume) {
       fluid.position.push_back(x);
-      fluid.velocity.push_back(velocity.at(x));
-      fluid.volume.push_back(share * places.volume(cell));
+      fluid.velocity.push_back(velocity);
+      fluid.volume.push_back(volume);
       fluid.block.push_back(static_cast<int>(b));
     };
-    if (block.shape == BlockShape::fill) {
-      std::vector<Cell<Dim>> cells = filled_cells<Dim>(spec, block, owner, boundary, places.lattice);
-      if (!placement_of(spec.scheme.walls).on_wall) {
-        share = fit_to_volume<Dim>(spec, boundary, places.lattice, cells);
-        is_fitted = true;
-      }
-      for (const Cell<Dim>& cell : cells) put(cell);
-    } else if (Dim == 3 && block.shape == BlockShape::mesh) {
-      if constexpr (Dim == 3) {
-        const MeshSurface& surface = *boundary.water[b];
-        const std::vector<Cell<3>> cells = cells_inside(surface, places, dx);
-        // Particles that stand on the edge of a block have whole volumes.
-        if (!placement_of(spec.scheme.walls).on_wall) {
-          share = volume_per_cell(spec, block, owner, surface, places, cells);
-        }
-        for (const Cell<3>& cell : cells) put(cell);
-      }
-    } else {
-      for_each_cell<Dim>(places.count, put);
-    }
+    blocks[b]->make(fluid.first - first, end - first, first, put);
+    first += blocks[b]->particles();
   }
   return fluid;
 }
 
+template struct FluidParticles<2>;
+template struct FluidParticles<3>;
 template Lattice<2> make_lattice<2>(const CaseSpec&, std::size_t, const Boundary<2>&);
 template Lattice<3> make_lattice<3>(const CaseSpec&, std::size_t, const Boundary<3>&);
-template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&);
-template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&);
+template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&, const Communicator&, std::int64_t);
+template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&, const Communicator&, std::int64_t);
 
 }  // namespace tailwater

@@ -7,32 +7,47 @@
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "geometry/wall_particles.h"
+#include "parallel/communicator.h"
 
 namespace tailwater {
 
+/// One rank's part of the water at the start. The parts of all ranks, one after the other, are all of it.
 template <int Dim>
 struct FluidParticles {
   std::vector<Vec<Dim>> position;
   std::vector<Vec<Dim>> velocity;
   std::vector<double> volume;  ///< m^Dim
   std::vector<int> block;      ///< index into CaseSpec::fluid
+  std::int64_t first = 0;      ///< number of the first one, among those of all ranks
+  std::int64_t all = 0;        ///< how many all ranks have
+  Communicator ranks;
+
+  /// The box around the particles of all ranks; empty if there are none. Collective.
+  Eigen::AlignedBox<double, Dim> box() const;
+  /// Between the lowest and the highest of all of them along a unit vector, m. Collective.
+  double extent_along(const Vec<Dim>& direction) const;
 };
 
 /// The cells of a block's lattice along each axis. A box has cells between its ends and the planes of axis-parallel
-/// walls that reach into it, a fill between those of all walls and its level, a polygon has cells of exactly dx from
-/// its lowest corner. Throws InputError as make_fluid_particles does.
+/// walls that reach into it, a fill between those of all walls and its level, a polygon and a mesh between those of
+/// their own axis-parallel sides as well. Throws InputError as make_fluid_particles does.
 template <int Dim>
 Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary);
 
-/// The starting lattice. With dummy walls a particle is the centre of its cell and has the cell's volume. With a row of
-/// particles on the wall particles stand at the cells' corners, except in periodic directions, but not nearer than dx/2
-/// to a wall, where a wall particle stands. Places in bodies with the water outside hold no particle. A polygon holds
-/// the lattice points of its bounding box that lie inside, and every second one of those on its outline, because half
-/// of their cells is inside. For polygons, and beside slanted walls, particles nearer than dx/4 to a wall are moved to
+/// The starting lattice. With dummy walls a particle is the centre of its cell. As many cells become particles as the
+/// block, without what bodies and walls take, has volume, those that have most of their volume in it (cut_cells.h), and
+/// the particles have this volume to round-off. Where nothing cuts a cell, particles have the volumes of their cells.
+/// With a row of particles on the wall they stand at the cells' corners, except in periodic directions, but not nearer
+/// than dx/2 to a wall, where a wall particle stands; of those on the outline of a polygon every second one is taken,
+/// because half of their cells is inside. Particles nearer than dx/4 to a wall to which their block adapts are moved to
 /// that distance, which keeps the volume. check_geometry reports everything else that fits badly. Jitter, if any, is
-/// drawn from `particles.seed` and is the same on every machine. Throws InputError, which names the block, for a block
-/// without extent or with coordinates of the wrong dimension, and for a fill as filled_cells does.
+/// drawn from `particles.seed` and is the same on every machine.
+///
+/// Each rank makes only its part: as much as it gets when all particles and `others` that follow them are shared out
+/// equally. Collective. Throws InputError, which names the block, for a block without extent or with coordinates of the
+/// wrong dimension, and for a fill as filled_cells does.
 template <int Dim>
-FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary);
+FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                         const Communicator& ranks = {}, std::int64_t others = 0);
 
 }  // namespace tailwater

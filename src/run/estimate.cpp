@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "geometry/mesh_surface.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -93,6 +94,27 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }
 
+namespace {
+
+/// What to look at first in a case with a mesh, which may be drawn in another unit.
+template <int Dim>
+std::string length_of_longest_mesh(const Boundary<Dim>& boundary) {
+  std::string hint;
+  if constexpr (Dim == 3) {
+    double longest = 0.0;
+    for (const WallMesh& mesh : boundary.meshes) {
+      const double length = (mesh.surface->high() - mesh.surface->low()).maxCoeff();
+      if (length <= longest) continue;
+      longest = length;
+      hint = fmt::format("; {} is {:.6g} m long: if its file is in millimetres, give scale = 0.001",
+                         wall_label(boundary, mesh.wall), length);
+    }
+  }
+  return hint;
+}
+
+}  // namespace
+
 double available_memory() {
   std::ifstream file("/proc/meminfo");
   std::string key, unit;
@@ -113,8 +135,9 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
   return {Finding::error(
       "particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only "
-      "{:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes",
-      spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting)};
+      "{:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes{}",
+      spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting,
+      length_of_longest_mesh(boundary))};
 }
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {

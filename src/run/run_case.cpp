@@ -14,6 +14,7 @@
 #include "geometry/check.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
+#include "parallel/at_start.h"
 #include "run/checkpoint_keeper.h"
 #include "run/estimate.h"
 #include "run/requests.h"
@@ -172,10 +173,12 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 }
 
 template <int Dim>
-void require_sound_geometry_in(const CaseSpec& spec, bool warns) {
+void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, bool warns) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
-  std::vector<Finding> findings = check_memory(spec, boundary, available_memory());
-  if (findings.empty()) findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
+  // What a machine has for its ranks is enough for as many times more on all machines.
+  const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
+  std::vector<Finding> findings = check_memory(spec, boundary, ranks.least(available));
+  if (findings.empty()) findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary, ranks));
   std::string errors;
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
@@ -189,11 +192,11 @@ void require_sound_geometry_in(const CaseSpec& spec, bool warns) {
 
 }  // namespace
 
-void require_sound_geometry(const CaseSpec& spec, bool warns) {
+void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks, bool warns) {
   if (spec.general.dimension == 2) {
-    require_sound_geometry_in<2>(spec, warns);
+    require_sound_geometry_in<2>(spec, ranks, warns);
   } else {
-    require_sound_geometry_in<3>(spec, warns);
+    require_sound_geometry_in<3>(spec, ranks, warns);
   }
 }
 
@@ -202,7 +205,7 @@ ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communi
   // A file that grows beyond the limit of a batch system is an error of the write, as on a full disk, and no signal.
   std::signal(SIGXFSZ, SIG_IGN);
   return with_places(spec, [&] {
-    require_sound_geometry(spec, checkpoint == nullptr);
+    require_sound_geometry(spec, ranks, checkpoint == nullptr);
     return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
                                        : run_in<3>(spec, options, ranks, checkpoint);
   });

@@ -240,7 +240,7 @@ void RunOutput<Dim>::record_sharing(const Flow<Dim>& flow, const Sharing& sharin
 template <int Dim>
 void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report) {
   const FlowMeasures measures = measure(flow);
-  const std::size_t outside = count_outside(flow);
+  const auto outside = static_cast<std::size_t>(water_outside(flow).particles);
   warn_if_outside(flow, outside);
   statistics_.add(report, measures, outside);
   do_on_root(ranks_, [&] {
@@ -271,7 +271,7 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
   warn(
-      fmt::format("at t = {:.4f} s {} fluid particle(s) left the box around the walls; they are still computed, and "
+      fmt::format("at t = {:.4f} s {} fluid particle(s) left the walls for good; they are still computed, and "
                   "counted in summary.json. Remedy: higher walls",
                   flow.state.time, outside));
 }

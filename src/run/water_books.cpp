@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/for_each.h"
+#include "geometry/mesh_surface.h"
 
 namespace tailwater {
 namespace {
@@ -26,28 +28,49 @@ Eigen::AlignedBox<double, Dim> box_around(const Flow<Dim>& flow) {
   return box;
 }
 
-/// Whether a body that falls from x meets the box, or is in it.
+/// The height of x above the wall that a body falling from it meets first, m: positive if it meets the front. None if
+/// it meets no wall on the way to `lowest`.
 template <int Dim>
-bool falls_into(const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x, const Vec<Dim>& gravity) {
-  double from = 0.0;  // of the way x + s gravity, the part within the box in all directions so far
-  double to = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < Dim; ++axis) {
-    const double to_low = box.min()[axis] - x[axis];
-    const double to_high = box.max()[axis] - x[axis];
-    if (gravity[axis] == 0.0) {
-      if (to_low > 0.0 || to_high < 0.0) return false;
-      continue;
+std::optional<double> height_above_wall_below(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& lowest,
+                                              double tolerance) {
+  double least_share = std::numeric_limits<double>::infinity();  // of the way to where it meets a wall
+  std::optional<double> height;
+  const auto meets = [&](const WallFace<Dim>& face) {
+    // Of the two faces of a plate the one that looks at x counts.
+    if (face.height(x) <= 0.0 && boundary.walls[face.wall].is_plate) return;
+    const double share = face.height(x) / (face.height(x) - face.height(lowest));
+    if (share >= least_share) return;
+    least_share = share;
+    height = face.height(x);
+  };
+  boundary.visit_plain_faces([&](int f) {
+    if (crosses(boundary.faces[f], x, lowest, tolerance)) meets(boundary.faces[f]);
+  });
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      const Vec<3> way = boundary.way_of(mesh);
+      const int triangle = mesh.surface->first_crossed(x - way, lowest - way, tolerance);
+      if (triangle >= 0) meets(boundary.faces[mesh.first_face + triangle]);
     }
-    from = std::max(from, std::min(to_low / gravity[axis], to_high / gravity[axis]));
-    to = std::min(to, std::max(to_low / gravity[axis], to_high / gravity[axis]));
   }
-  return from <= to;
+  return height;
 }
 
 template <int Dim>
 bool is_passing_end(const Flow<Dim>& flow, const Vec<Dim>& x) {
   return std::any_of(flow.setup.open_ends.begin(), flow.setup.open_ends.end(),
                      [&](const OpenEnd<Dim>& end) { return end.opening.is_passed_by(x); });
+}
+
+/// Whether water that is beyond the box around the walls falls onto the front of one, as spray above an open tank does.
+template <int Dim>
+bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x) {
+  const Vec<Dim>& gravity = flow.setup.gravity;
+  if (gravity.norm() == 0.0) return false;
+  const double way = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
+  const std::optional<double> height = height_above_wall_below<Dim>(
+      flow.walls.boundary, x, x + way * gravity.normalized(), corner_tolerance * flow.setup.spacing);
+  return height.value_or(-1.0) > 0.0;
 }
 
 }  // namespace
@@ -84,7 +107,7 @@ Water water_outside(const Flow<Dim>& flow) {
   Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
     const bool is_outside =
-        particles.is_fluid(i) && !falls_into(box, x, flow.setup.gravity) && !is_passing_end(flow, x);
+        particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !is_passing_end(flow, x);
     return is_outside ? Water{1, particles.volume[i]} : Water();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
@@ -144,25 +167,12 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
           {"outlets", outlets}};
 }
 
-template <int Dim>
-std::size_t count_outside(const Flow<Dim>& flow) {
-  const Eigen::AlignedBox<double, Dim> box = box_around(flow);
-  if (box.isEmpty()) return 0;
-  const Particles<Dim>& particles = flow.state.particles;
-  const std::size_t count = count_each(particles.owned, [&](std::size_t i) {
-    const Vec<Dim>& x = particles.position[i];
-    return particles.is_fluid(i) && !box.contains(x) && !is_passing_end(flow, x);
-  });
-  return flow.setup.ranks.sum(count);
-}
-
-#define TAILWATER_INSTANTIATE(Dim)                                                    \
-  template Water water_in<Dim>(const Flow<Dim>&);                                     \
-  template Water water_outside<Dim>(const Flow<Dim>&);                                \
-  template Water water_out<Dim>(const Flow<Dim>&);                                    \
-  template Water water_came<Dim>(const Flow<Dim>&);                                   \
-  template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&); \
-  template std::size_t count_outside<Dim>(const Flow<Dim>&);
+#define TAILWATER_INSTANTIATE(Dim)                     \
+  template Water water_in<Dim>(const Flow<Dim>&);      \
+  template Water water_outside<Dim>(const Flow<Dim>&); \
+  template Water water_out<Dim>(const Flow<Dim>&);     \
+  template Water water_came<Dim>(const Flow<Dim>&);    \
+  template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

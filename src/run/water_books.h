@@ -24,8 +24,8 @@ template <int Dim>
 Water water_in(const Flow<Dim>& flow);
 
 /// The part of it that has left the walls for good, over all ranks: it is beyond the box around walls and open ends,
-/// and does not fall back into it along gravity. Water on its way out through an open end does not belong to it.
-/// Collective.
+/// and straight below it along gravity there is no wall that would catch it. Spray above an open tank is not lost. Nor
+/// does water on its way out through an open end belong to it. Collective.
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow);
 
@@ -40,10 +40,5 @@ Water water_came(const Flow<Dim>& flow);
 /// Block "water_balance" of the summary; collective.
 template <int Dim>
 nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow);
-
-/// Number of fluid particles, on all ranks, outside the box around all walls. They are still computed, but have left
-/// the case over its rim. Particles on their way out through an open end do not count. Collective.
-template <int Dim>
-std::size_t count_outside(const Flow<Dim>& flow);
 
 }  // namespace tailwater

@@ -186,6 +186,17 @@ class Books(ProgramTest):
     OVER_THE_RIM = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.2, 0], [1.2, 0.6]]", "--set",
                     "fluid[0].velocity=[3, 2]", "--set", "time.end=0.2")
 
+    def test_spray_above_an_open_tank_is_not_lost(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set",
+                  "wall[0].points=[[0, 0.6], [0, 0], [1, 0], [1, 0.6]]", "--set", "fluid[0].velocity=[0, 3]", "--set",
+                  "time.end=0.2")
+        summary = self.summary("run")
+        positions, _ = read_points(read_series(self.folder / "run/fields/fields.pvd")[-1][1])
+        self.assertGreater(np.count_nonzero(positions[:, 1] > 0.6), 0)
+        self.assertEqual(summary["water_balance"]["inside"], summary["water_balance"]["start"])
+        self.assertEqual(summary["volume"]["outside_the_walls_most"], 0)
+        self.assertEqual(summary["warnings"], [])
+
     def test_water_that_left_over_a_rim_is_outside(self):
         for ranks in ("1", "2"):
             with self.subTest(ranks=ranks):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
 #include "cases.h"
@@ -95,16 +96,20 @@ TEST(FluidLattice, RefusesAVelocityThatIsNotFinite) {
   }
 }
 
-// The particles' volume differs from the polygon's by less than half a cell for each cell that the outline passes; for
-// the triangle with legs on the lattice, whose hypotenuse halves cells, by the one particle that an odd number costs.
-TEST(FluidLattice, PolygonKeepsItsVolume) {
+double total_volume(const FluidParticles<2>& fluid) {
+  return std::accumulate(fluid.volume.begin(), fluid.volume.end(), 0.0);
+}
+
+// There are as many particles as the volume has cells, to the nearest whole number.
+TEST(FluidLattice, PolygonHasItsVolume) {
   const double dx = 0.05;
   CaseSpec spec = empty_case(dx);
   spec.fluid = {polygon_fluid({{0, 0}, {1, 0}, {0, 1}})};
   spec.walls = {polyline({{1, 0}, {0, 1}})};
   ASSERT_GT(make_boundary<2>(spec).nearest({0, 0}, 10.0).signed_distance, 0.0);
   const FluidParticles<2> triangle = fluid_of(spec);
-  EXPECT_NEAR(triangle.position.size() * dx * dx, 0.5, dx * dx);
+  EXPECT_EQ(triangle.position.size(), 200u);
+  EXPECT_NEAR(total_volume(triangle), 0.5, round_off);
 
   spec.walls.clear();
   std::vector<Coordinates> circle;
@@ -113,8 +118,28 @@ TEST(FluidLattice, PolygonKeepsItsVolume) {
   }
   spec.fluid = {polygon_fluid(circle)};
   const double area = 30.0 * std::sin(2 * std::numbers::pi / 60);
-  // Gauss's circle problem: the error of the count is far below the outline's 8 r/dx cells; |E| <= 2 sqrt(2) pi r/dx.
-  EXPECT_NEAR(fluid_of(spec).position.size() * dx * dx, area, 2 * std::numbers::sqrt2 * std::numbers::pi * dx);
+  const FluidParticles<2> disc = fluid_of(spec);
+  EXPECT_EQ(disc.position.size(), static_cast<std::size_t>(std::lround(area / (dx * dx))));
+  EXPECT_NEAR(total_volume(disc), area, 1e-12);
+}
+
+// A box over a sloping bed, one around a slanted body, and one that a body cuts whose planes the lattice leaves out.
+TEST(FluidLattice, BoxHasTheVolumeThatWallsAndBodiesLeave) {
+  const double dx = 0.05;
+  CaseSpec spec = empty_case(dx);
+  spec.fluid = {box_fluid({0, 0}, {1, 0.8})};
+  spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0.1}, {1, 1}})};
+  const FluidParticles<2> on_slope = fluid_of(spec);
+  EXPECT_NEAR(total_volume(on_slope), 0.8 - 0.5 * 0.1, 1e-12);
+  EXPECT_EQ(on_slope.position.size(), 300u);
+  WallTable body = polyline({{0.3, 0.2}, {0.6, 0.3}, {0.5, 0.6}, {0.2, 0.5}});
+  body.shape = WallShape::polygon;
+  body.fluid_side = FluidSide::outside;
+  spec.walls = {box_wall({0, 0}, {1, 1}, {"+y"}), body};
+  // Flat over dx/3: at each of the four corners an error below the area of a third of a cell.
+  EXPECT_NEAR(total_volume(fluid_of(spec)), 0.8 - 0.1, 4.0 * dx * dx / 9.0);
+  spec.walls[1] = box_wall({0.33, 0.31}, {0.46, 0.44}, {}, FluidSide::outside);
+  EXPECT_NEAR(total_volume(fluid_of(spec)), 0.8 - 0.13 * 0.13, 4.0 * dx * dx / 9.0);
 }
 
 TEST(FluidLattice, PolygonStandsOffASlantedWall) {
@@ -131,7 +156,8 @@ TEST(FluidLattice, PolygonStandsOffASlantedWall) {
     }
     if (jitter == 0.0) {
       EXPECT_GE(least_distance(fluid.position), 0.75 * dx - round_off) << "moved by at most dx/4";
-      EXPECT_NEAR(fluid.position.size() * dx * dx, 0.8 - 0.5 * 0.37, 0.5 * dx) << "half a cell along the slope";
+      EXPECT_NEAR(total_volume(fluid), 0.8 - 0.5 * 0.37, 1e-12);
+      EXPECT_EQ(fluid.position.size(), 246u) << "cells in this area";
     }
   }
 }

@@ -8,9 +8,8 @@ namespace tailwater {
 namespace {
 
 template <int Dim>
-void check_polygon(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
-                   Findings& findings) {
-  if (particles > 0) return;
+void check_polygon(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+  if (particles > 0.0) return;
   findings.push_back(Finding::error(
       "{} at {} holds no particle: its area is {:.3g} m^2 and the spacing is {:.6g} m; use a smaller spacing, or "
       "correct the block's points",
@@ -18,13 +17,12 @@ void check_polygon(const FluidTable& block, const std::string& label, std::size_
 }
 
 template <int Dim>
-void check_box(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
-               Findings& findings) {
+void check_box(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
   const Vec<Dim> low = to_vec<Dim>(block.min, label, "min");
   const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - low;
   int smallest = 0;
   extent.minCoeff(&smallest);
-  if (particles == 0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
+  if (particles == 0.0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
     findings.push_back(Finding::error(
         "{} at {} is {:.6g} m long in {}, so it holds no particle of spacing {:.6g} m: use a spacing of at most "
         "{:.6g} m, or a larger block",
@@ -33,9 +31,8 @@ void check_box(const FluidTable& block, const std::string& label, std::size_t pa
 }
 
 template <int Dim>
-void check_mesh(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
-                Findings& findings) {
-  if (particles > 0) return;
+void check_mesh(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+  if (particles > 0.0) return;
   findings.push_back(Finding::error(
       "{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in walls and "
       "bodies; use a smaller spacing, or move it (translate)",
@@ -43,9 +40,8 @@ void check_mesh(const FluidTable& block, const std::string& label, std::size_t p
 }
 
 template <int Dim>
-void check_fill(const FluidTable& block, const std::string& label, std::size_t particles, double dx,
-                Findings& findings) {
-  if (particles > 0) return;
+void check_fill(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+  if (particles > 0.0) return;
   findings.push_back(
       Finding::error("{} holds no particle of spacing {:.6g} m between the walls around its seed {}: use a smaller "
                      "spacing, or move the "
@@ -60,8 +56,9 @@ Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   if (spec.fluid.empty() && spec.inlets.empty()) {
     return {Finding::error("there is no fluid: add a [[fluid]] or an [[inlet]] table")};
   }
-  std::vector<std::size_t> particles(spec.fluid.size(), 0);
-  for (const int block : fluid.block) ++particles[block];
+  std::vector<double> particles(spec.fluid.size(), 0.0);
+  for (const int block : fluid.block) particles[block] += 1.0;
+  fluid.ranks.sum_of_each(particles);
   Findings findings;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const BlockShape shape = spec.fluid[b].shape;

@@ -9,6 +9,7 @@
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_particles.h"
+#include "parallel/at_start.h"
 
 namespace tailwater {
 namespace {
@@ -39,6 +40,21 @@ struct Contact {
   double deepest = 0.0;       ///< m behind the wall, positive
   double nearest = infinite;  ///< m in front of it
   Vec<Dim> deepest_at, nearest_at;
+
+  /// Of two places that are equally near or deep, the one seen first counts.
+  void add(const Contact& later) {
+    in_front += later.in_front;
+    behind += later.behind;
+    too_near += later.too_near;
+    if (later.deepest > deepest) {
+      deepest = later.deepest;
+      deepest_at = later.deepest_at;
+    }
+    if (later.nearest < nearest) {
+      nearest = later.nearest;
+      nearest_at = later.nearest_at;
+    }
+  }
 };
 
 /// How near a block comes to a face that it is straight in front of.
@@ -46,7 +62,26 @@ template <int Dim>
 struct Approach {
   double distance = infinite;  ///< m
   Vec<Dim> at;
+
+  void add(const Approach& later) {
+    if (later.distance < distance) *this = later;
+  }
 };
+
+/// What all ranks have found, by the same keys.
+template <class Found>
+std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
+                                              const std::map<std::pair<int, int>, Found>& own) {
+  struct Entry {
+    int first, second;  // a pair is no plain value
+    Found found;
+  };
+  std::vector<Entry> entries;
+  for (const auto& [key, found] : own) entries.push_back({key.first, key.second, found});
+  std::map<std::pair<int, int>, Found> all;
+  for (const Entry& entry : gather_on_all(ranks, entries)) all[{entry.first, entry.second}].add(entry.found);
+  return all;
+}
 
 /// Where the fluid is beside the walls.
 template <int Dim>
@@ -87,7 +122,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
       }
     }
   }
-  return contacts;
+  return {together(fluid.ranks, contacts.by_wall), together(fluid.ranks, contacts.by_face)};
 }
 
 }  // namespace

@@ -34,14 +34,14 @@ Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached)
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.position.empty()) return {};
+  if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.all == 0) return {};
   std::vector<WallFace<Dim>> faces = boundary.faces;
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
     const std::vector<WallFace<Dim>> closing = end.as_faces();
     faces.insert(faces.end(), closing.begin(), closing.end());
   }
-  const CellSpace<Dim> space(spec, std::move(faces), fluid.position, most_cells_of_flood);
-  const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid.position), Vec<Dim>(gravity.normalized()));
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_flood);
+  const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid), Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
   const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());
   return {Finding::error("the water would pour out of the case at {}, near {}: close the wall there, or make it higher",

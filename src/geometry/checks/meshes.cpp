@@ -16,7 +16,7 @@ constexpr double largest_share_of_water = 200.0;
 constexpr double least_facing_of_plate = 0.99;
 
 Findings check_size(const CaseSpec& spec, const std::string& label, const MeshSurface& surface,
-                    const FluidParticles<3>& fluid) {
+                    const Eigen::AlignedBox<double, 3>& water) {
   const double dx = spec.particles.spacing;
   const double length = (surface.high() - surface.low()).maxCoeff();
   if (length < dx) {
@@ -25,8 +25,6 @@ Findings check_size(const CaseSpec& spec, const std::string& label, const MeshSu
                        "spacing",
                        label, length, dx)};
   }
-  Eigen::AlignedBox<double, 3> water;
-  for (const Vec<3>& x : fluid.position) water.extend(x);
   const double water_length = water.isEmpty() ? 0.0 : water.sizes().maxCoeff() + dx;
   if (water_length == 0.0 || length <= largest_share_of_water * water_length) return {};
   return {
@@ -104,17 +102,18 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
 
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid) {
   const double tolerance = corner_tolerance * spec.particles.spacing;
+  const Eigen::AlignedBox<double, 3> water = fluid.box();
   Findings findings;
   for (const WallMesh& mesh : boundary.meshes) {
     const std::string label = wall_label(boundary, mesh.wall);
-    append(findings, check_size(spec, label, *mesh.surface, fluid));
+    append(findings, check_size(spec, label, *mesh.surface, water));
     append(findings, check_self_crossing(*mesh.surface, label, tolerance));
     append(findings, check_thickness(spec, boundary, mesh, label));
   }
   for (const WallPlate& plate : boundary.plates) {
     if (!plate.sheet) continue;
     const std::string label = wall_label(boundary, plate.wall);
-    append(findings, check_size(spec, label, *plate.sheet, fluid));
+    append(findings, check_size(spec, label, *plate.sheet, water));
     append(findings, check_self_crossing(*plate.sheet, label, tolerance));
   }
   for (std::size_t b = 0; b < boundary.water.size(); ++b) {

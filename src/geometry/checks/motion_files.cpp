@@ -20,10 +20,8 @@ constexpr double largest_overshoot = 0.1;
 template <int Dim>
 double water_height(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.norm() == 0.0 || fluid.position.empty()) return 0.0;
-  const Vec<Dim> up = -gravity.normalized();
-  const auto [low, high] = std::ranges::minmax(fluid.position, {}, [&](const Vec<Dim>& x) { return up.dot(x); });
-  return up.dot(high - low) + spec.particles.spacing;
+  if (gravity.norm() == 0.0 || fluid.all == 0) return 0.0;
+  return fluid.extent_along(gravity.normalized()) + spec.particles.spacing;
 }
 
 /// The samples of one file, as the wall's corners follow them.

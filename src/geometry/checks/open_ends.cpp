@@ -5,6 +5,7 @@
 #include "geometry/checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "parallel/at_start.h"
 
 namespace tailwater {
 namespace {
@@ -112,16 +113,24 @@ void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Op
 template <int Dim>
 bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
                         Findings& findings) {
-  std::vector<std::size_t> beyond;
+  struct Particle {
+    Vec<Dim> place;
+    int block;
+  };
+  std::vector<Particle> first;  // on each rank
+  std::int64_t own = 0;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
-    if (end.beyond(x) > corner_tolerance * spec.particles.spacing && end.spans(x)) beyond.push_back(i);
+    if (end.beyond(x) <= corner_tolerance * spec.particles.spacing || !end.spans(x)) continue;
+    if (own++ == 0) first.push_back({x, fluid.block[i]});
   }
-  if (beyond.empty()) return true;
+  const std::int64_t beyond = fluid.ranks.sum(own);
+  if (beyond == 0) return true;
+  first = gather_on_all(fluid.ranks, first);
   findings.push_back(Finding::error(
       "{} cuts through {}: {} particles lie beyond it at the start, the first at {}; end the block there, move "
       "the open end, or give it the opposite direction",
-      end.label(), fluid_label(spec, fluid.block[beyond[0]]), beyond.size(), place(fluid.position[beyond[0]])));
+      end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)));
   return false;
 }
 

@@ -40,7 +40,7 @@ class PathWalk {
     // The room is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
     const auto all = std::ranges::count_if(drawn.walls, [](const WallProperties& wall) { return wall.moves(); });
     const bool is_known = spec.inlets.empty() && spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
-    if (is_known && !fluid.position.empty()) room_.emplace(spec, drawn, fluid);
+    if (is_known && fluid.all > 0) room_.emplace(spec, drawn, fluid);
   }
 
   Findings findings(double end) {
