@@ -244,13 +244,11 @@ class Messages(ProgramTest):
         self.assertNotIn("\r", result.stderr)
 
     def test_quiet_says_nothing(self):
-        # Thrown up at 3 m/s, the top row rises in 0.1 s from 0.45 to 0.70 m, above the walls: a warning otherwise.
-        low = ("--set", "wall[0].points=[[0, 0.6], [0, 0], [3, 0], [3, 0.6]]", "--set", "fluid[0].velocity=[0, 3]")
-        loud = self.call("run", "small.toml", "--out", "loud", *low)
+        loud = self.call("run", "small.toml", "--out", "loud", *Books.OVER_THE_RIM)
         self.assertGreater(self.summary("loud")["volume"]["outside_the_walls_most"], 0)
         self.assertIn("warning: ", loud.stderr)
         self.assertIn("Remedy: higher walls", loud.stderr)
-        quiet = self.call("run", "small.toml", "--out", "quiet", "--quiet", *low)
+        quiet = self.call("run", "small.toml", "--out", "quiet", "--quiet", *Books.OVER_THE_RIM)
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
         for run in ("loud", "quiet"):
             self.assertIn("warning: at t = ", (self.folder / run / "log.txt").read_text())

@@ -56,15 +56,15 @@ Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
     Vec<Dim> where;
   };
   std::map<std::pair<int, int>, Overlap> overlaps;  // by blocks
-  for (const auto& [position, block] : candidates) {
+  for (const auto& candidate : candidates) {
     int other = -1;
-    grid.visit_near(position, [&](int j) {
-      if (candidates[j].block != block) other = candidates[j].block;
+    grid.visit_near(candidate.position, [&](int j) {
+      if (candidates[j].block != candidate.block) other = candidates[j].block;
     });
-    grid.add(position);
+    grid.add(candidate.position);
     if (other < 0) continue;
-    Overlap& overlap = overlaps[{other, block}];
-    if (overlap.particles++ == 0) overlap.where = position;
+    Overlap& overlap = overlaps[{other, candidate.block}];
+    if (overlap.particles++ == 0) overlap.where = candidate.position;
   }
   Findings findings;
   for (const auto& [blocks, overlap] : overlaps) {
