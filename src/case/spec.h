@@ -808,6 +808,8 @@ struct ProbeTable {
   std::vector<Coordinates> region_points;
   Coordinates moment_about;
   std::string body;
+  double diameter = 0.0;
+  double width = 0.0;
   double step = 0.0;
   std::vector<double> times;
   double interval = 0.0;
@@ -839,6 +841,11 @@ struct ProbeTable {
     v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
     v.coordinates("moment_about", self.moment_about, "m", "Point, which does not move, that the moment is taken about");
     v.text("body", self.body, "Name of the body whose motion is written");
+    v.number("diameter", self.diameter, "m", Range::at_least(0.0),
+             "Diameter of the round sensor in the wall, over which the pressure is averaged (2D: its length); 0: a "
+             "point");
+    v.number("width", self.width, "m", Range::at_least(0.0),
+             "Width of the rectangle in the wall, half on each side of the stretch (3D); 0: a line");
     v.number("step", self.step, "m", Range::at_least(0.0),
              "Distance between the places of a level map or a velocity profile; 0: dx");
     v.numbers("times", self.times, "s", "Times at which a profile or velocity profile is taken");

@@ -1,5 +1,7 @@
 #include "probes/wall_pressure.h"
 
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "geometry/wall_motion.h"
@@ -66,6 +68,80 @@ Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) 
   return region;
 }
 
+/// The normal of the wall at `x`; of any wall if none is near, which point_on_wall refuses later.
+template <int Dim>
+Vec<Dim> normal_at(const Vec<Dim>& x, const Boundary<Dim>& boundary) {
+  const NearestWall<Dim> nearest = boundary.nearest(x, std::numeric_limits<double>::infinity());
+  return nearest.face < 0 ? Vec<Dim>(Vec<Dim>::Unit(0)) : boundary.faces[nearest.face].normal;
+}
+
+/// Places over a disc in the wall, each of the same share of it: the centres of the squares, at most dx/2 long, of a
+/// square around it that are in the disc.
+template <int Dim>
+std::vector<Vec<Dim>> places_on_disc(const ProbeTable& probe, const Vec<Dim>& centre, const CaseSpec& spec,
+                                     const Boundary<Dim>& boundary) {
+  const Vec<Dim> normal = normal_at(centre, boundary);
+  const int count = pieces_of_at_most(0.5 * spec.particles.spacing, probe.diameter);
+  const auto from_centre = [&](int k) { return ((k + 0.5) / count - 0.5) * probe.diameter; };
+  std::vector<Vec<Dim>> places;
+  if constexpr (Dim == 2) {
+    for (int k = 0; k < count; ++k) places.push_back(centre + from_centre(k) * Vec<2>(-normal[1], normal[0]));
+  } else {
+    const Vec<3> along = normal.unitOrthogonal();
+    const Vec<3> across = normal.cross(along);
+    for (int i = 0; i < count; ++i) {
+      for (int k = 0; k < count; ++k) {
+        if (std::hypot(from_centre(i), from_centre(k)) > 0.5 * probe.diameter) continue;
+        places.push_back(centre + from_centre(i) * along + from_centre(k) * across);
+      }
+    }
+  }
+  return places;
+}
+
+/// Places over the stretch from `from` to `to`, and to both sides of it in the wall by half the `width`.
+template <int Dim>
+std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const double step = 0.5 * spec.particles.spacing;
+  std::vector<Vec<Dim>> line = places_between<Dim>(probe, step);
+  if (probe.width == 0.0) return line;
+  if constexpr (Dim == 2) {
+    throw InputError(
+        fmt::format("{}: width = {} m: a wall in 2D has no width; leave it out", label(probe), probe.width));
+  } else {
+    const Vec<3> way = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
+    const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(way).normalized();
+    const int count = pieces_of_at_most(step, probe.width);
+    std::vector<Vec<3>> places;
+    for (const Vec<3>& x : line) {
+      for (int k = 0; k < count; ++k) places.push_back(x + ((k + 0.5) / count - 0.5) * probe.width * across);
+    }
+    return places;
+  }
+}
+
+/// The mean over points of walls.
+template <int Dim>
+Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& probe, const CaseSpec& spec,
+                       const Boundary<Dim>& boundary) {
+  std::vector<PointOnWall<Dim>> points;
+  for (const Vec<Dim>& x : places) points.push_back(point_on_wall(probe, x, spec, boundary));
+  return {{"pressure_Pa", "wet_share"},
+          [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            double sum = 0.0;
+            double wet = 0.0;
+            for (const PointOnWall<Dim>& point : points) {
+              if (const std::optional<double> pressure = wall_pressure(context, point.at(context.time))) {
+                sum += *pressure;
+                wet += 1.0;
+              }
+            }
+            const double count = static_cast<double>(points.size());
+            return {{sum / count, wet / count}};
+          },
+          [points](double time) { return region_of(points, time); }};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -108,7 +184,9 @@ std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<
 
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const PointOnWall<Dim> point = point_on_wall(probe, to_vec<Dim>(probe.at, label(probe), "at"), spec, boundary);
+  const Vec<Dim> centre = to_vec<Dim>(probe.at, label(probe), "at");
+  if (probe.diameter > 0.0) return mean_over(places_on_disc(probe, centre, spec, boundary), probe, spec, boundary);
+  const PointOnWall<Dim> point = point_on_wall(probe, centre, spec, boundary);
   return {{"pressure_Pa"},
           [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
             return {{wall_pressure(context, point.at(context.time)).value_or(0.0)}};
@@ -118,24 +196,7 @@ Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec
 
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::vector<PointOnWall<Dim>> points;
-  for (const Vec<Dim>& x : places_between<Dim>(probe, 0.5 * spec.particles.spacing)) {
-    points.push_back(point_on_wall(probe, x, spec, boundary));
-  }
-  return {{"pressure_Pa", "wet_share"},
-          [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            double sum = 0.0;
-            double wet = 0.0;
-            for (const PointOnWall<Dim>& point : points) {
-              if (const std::optional<double> pressure = wall_pressure(context, point.at(context.time))) {
-                sum += *pressure;
-                wet += 1.0;
-              }
-            }
-            const double count = static_cast<double>(points.size());
-            return {{sum / count, wet / count}};
-          },
-          [points](double time) { return region_of(points, time); }};
+  return mean_over(places_on_strip(probe, spec, boundary), probe, spec, boundary);
 }
 
 template struct WallPressureSums<2>;

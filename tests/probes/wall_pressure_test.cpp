@@ -95,6 +95,50 @@ TYPED_TEST(WallPressureTest, TheMeanOverAStretchCountsDryPlacesAsZero) {
   EXPECT_EQ(mean(0.7, 0.9), (Row{0.0, 0.0}));
 }
 
+TYPED_TEST(WallPressureTest, TheMeanOverADiscIsThatAtItsCentreUnderWaterAndHalfDryAtTheLevel) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  const T tank = T::filled(0.6);
+  const auto disc = [&](double z, double diameter) {
+    ProbeTable probe = probe_at(ProbeType::wall_pressure, T::at(1.0, z));
+    probe.diameter = diameter;
+    return wall_pressure_reading<dim>(probe, tank.spec, tank.boundary).take(tank.context()).at(0);
+  };
+  // The points lie evenly around the centre, so the mean of a linear pressure is that at the centre.
+  for (const double diameter : {0.2 * T::dx, 2.3 * T::dx, 6.0 * T::dx}) {
+    EXPECT_NEAR(disc(0.3, diameter)[0], T::rho * T::g * 0.3, TestFixture::rounding) << diameter;
+    EXPECT_EQ(disc(0.3, diameter)[1], 1.0);
+  }
+  // No place is nearer to the level than dx/4.
+  const Row at_level = disc(0.6, 4.0 * T::dx);
+  EXPECT_EQ(at_level[1], 0.5);
+  EXPECT_GT(at_level[0], 0.0);
+  EXPECT_LT(at_level[0], 0.5 * T::rho * T::g * 2.0 * T::dx);
+}
+
+TEST(WallPressureMean, OverARectangleIsThatOverItsDepth) {
+  using T = Tank<3>;
+  const T tank = T::filled(0.6);
+  const auto mean = [&](const Coordinates& from, const Coordinates& to, double width) {
+    ProbeTable probe = probe_along(ProbeType::wall_pressure_mean, from, to);
+    probe.width = width;
+    return wall_pressure_mean_reading<3>(probe, tank.spec, tank.boundary).take(tank.context()).at(0);
+  };
+  // From 0.5 m to 0.7 m, half of it dry: 0.1 m of water in the mean 0.05 m deep, over twice its height.
+  const Row row = mean({1.0, 0.2, 0.6}, {1.0, 0.8, 0.6}, 0.2);
+  EXPECT_NEAR(row[0], 0.5 * T::rho * T::g * 0.05, 1e-9 * T::rho * T::g);
+  EXPECT_EQ(row[1], 0.5);
+  try {
+    ProbeTable flat = probe_along(ProbeType::wall_pressure_mean, {1.0, 0.1}, {1.0, 0.2});
+    flat.width = 0.1;
+    const Tank<2> tank_2d = Tank<2>::filled(0.6);
+    wall_pressure_mean_reading<2>(flat, tank_2d.spec, tank_2d.boundary);
+    FAIL() << "a width in 2D was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a wall in 2D has no width"), std::string::npos) << error.what();
+  }
+}
+
 TYPED_TEST(WallPressureTest, RefusesAPlaceFarFromWalls) {
   using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.6);
