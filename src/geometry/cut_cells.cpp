@@ -54,7 +54,7 @@ class Cutter {
       const WallFace<Dim>& face = boundary.faces[f];
       if (boundary.plate_of(face.wall) >= 0) return;
       plain_.faces.push_back(face);
-      cuts_.push_back(adapts_to_wall(spec, block, face));
+      cuts_.push_back(adapts_to_wall(block, face));
     });
     plain_.file_faces(reach_);
   }

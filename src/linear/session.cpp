@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
@@ -58,6 +59,9 @@ void check_petsc(PetscErrorCode code) {
 LinearSession::LinearSession() {
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
+  // Open MPI's hwloc looks for graphics cards by asking every X server of this machine, also where DISPLAY is not set.
+  // If one ends just then, as those of pictures do, Xlib ends the whole program.
+  setenv("HWLOC_COMPONENTS", "-gl", 0);
   // Signals stay ours: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
   check_petsc(PetscInitializeNoArguments());

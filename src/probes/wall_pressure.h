@@ -39,14 +39,14 @@ template <int Dim>
 std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w);
 
 /// Pressure at the point of a wall nearest to `at`: column pressure_Pa. With a `diameter` the mean over a disc in the
-/// wall (2D: a stretch), with the columns of a mean. Throws InputError when no wall is within a support of `at`, or of a
-/// place of the disc.
+/// wall (2D: a stretch), with the columns of a mean. Throws InputError when no wall is within a support of `at`, or of
+/// a place of the disc.
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Mean pressure over the stretch from `from` to `to`, with a `width` over the rectangle in the wall around it, from
-/// places at most dx/2 apart; dry places count as 0. Columns pressure_Pa, wet_share. Throws InputError as above, for any
-/// of these places, and for a width in 2D.
+/// places at most dx/2 apart; dry places count as 0. Columns pressure_Pa, wet_share. Throws InputError as above, for
+/// any of these places, and for a width in 2D.
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

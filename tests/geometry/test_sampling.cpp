@@ -123,23 +123,32 @@ TEST(FluidLattice, PolygonHasItsVolume) {
   EXPECT_NEAR(total_volume(disc), area, 1e-12);
 }
 
-// A box over a sloping bed, one around a slanted body, and one that a body cuts whose planes the lattice leaves out.
-TEST(FluidLattice, BoxHasTheVolumeThatWallsAndBodiesLeave) {
-  const double dx = 0.05;
-  CaseSpec spec = empty_case(dx);
+TEST(FluidLattice, BoxHasTheVolumeThatASlopeLeaves) {
+  CaseSpec spec = empty_case(0.05);
   spec.fluid = {box_fluid({0, 0}, {1, 0.8})};
   spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0.1}, {1, 1}})};
-  const FluidParticles<2> on_slope = fluid_of(spec);
-  EXPECT_NEAR(total_volume(on_slope), 0.8 - 0.5 * 0.1, 1e-12);
-  EXPECT_EQ(on_slope.position.size(), 300u);
-  WallTable body = polyline({{0.3, 0.2}, {0.6, 0.3}, {0.5, 0.6}, {0.2, 0.5}});
+  const FluidParticles<2> fluid = fluid_of(spec);
+  EXPECT_NEAR(total_volume(fluid), 0.8 - 0.5 * 0.1, 1e-12);
+  EXPECT_EQ(fluid.position.size(), 300u);
+}
+
+// Where every cell that a round body cuts has seven others alike, all of them are water or none.
+TEST(FluidLattice, BoxAroundARoundBodyIsAsSymmetricAsTheBody) {
+  CaseSpec spec = empty_case(0.05);
+  spec.fluid = {box_fluid({-1, -1}, {1, 1})};
+  WallTable body;
+  body.name = "hull";
   body.shape = WallShape::polygon;
   body.fluid_side = FluidSide::outside;
-  spec.walls = {box_wall({0, 0}, {1, 1}, {"+y"}), body};
-  // Flat over dx/3: at each of the four corners an error below the area of a third of a cell.
-  EXPECT_NEAR(total_volume(fluid_of(spec)), 0.8 - 0.1, 4.0 * dx * dx / 9.0);
-  spec.walls[1] = box_wall({0.33, 0.31}, {0.46, 0.44}, {}, FluidSide::outside);
-  EXPECT_NEAR(total_volume(fluid_of(spec)), 0.8 - 0.13 * 0.13, 4.0 * dx * dx / 9.0);
+  for (int n = 0; n < 48; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / 48;
+    body.points.push_back({0.3 * std::cos(angle), 0.3 * std::sin(angle)});
+  }
+  spec.walls = {box_wall({-1, -1}, {1, 1}, {"+y"}), body};
+  Vec<2> first_moment = Vec<2>::Zero();
+  const FluidParticles<2> fluid = fluid_of(spec);
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) first_moment += fluid.volume[i] * fluid.position[i];
+  EXPECT_LT(first_moment.norm(), 1e-12);
 }
 
 TEST(FluidLattice, PolygonStandsOffASlantedWall) {
