@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cases.h"
 #include "geometry/sampling.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -112,11 +113,7 @@ TEST(FluidLattice, PolygonHasItsVolume) {
   EXPECT_NEAR(total_volume(triangle), 0.5, round_off);
 
   spec.walls.clear();
-  std::vector<Coordinates> circle;
-  for (int k = 0; k < 60; ++k) {
-    circle.push_back({std::cos(2 * std::numbers::pi * k / 60), std::sin(2 * std::numbers::pi * k / 60)});
-  }
-  spec.fluid = {polygon_fluid(circle)};
+  spec.fluid = {polygon_fluid(circle(60))};
   const double area = 30.0 * std::sin(2 * std::numbers::pi / 60);
   const FluidParticles<2> disc = fluid_of(spec);
   EXPECT_EQ(disc.position.size(), static_cast<std::size_t>(std::lround(area / (dx * dx))));
@@ -136,15 +133,7 @@ TEST(FluidLattice, BoxHasTheVolumeThatASlopeLeaves) {
 TEST(FluidLattice, BoxAroundARoundBodyIsAsSymmetricAsTheBody) {
   CaseSpec spec = empty_case(0.05);
   spec.fluid = {box_fluid({-1, -1}, {1, 1})};
-  WallTable body;
-  body.name = "hull";
-  body.shape = WallShape::polygon;
-  body.fluid_side = FluidSide::outside;
-  for (int n = 0; n < 48; ++n) {
-    const double angle = 2.0 * std::numbers::pi * n / 48;
-    body.points.push_back({0.3 * std::cos(angle), 0.3 * std::sin(angle)});
-  }
-  spec.walls = {box_wall({-1, -1}, {1, 1}, {"+y"}), body};
+  spec.walls = {box_wall({-1, -1}, {1, 1}, {"+y"}), polygon(circle(48, 0.3), FluidSide::outside)};
   Vec<2> first_moment = Vec<2>::Zero();
   const FluidParticles<2> fluid = fluid_of(spec);
   for (std::size_t i = 0; i < fluid.position.size(); ++i) first_moment += fluid.volume[i] * fluid.position[i];

@@ -6,6 +6,7 @@
 
 #include "cases.h"
 #include "geometry/sampling.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -148,11 +149,7 @@ TEST(Dummies, StayNearASharpCorner) {
 TEST(Dummies, FollowASmoothCurveEvenly) {
   const double dx = 0.1;
   CaseSpec spec = empty_case(dx);
-  std::vector<Coordinates> circle;
-  for (int k = 0; k < 200; ++k) {
-    circle.push_back({std::cos(2 * std::numbers::pi * k / 200), std::sin(2 * std::numbers::pi * k / 200)});
-  }
-  spec.walls = {polygon(circle, FluidSide::outside)};
+  spec.walls = {polygon(circle(200), FluidSide::outside)};
   const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), dx, 3);
   // Rows of radius 0.95, 0.85, 0.75 with N = round(2 pi r/dx).
   EXPECT_EQ(dummies.size(), 60u + 53u + 47u);

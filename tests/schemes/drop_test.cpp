@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "schemes/cases.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -44,11 +44,7 @@ CaseSpec round_drop(double dx, Integrator integrator) {
   spec.scheme.integrator = integrator;
   FluidTable water;
   water.shape = BlockShape::polygon;
-  constexpr int corners = 240;
-  for (int n = 0; n < corners; ++n) {
-    const double angle = 2.0 * std::numbers::pi * n / corners;
-    water.points.push_back({std::cos(angle), std::sin(angle)});
-  }
+  water.points = circle(240);
   spec.fluid = {water};
   return spec;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "schemes/cases.h"
+#include "support/circle.h"
 #include "support/dimensions.h"
 
 namespace tailwater {
@@ -132,10 +133,7 @@ TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
   hull.name = "hull";
   hull.shape = WallShape::polygon;
   hull.fluid_side = FluidSide::outside;
-  for (int n = 0; n < 48; ++n) {
-    const double angle = 2.0 * std::numbers::pi * n / 48;
-    hull.points.push_back({0.8 + R * std::cos(angle), 0.8 + R * std::sin(angle)});
-  }
+  hull.points = circle(48, R, {0.8, 0.8});
   const double displaced = 1000.0 * std::numbers::pi * R * R;
   BodyTable body = body_of("hull", 0.1 * displaced, {0.8, 0.8}, {});
   body.free = {"x", "y"};

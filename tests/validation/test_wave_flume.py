@@ -14,6 +14,13 @@ DEPTH, LENGTH, HEIGHT, G = 0.2, 1.25, 0.08, 9.81
 PERIOD = 2 * np.pi / (G * 2 * np.pi / LENGTH * np.tanh(2 * np.pi / LENGTH * DEPTH)) ** 0.5
 
 
+def add_gauge(path, name, x, times, level):
+    """Writes what a gauge reads, and returns its table of the case; `level` is above the still water."""
+    (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
+        f"{time:.12g},{DEPTH + z:.12g}\n" for time, z in zip(times, level)))
+    return f'[[probe]]\nname = "{name}"\ntype = "depth"\nat = [{x}, 0.0]\n'
+
+
 class WaveFlume(unittest.TestCase):
     def run_with(self, decay, reflected, longer=1.0):
         """Waves of `HEIGHT` at the first gauge, `longer` than linear theory has them, that lose exp(-decay) per length, and of
@@ -27,15 +34,12 @@ class WaveFlume(unittest.TestCase):
         k = 2 * np.pi / LENGTH / longer
         for letter, group in places.items():
             for n, x in enumerate(group, 1):
-                name = f"{letter}{n}"
-                tables += f'[[probe]]\nname = "{name}"\ntype = "depth"\nat = [{x}, 0.0]\n'
                 height = HEIGHT * np.exp(-decay * (group[0] / LENGTH - 0.5))
                 phase = 2 * np.pi * t / PERIOD
                 level = 0.5 * height * np.cos(phase - k * x)
                 if letter == "b":
                     level += 0.5 * reflected * height * np.cos(phase + k * x + 0.4)
-                (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
-                    f"{time:.9g},{DEPTH + z:.9g}\n" for time, z in zip(t, level)))
+                tables += add_gauge(path, f"{letter}{n}", x, t, level)
         (path / "case.effective.toml").write_text(
             f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {22 * PERIOD}\n"
             f"[parameters]\nh = {DEPTH}\nL = {LENGTH}\nT = {PERIOD}\nH = {HEIGHT}\n{tables}")
@@ -74,11 +78,9 @@ class IrregularWaves(unittest.TestCase):
         amplitude = amplitude * height_factor * np.where(omega > 1.1 * 2 * np.pi / PERIOD, high_factor, 1.0)
         tables = (f'[[wave_maker]]\nname = "piston"\nseed = {self.SEED}\ncomponents = {self.COMPONENTS}\n')
         for n, x in enumerate(0.5 * LENGTH + LENGTH * np.array([0, 0.1, 0.25, 0.4]), 1):
-            tables += f'[[probe]]\nname = "a{n}"\ntype = "depth"\nat = [{x}, 0.0]\n'
             angle = np.outer(t, omega) + phase
             level = (np.cos(angle - k * x) + reflected * np.cos(angle + k * x)) @ amplitude
-            (path / "probes" / f"a{n}.csv").write_text("time_s,highest_m\n" + "".join(
-                f"{time:.12g},{DEPTH + z:.12g}\n" for time, z in zip(t, level)))
+            tables += add_gauge(path, f"a{n}", x, t, level)
         (path / "case.effective.toml").write_text(
             f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {end}\n"
             f"[parameters]\nh = {DEPTH}\nT = {PERIOD}\nH = {HEIGHT}\nwindow = {start}\n{tables}")
