@@ -33,9 +33,12 @@ void add_operators(Stage<Dim>& stage) {
   const auto vectors = std::make_shared<std::vector<Vec<Dim>>>();
   const auto faces = std::make_shared<std::vector<Vec<Dim>>>(flow.here.open_faces);
   add_benchmark("operators/pair_vectors", [&flow, vectors, faces] {
-    find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), flow.state.particles.position,
-                                     kernel_radius(flow.setup.kernel), flow.state.particles.volume, flow.here.interior,
-                                     flow.here.first_moment, *vectors, *faces);
+    const Particles<Dim>& particles = flow.state.particles;
+    constexpr CorrectionReach reach = CorrectionReach::inside;
+    find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
+                                     {particles.position, kernel_radius(flow.setup.kernel), particles.volume,
+                                      particles.kind, flow.here.interior, flow.here.first_moment},
+                                     reach, closing_sweeps(reach), *vectors, *faces);
   });
   add_benchmark("operators/divergence", [&flow] { benchmark::DoNotOptimize(find_divergence(flow)); });
   const auto gradients = std::make_shared<std::vector<Vec<Dim>>>(owned);

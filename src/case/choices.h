@@ -27,7 +27,7 @@ enum class KernelName { wendland_c2, cubic_spline, farzin };
 enum class LaplacianKind { morris, consistent, shao_lo };
 enum class GradientKind { conservative, consistent, density_weighted };
 enum class DivergenceKind { standard, consistent };
-enum class PairVectors { kernel, corrected };
+enum class PairVectors { kernel, corrected, corrected_to_surface };
 enum class SourceKind { velocity_divergence, density, mixed };
 enum class SurfaceTreatment { air, cone, farzin, density };
 enum class WallTreatment { dummies, pressure_rows, row_and_dummies };
@@ -134,7 +134,7 @@ struct Choices<DivergenceKind> {
 };
 template <>
 struct Choices<PairVectors> {
-  static constexpr std::array<std::string_view, 2> names{"kernel", "corrected"};
+  static constexpr std::array<std::string_view, 3> names{"kernel", "corrected", "corrected-to-surface"};
 };
 template <>
 struct Choices<SourceKind> {

@@ -637,7 +637,8 @@ struct SchemeTable {
              "Velocity divergence in the source of the pressure equation: standard SPH, or consistent (formulation)");
     v.choice("pair_vectors", self.pair_vectors,
              "Vectors of the conservative gradient and the standard divergence: the kernel's gradient, or corrected to "
-             "first order and still antisymmetric (formulation)");
+             "first order and still antisymmetric, inside the water or up to its surface (waves then keep their "
+             "height, and jittered water takes longer to come to rest) (formulation)");
     v.choice("source", self.source,
              "Source of the pressure equation: the velocity's divergence (F15), the density error (B17), or the "
              "divergence and a fraction of the density error (formulation)");

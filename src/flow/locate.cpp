@@ -55,9 +55,13 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
     return;
   }
   const Particles<Dim>& particles = flow.state.particles;
-  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), particles.position, kernel_radius(setup.kernel),
-                                   particles.volume, here.interior, here.first_moment, here.pair_vectors,
-                                   here.open_faces);
+  const CorrectionReach reach = setup.scheme.pair_vectors == PairVectors::corrected_to_surface
+                                    ? CorrectionReach::surface
+                                    : CorrectionReach::inside;
+  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
+                                   {particles.position, kernel_radius(setup.kernel), particles.volume, particles.kind,
+                                    here.interior, here.first_moment},
+                                   reach, closing_sweeps(reach), here.pair_vectors, here.open_faces);
 }
 
 }  // namespace

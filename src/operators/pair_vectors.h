@@ -19,8 +19,15 @@
 //        away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far as it matters: what
 //        varies from particle to particle. The row is divided by `interior`, so l is 0 at the surface.
 //
-// Both corrections are continuous in the positions and need no surface detection. Where they come from, what is
-// exact and what each is worth: docs/theory/operators.md.
+// That is the reach `inside`. With the reach `surface` the outermost rows take part, which are else an elastic skin:
+//
+// B_i    tends to T_i = lambda_min M_i^-1 at the surface, so that B_i M_i has no direction: stretching the surface is
+//        not taken for a compression, and across it the kernel's gradient stays, which fits the air (pressure/weights).
+// l_i    gives there the force of a uniform pressure the potential that it has with the kernel's gradients,
+//        sum_j w_j a_ij -> sum_j w_j dW e_ij, or water at rest would roll. The share of both equations is `interior`.
+//
+// The corrections are continuous in the positions and need no surface detection. Where they come from, what is exact
+// and what each is worth: docs/theory/operators.md.
 #pragma once
 
 #include <span>
@@ -28,23 +35,36 @@
 
 #include "neighbours/halo.h"
 #include "neighbours/pairs.h"
+#include "particles/particles.h"
 
 namespace tailwater {
 
+/// Where pair vectors are corrected.
+enum class CorrectionReach { inside, surface };
+
 /// Sweeps after which the equation for l is left alone.
-inline constexpr int closing_sweeps = 3;
+constexpr int closing_sweeps(CorrectionReach reach) { return reach == CorrectionReach::inside ? 3 : 10; }
+
+/// What the corrections go by. All arrays have an entry per particle, ghosts included and up to date.
+template <int Dim>
+struct CorrectionInput {
+  std::span<const Vec<Dim>> position;      ///< m; when the pairs were evaluated
+  double radius;                           ///< m; of the support
+  std::span<const double> volume;          ///< m^Dim
+  std::span<const ParticleKind> kind;      ///< only fluid has an l
+  std::span<const double> interior;        ///< 0 at the surface and at walls, 1 inside
+  std::span<const Mat<Dim>> first_moment;  ///< M; I at walls
+};
 
 /// The kernel's gradient at i, dW e_ij, of every pair.
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors);
 
 /// The corrected vector of every pair, and of each owned particle what they leave open of its faces, sum_j w_j a_ij
-/// [1/m]. `interior` is 0 at walls; it and the first moments M must be up to date on ghosts. `radius` [m] is that of
-/// the support. `position` is that of all particles when the pairs were evaluated. Collective.
+/// [1/m], after so many sweeps. Collective.
 template <int Dim>
-void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, std::span<const Vec<Dim>> position,
-                                 double radius, std::span<const double> volume, std::span<const double> interior,
-                                 std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
-                                 std::vector<Vec<Dim>>& open_faces, int sweeps = closing_sweeps);
+void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
+                                 CorrectionReach reach, int sweeps, std::vector<Vec<Dim>>& pair_vectors,
+                                 std::vector<Vec<Dim>>& open_faces);
 
 }  // namespace tailwater

@@ -55,19 +55,21 @@ TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
   Noise noise(51);
   const auto interior =
       sample(set, [&](const Vec<Dim>& x) { return x.cwiseAbs().maxCoeff() < 2.0 * dx ? 0.5 + 0.5 * noise() : 0.0; });
-  const std::vector<Vec<Dim>> vectors = corrected_pair_vectors<Dim>(set, interior);
-  const Pairs<Dim>& pairs = set.pairs();
-  std::size_t corrected = 0;
-  for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = static_cast<std::size_t>(pairs.j[k]);
-      std::size_t back = pairs.begin(j);
-      while (static_cast<std::size_t>(pairs.j[back]) != i) ++back;
-      ASSERT_EQ(vectors[k], Vec<Dim>(-vectors[back]));
-      corrected += vectors[k] != pairs.gradient(k);
+  for (const CorrectionReach reach : {CorrectionReach::inside, CorrectionReach::surface}) {
+    const std::vector<Vec<Dim>> vectors = corrected_pair_vectors<Dim>(set, interior, reach);
+    const Pairs<Dim>& pairs = set.pairs();
+    std::size_t corrected = 0;
+    for (std::size_t i = 0; i < pairs.owned(); ++i) {
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        const auto j = static_cast<std::size_t>(pairs.j[k]);
+        std::size_t back = pairs.begin(j);
+        while (static_cast<std::size_t>(pairs.j[back]) != i) ++back;
+        ASSERT_EQ(vectors[k], Vec<Dim>(-vectors[back]));
+        corrected += vectors[k] != pairs.gradient(k);
+      }
     }
+    EXPECT_GT(corrected, reach == CorrectionReach::inside ? pairs.j.size() / 20 : pairs.j.size() / 2);
   }
-  EXPECT_GT(corrected, pairs.j.size() / 20);
 }
 
 TYPED_TEST(PairVectorsTest, AreTheKernelsGradientsWhereNothingIsInside) {
@@ -142,8 +144,9 @@ TYPED_TEST(PairVectorsTest, SweepsTendToHalfOfTheFaces) {
   constexpr int Dim = TypeParam::value;
   const ParticleSet<Dim> set = periodic_set<Dim>(0.2);
   const std::vector<double> inside(set.size(), 1.0);
-  const auto open = sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, inside, 0));
-  const auto half_closed = sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, inside, 400));
+  const auto open = sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, inside, CorrectionReach::inside, 0));
+  const auto half_closed =
+      sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, inside, CorrectionReach::inside, 400));
   const auto as_used = sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, inside));
   double squares_open = 0.0;
   double squares_used = 0.0;
@@ -155,6 +158,62 @@ TYPED_TEST(PairVectorsTest, SweepsTendToHalfOfTheFaces) {
   // Half of the faces is a quarter of the squares; three sweeps leave a little more.
   EXPECT_GT(squares_used, 0.25 * squares_open * (1.0 - 1e-9));
   EXPECT_LT(squares_used, 0.5 * squares_open);
+}
+
+TYPED_TEST(PairVectorsTest, AtTheSurfaceSweepsTendToTheKernelsForceOfAUniformPressure) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set(jittered_cube<Dim>(6, dx, 0.2), make_kernel<Dim>(KernelName::wendland_c2, radius), dx);
+  const std::vector<double> surface(set.size(), 0.0);
+  const auto kernel = sums_over_faces<Dim>(set, kernel_gradients<Dim>(set));
+  const auto sums_after = [&](int sweeps) {
+    return sums_over_faces<Dim>(set, corrected_pair_vectors<Dim>(set, surface, CorrectionReach::surface, sweeps));
+  };
+  const auto found = sums_after(1000);
+  const auto open = sums_after(0);
+  double squares_open = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT((found[i] - kernel[i]).norm(), 1e-9 / dx);
+    squares_open += (open[i] - kernel[i]).squaredNorm();
+  }
+  EXPECT_GT(squares_open, 1e-3 * static_cast<double>(found.size()) / (dx * dx));
+}
+
+TYPED_TEST(PairVectorsTest, StretchingOfASurfaceIsNoCompressionOnceTheyReachIt) {
+  constexpr int Dim = TypeParam::value;
+  // A block at rest; the middle of its top is a flat surface.
+  constexpr int count = Dim == 2 ? 17 : 11;
+  const ParticleSet<Dim> set(jittered_cube<Dim>(count, dx, 0.0), make_kernel<Dim>(KernelName::wendland_c2, radius), dx);
+  const double top = 0.5 * (count - 1) * dx;
+  const auto interior =
+      sample(set, [&](const Vec<Dim>& x) { return x.cwiseAbs().maxCoeff() < top - 1.5 * dx ? 1.0 : 0.0; });
+  const auto velocity = sample(set, [&](const Vec<Dim>& x) {
+    Vec<Dim> u = Vec<Dim>::Zero();
+    u[0] = x[0];
+    u[Dim - 1] = -x[Dim - 1];
+    return u;
+  });
+  const auto divergences_on_top = [&](const std::vector<Vec<Dim>>& vectors) {
+    std::vector<double> found;  // 1/s, of the three outermost rows in the middle
+    for (int row = 0; row < 3; ++row) {
+      for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+        Vec<Dim> place = Vec<Dim>::Zero();
+        place[Dim - 1] = top - row * dx;
+        if ((set.particles.position[i] - place).norm() > 0.1 * dx) continue;
+        found.push_back(standard_divergence<Dim>(set.pairs(), i, set.particles.volume, vectors, velocity));
+      }
+    }
+    return found;
+  };
+  const auto kernel = divergences_on_top(kernel_gradients<Dim>(set));
+  const auto inside = divergences_on_top(corrected_pair_vectors<Dim>(set, interior));
+  const auto surface = divergences_on_top(corrected_pair_vectors<Dim>(set, interior, CorrectionReach::surface));
+  ASSERT_EQ(kernel.size(), 3u);
+  for (int row = 0; row < 2; ++row) {
+    EXPECT_GT(kernel[row], 0.1);
+    EXPECT_NEAR(inside[row], kernel[row], 0.01);
+    EXPECT_LT(std::abs(surface[row]), 0.3 * kernel[row]);
+  }
+  EXPECT_LT(std::abs(surface[2]), 0.2 * kernel[1]);  // of the sweeps, which reach inside
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Pair vectors of a set of particles, as `locate` finds them for a flow.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "operators/concentration.h"
@@ -16,10 +17,12 @@ std::vector<Vec<Dim>> kernel_gradients(const ParticleSet<Dim>& set) {
   return vectors;
 }
 
-/// With faces closed by `sweeps`. `interior` has an entry per particle, ghosts included.
+/// After so many sweeps, as many as a run makes if none are given. `interior` has an entry per particle, ghosts
+/// included.
 template <int Dim>
 std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const std::vector<double>& interior,
-                                             int sweeps = closing_sweeps) {
+                                             CorrectionReach reach = CorrectionReach::inside,
+                                             std::optional<int> sweeps = {}) {
   const Pairs<Dim>& pairs = set.pairs();
   const Halo<Dim>& halo = set.neighbourhood.halo();
   std::vector<Mat<Dim>> moment(set.size());
@@ -29,8 +32,10 @@ std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const 
   halo.exchange(moment);
   std::vector<Vec<Dim>> vectors;
   std::vector<Vec<Dim>> open_faces;
-  find_corrected_pair_vectors<Dim>(pairs, halo, set.particles.position, kernel_radius(set.neighbourhood.kernel()),
-                                   set.particles.volume, interior, moment, vectors, open_faces, sweeps);
+  const double radius = kernel_radius(set.neighbourhood.kernel());
+  find_corrected_pair_vectors<Dim>(
+      pairs, halo, {set.particles.position, radius, set.particles.volume, set.particles.kind, interior, moment}, reach,
+      sweeps.value_or(closing_sweeps(reach)), vectors, open_faces);
   return vectors;
 }
 
