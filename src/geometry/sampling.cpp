@@ -163,7 +163,7 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   if (placement_of(spec.scheme.walls).on_wall) {
     return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   }
-  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
+  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 
 /// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
@@ -183,11 +183,11 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
     const double missing = least_wall_distance * dx - wall.signed_distance;
-    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) break;
+    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    // From the edge of a mesh straight away: the normal of one of its faces leads along the other.
-    const bool is_at_edge = boundary.mesh_of(wall.face) != nullptr && wall.signed_distance > corner_tolerance * dx &&
-                            face.height(x) < wall.signed_distance - corner_tolerance * dx;
+    // From an edge straight away: the normal of one of its faces leads along the other.
+    const bool is_at_edge =
+        wall.signed_distance > corner_tolerance * dx && face.height(x) < wall.signed_distance - corner_tolerance * dx;
     x += missing * (is_at_edge ? Vec<Dim>((x - wall.point) / wall.signed_distance) : face.normal);
   }
   return x;
@@ -216,8 +216,7 @@ class BlockWater {
       share_[axis] = is_on_nodes ? 0.0 : 0.5;
     }
     const IsReached<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
-    // Of cells that a body cuts alike some would be taken and others not, and the body would start askew.
-    if (stands_on_walls_ || (block_.shape == BlockShape::box && bodies_.any())) {
+    if (stands_on_walls_) {
       if (block_.shape == BlockShape::polygon) leave_out_half_of_outline();
       fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
       return;

@@ -455,7 +455,8 @@ TEST(Fill, RunsAroundCornersAndOverASheet) {
     const FluidParticles<3> fluid = make_fluid_particles(spec, make_boundary<3>(spec));
     double volume = 0.0;
     for (const double v : fluid.volume) volume += v;
-    EXPECT_NEAR(static_cast<double>(fluid.position.size()), volume / power<3>(0.025), 0.5 + 1e-6);
+    // The 40 cells of a row along the hill are alike: all of them are particles or none.
+    EXPECT_NEAR(static_cast<double>(fluid.position.size()), volume / power<3>(0.025), 20.0 + 1e-6);
     return volume;
   };
   // A third of a cell that two walls cut counts as cut by the nearer: less than half of its section is wrong along the
