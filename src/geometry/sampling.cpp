@@ -245,10 +245,14 @@ class BlockWater {
         if (!takes(cell)) return;
         const std::int64_t n = number++;
         if (n < from || n >= to) return;
-        Vec<Dim> x = at(cell);
+        const Vec<Dim> centre = at(cell);
+        Vec<Dim> x = centre;
         for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
           x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
         }
+        // Not to the other side of a plate.
+        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x, -1))
+          x = centre;
         x = kept_off_walls(spec_, boundary_, block_, x);
         double volume = fitted_.share;
         for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
