@@ -224,7 +224,7 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
   std::ranges::sort(cells, [](const Cut& a, const Cut& b) {
     return a.share != b.share ? a.share > b.share : is_before<Dim>(a.cell, b.cell);
   });
-  for (std::size_t k = 0; k < cells.size() && volume > 0.0;) {
+  for (std::size_t k = 0; k < cells.size() && cells[k].share > 0.0 && volume > 0.0;) {
     const std::size_t begin = k;
     double of_alike = 0.0;
     do {
@@ -241,7 +241,7 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
 
 /// Whether a cell beside this one is reached.
 template <int Dim>
-bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                      const Cell<Dim>& cell) {
   bool found = false;
   for_each_around<Dim>(cell, [&](Cell<Dim> beside) {
@@ -259,8 +259,8 @@ bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, con
 
 template <int Dim>
 FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
-                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
-                           const Communicator& ranks) {
+                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
+                           const CellTest<Dim>& has_room, const Communicator& ranks) {
   const Cutter<Dim> cutter(spec, boundary, block, shape, lattice.axes);
   std::vector<RowSums> rows(static_cast<std::size_t>(lattice.rows()));
   FittedCells<Dim> fitted;
@@ -290,7 +290,11 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
         sums.whole += 1.0;
         sums.volume_whole += volume;
       } else if (height > -deepest * spec.particles.spacing) {
-        fitted.cut.push_back({cell, share, false});
+        if (has_room(cell)) {
+          fitted.cut.push_back({cell, share, false});
+        } else if (is_cell_reached) {
+          fitted.cut.push_back({cell, 0.0, false});
+        }
       }
     });
   });
@@ -328,7 +332,7 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
 }
 
 template <int Dim>
-std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                                   const Communicator& ranks) {
   std::vector<double> in_row(static_cast<std::size_t>(lattice.rows()), 0.0);
   for_each_own_row(lattice, ranks, [&](std::int64_t row) {
@@ -341,8 +345,9 @@ std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReac
 #define TAILWATER_INSTANTIATE(Dim)                                                                                     \
   template PartOfBox part_in_front(const Vec<Dim>&, const Vec<Dim>&, double);                                          \
   template FittedCells<Dim> fit_cells<Dim>(const CaseSpec&, const Boundary<Dim>&, const FluidTable&, WaterShape<Dim>&, \
-                                           const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);      \
-  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);
+                                           const LatticeBlock<Dim>&, const CellTest<Dim>&, const CellTest<Dim>&,       \
+                                           const Communicator&);                                                       \
+  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const CellTest<Dim>&, const Communicator&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -215,13 +215,14 @@ class BlockWater {
       lattice_.count[axis] = axes_[axis].count() + (is_on_nodes ? 1 : 0);
       share_[axis] = is_on_nodes ? 0.0 : 0.5;
     }
-    const IsReached<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
+    const CellTest<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
     if (stands_on_walls_) {
       if (block_.shape == BlockShape::polygon) leave_out_half_of_outline();
       fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
       return;
     }
-    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, ranks);
+    const CellTest<Dim> has_room = [&](const Cell<Dim>& cell) { return leaves_room(cell); };
+    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, has_room, ranks);
     if (block_.shape == BlockShape::mesh) require_room(index);
   }
 
@@ -275,6 +276,13 @@ class BlockWater {
     if (block_.shape == BlockShape::fill && !stands_on_walls_) return shape_.holds(cell, x);
     return shape_.holds(cell, x) && !left_out_.contains(cell_key<Dim>(cell)) &&
            !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
+  }
+
+  /// Whether the particle of a cell that is cut can stand in front of all walls.
+  bool leaves_room(const Cell<Dim>& cell) const {
+    const double dx = spec_.particles.spacing;
+    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, at(cell)), dx);
+    return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
   }
 
   bool takes(const Cell<Dim>& cell) {

@@ -142,6 +142,19 @@ TEST(FluidLattice, BoxHasTheVolumeThatBodiesLeave) {
   EXPECT_NEAR(total_volume(fluid_of(spec)), 0.8 - 0.13 * 0.13, 4.0 * dx * dx / 9.0);
 }
 
+// The gap between a body and a wall is less than half a spacing wide.
+TEST(FluidLattice, NoParticleStandsWhereThereIsNoRoom) {
+  const double dx = 0.05;
+  CaseSpec spec = empty_case(dx);
+  spec.fluid = {box_fluid({0, 0}, {1, 0.8})};
+  spec.walls = {box_wall({0, 0}, {1, 1}, {"+y"}),
+                polygon({{0.018, 0.2}, {0.5, 0.2}, {0.5, 0.6}, {0.024, 0.6}}, FluidSide::outside)};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  for (const Vec<2>& x : make_fluid_particles<2>(spec, boundary).position) {
+    EXPECT_GE(boundary.nearest(x, 1.0).signed_distance, (0.25 - 1e-5) * dx) << x.transpose();
+  }
+}
+
 // The cells that a round body cuts have up to seven others alike: all of them are water or none, whatever the volume.
 TEST(FluidLattice, BoxAroundARoundBodyIsAsSymmetricAsTheBody) {
   const double dx = 0.05;
