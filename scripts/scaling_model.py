@@ -22,7 +22,7 @@ COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG print
 NEIGHBOURS = {2: 8, 3: 26}
 COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
 # While a run starts (docs/scaling.md): per particle of a rank, and per row of the walls, which all ranks list.
-START_BYTES, ROW_BYTES = 420, 300
+START_BYTES, ROW_BYTES = 420, 220
 ROWS = {2: lambda n: 33 * n ** (1 / 2), 3: lambda n: 27 * n ** (2 / 3)}  # of a tank as there
 
 

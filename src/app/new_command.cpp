@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include "app/commands.h"
@@ -37,15 +38,26 @@ struct NewOptions {
   bool force = false;
 };
 
+/// The file that a case reads, which its template does not bring; empty if there is none.
+std::string file_read_by(const std::string& text) {
+  static const std::regex key(R"re((?:^|\n)(?:points_)?file = "([^"]+)")re");
+  std::smatch found;
+  return std::regex_search(text, found, key) ? found[1].str() : std::string();
+}
+
 void write_new_case(const NewOptions& options) {
   if (std::filesystem::exists(options.file) && !options.force) {
     throw InputError(
         fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
   }
-  write_text_file(options.file, templates_by_name.at(options.kind));
+  const std::string text = templates_by_name.at(options.kind);
+  write_text_file(options.file, text);
   const std::string file = options.file.string();
-  fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
-             options.file.stem().string());
+  const std::string read = file_read_by(text);
+  const std::string first =
+      read.empty() ? "" : fmt::format("Its first lines say how to make {}, which it reads. ", read);
+  fmt::print("Wrote {0}. {2}Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
+             options.file.stem().string(), first);
 }
 
 }  // namespace

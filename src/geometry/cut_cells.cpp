@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
-#include "base/random.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "parallel/at_start.h"
@@ -15,6 +15,9 @@ namespace {
 
 /// Shares that differ by less are the same: those of cells that are images of each other in a symmetric case.
 constexpr double same_share = 1e-9;
+
+/// Of all water: what may be too much or too little in cells so that those that are alike are all taken or none.
+constexpr double most_misfit = 5e-3;
 
 constexpr double deepest = 0.25;  // dx; a particle behind a wall is put in front of it from no deeper
 
@@ -32,16 +35,6 @@ Vec<Dim> edges_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
   return edge;
 }
 
-/// Calls visit(cell) for the 3^Dim cells around a cell, itself among them.
-template <int Dim, class Visit>
-void for_each_around(const Cell<Dim>& cell, Visit&& visit) {
-  for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-    Cell<Dim> around = cell;
-    for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) around[axis] += rest % 3 - 1;
-    visit(around);
-  }
-}
-
 /// Where walls, and the surface of a block, cut cells.
 template <int Dim>
 class Cutter {
@@ -54,7 +47,7 @@ class Cutter {
       const WallFace<Dim>& face = boundary.faces[f];
       if (boundary.plate_of(face.wall) >= 0) return;
       plain_.faces.push_back(face);
-      cuts_.push_back(adapts_to_wall(block, face));
+      cuts_.push_back(adapts_to_wall(spec, block, face));
     });
     plain_.file_faces(reach_);
   }
@@ -208,9 +201,47 @@ void for_each_own_row(const LatticeBlock<Dim>& lattice, const Communicator& rank
   for (std::int64_t row = rows * ranks.rank() / ranks.size(); row < end; ++row) visit(row);
 }
 
+/// Takes, of cells that are alike, every so many levels, so that they have the share `wanted` of their volume. What is
+/// symmetric about a vertical plane stays so.
+template <int Dim>
+void take_levels(std::span<typename FittedCells<Dim>::Cut> alike, double wanted) {
+  using Cut = typename FittedCells<Dim>::Cut;
+  std::ranges::sort(alike, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
+  int level = 0;
+  for (std::size_t k = 0; k < alike.size(); ++k) {
+    if (k > 0 && alike[k].cell[Dim - 1] != alike[k - 1].cell[Dim - 1]) ++level;
+    alike[k].is_taken = std::floor((level + 1) * wanted + 0.5) > std::floor(level * wanted + 0.5);
+  }
+}
+
+/// Takes cells with the largest shares until they have the volume (m^Dim). Of cells of one share, as those that are
+/// images of each other in a symmetric case, all are taken or none, whichever is nearer, if that misses the volume by
+/// `most_missed` (m^Dim) at most, and whole levels of them if not.
+template <int Dim>
+void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
+                std::vector<typename FittedCells<Dim>::Cut>& cells) {
+  using Cut = typename FittedCells<Dim>::Cut;
+  std::ranges::sort(cells, [](const Cut& a, const Cut& b) {
+    return a.share != b.share ? a.share > b.share : is_before<Dim>(a.cell, b.cell);
+  });
+  for (std::size_t k = 0; k < cells.size() && cells[k].share > 0.0 && volume > 0.0;) {
+    const std::size_t begin = k;
+    double of_alike = 0.0;
+    do {
+      of_alike += edges_of<Dim>(lattice, cells[k++].cell).prod();
+    } while (k < cells.size() && cells[k - 1].share - cells[k].share < same_share);
+    double wanted = std::min(1.0, volume / of_alike);
+    const double nearer = std::round(wanted);
+    if (std::abs(nearer - wanted) * of_alike <= most_missed) wanted = nearer;
+    take_levels<Dim>(std::span(cells).subspan(begin, k - begin), wanted);
+    volume -= of_alike;
+  }
+  std::ranges::sort(cells, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
+}
+
 /// Whether a cell beside this one is reached.
 template <int Dim>
-bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                      const Cell<Dim>& cell) {
   bool found = false;
   for_each_around<Dim>(cell, [&](Cell<Dim> beside) {
@@ -228,8 +259,8 @@ bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, con
 
 template <int Dim>
 FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
-                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
-                           const Communicator& ranks) {
+                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
+                           const CellTest<Dim>& has_room, const Communicator& ranks) {
   const Cutter<Dim> cutter(spec, boundary, block, shape, lattice.axes);
   std::vector<RowSums> rows(static_cast<std::size_t>(lattice.rows()));
   FittedCells<Dim> fitted;
@@ -259,8 +290,11 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
         sums.whole += 1.0;
         sums.volume_whole += volume;
       } else if (height > -deepest * spec.particles.spacing) {
-        const double draw = random_number(spec.particles.seed, cell_key<Dim>(cell), 0);
-        fitted.cut.push_back({cell, std::round(share / same_share) * same_share, draw, false});
+        if (has_room(cell)) {
+          fitted.cut.push_back({cell, share, false});
+        } else if (is_cell_reached) {
+          fitted.cut.push_back({cell, 0.0, false});
+        }
       }
     });
   });
@@ -282,20 +316,10 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
   double exact = 1.0;
   if (shape.has_surface()) exact = all.volume_in_shape > 0.0 ? shape.volume() / all.volume_in_shape : 0.0;
   const double water = exact * all.volume_of_water;
-  // Cells have much the same volume, that of dx^Dim.
-  const auto count = std::lround(water / (all.volume_reached / all.reached) - all.whole);
-  const auto taken = static_cast<std::size_t>(std::clamp<long>(count, 0, static_cast<long>(fitted.cut.size())));
-  using Cut = typename FittedCells<Dim>::Cut;
-  std::ranges::sort(fitted.cut, [](const Cut& a, const Cut& b) {
-    if (a.share != b.share) return a.share > b.share;
-    if (a.draw != b.draw) return a.draw < b.draw;
-    return is_before<Dim>(a.cell, b.cell);
-  });
-  for (std::size_t k = 0; k < taken; ++k) fitted.cut[k].is_taken = true;
-  std::ranges::sort(fitted.cut, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
+  take_cells<Dim>(lattice.axes, water - all.volume_whole, most_misfit * water, fitted.cut);
   double of_cells = all.volume_whole;
   double in_cells = all.volume_whole;
-  for (const Cut& cut : fitted.cut) {
+  for (const auto& cut : fitted.cut) {
     if (!cut.is_taken) continue;
     const double volume = edges_of<Dim>(lattice.axes, cut.cell).prod();
     of_cells += volume;
@@ -308,7 +332,7 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
 }
 
 template <int Dim>
-std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                                   const Communicator& ranks) {
   std::vector<double> in_row(static_cast<std::size_t>(lattice.rows()), 0.0);
   for_each_own_row(lattice, ranks, [&](std::int64_t row) {
@@ -321,8 +345,9 @@ std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReac
 #define TAILWATER_INSTANTIATE(Dim)                                                                                     \
   template PartOfBox part_in_front(const Vec<Dim>&, const Vec<Dim>&, double);                                          \
   template FittedCells<Dim> fit_cells<Dim>(const CaseSpec&, const Boundary<Dim>&, const FluidTable&, WaterShape<Dim>&, \
-                                           const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);      \
-  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const IsReached<Dim>&, const Communicator&);
+                                           const LatticeBlock<Dim>&, const CellTest<Dim>&, const CellTest<Dim>&,       \
+                                           const Communicator&);                                                       \
+  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const CellTest<Dim>&, const Communicator&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -29,8 +29,7 @@ PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height);
 /// A wall counts as flat over a third of a cell.
 inline constexpr int parts_per_edge = 3;
 template <int Dim>
-inline constexpr int parts_of_cell =
-    Dim == 2 ? parts_per_edge* parts_per_edge : parts_per_edge* parts_per_edge* parts_per_edge;
+inline constexpr int parts_of_cell = static_cast<int>(power<Dim>(parts_per_edge));
 
 /// Divides a cell: calls visit(centre, edges) for each part.
 template <int Dim, class Visit>
@@ -82,8 +81,7 @@ struct FittedCells {
   /// A cell that something cuts.
   struct Cut {
     Cell<Dim> cell;
-    double share;  ///< of its volume that is water
-    double draw;
+    double share;  ///< of its volume that is water; 0 if no particle can stand there
     bool is_taken;
   };
 
@@ -94,21 +92,23 @@ struct FittedCells {
 };
 
 template <int Dim>
-using IsReached = std::function<bool(const Cell<Dim>&)>;
+using CellTest = std::function<bool(const Cell<Dim>&)>;
 
-/// Fits the cells of a block to the volume of its water: as many as it has volume, to the nearest whole number, and
-/// those that have the largest shares of their volumes in front of the walls and in the block. `is_reached` says of
-/// which cells the centre is there; of those beside them whose centre is not, the shares count as well. Cells with
-/// equal shares are taken in an order drawn from `particles.seed`. Where nothing cuts a cell, all that are reached are
-/// taken with their own volumes. Each rank looks at its part of the rows, and all get the same result. Collective.
+/// Fits the cells of a block to the volume of its water: takes as many as are nearest to it, those that have the
+/// largest shares of their volumes in front of the walls and in the block. `is_reached` says of which cells the centre
+/// is there; of those beside them whose centre is not, the shares count as well. `has_room` says whether a particle of
+/// a cell that is cut can stand in front of all walls. Of cells with equal shares all are taken or none, or whole
+/// levels of them where these are too many, so that a symmetric case starts symmetric. Where nothing cuts a cell, all
+/// that are reached are taken with their own volumes. Each rank looks at its part of the rows, and all get the same
+/// result. Collective.
 template <int Dim>
 FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
-                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
-                           const Communicator& ranks);
+                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
+                           const CellTest<Dim>& has_room, const Communicator& ranks);
 
 /// How many cells of each row are reached. Each rank looks at its part of the rows. Collective.
 template <int Dim>
-std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const IsReached<Dim>& is_reached,
+std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                                   const Communicator& ranks);
 
 }  // namespace tailwater

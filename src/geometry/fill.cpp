@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -131,13 +132,13 @@ class Fill {
   }
 
   Cell<Dim> first_cell() {
-    const Cell<Dim> around = cell_at(seed_);
-    for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-      Cell<Dim> cell = around;
-      for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) cell[axis] += (rest + 1) % 3 - 1;
-      if (!is_open(seed_, centre(cell))) continue;
-      reached_.add(cell);
-      return cell;
+    std::optional<Cell<Dim>> first;
+    for_each_around<Dim>(cell_at(seed_), [&](const Cell<Dim>& cell) {
+      if (!first && is_open(seed_, centre(cell))) first = cell;
+    });
+    if (first) {
+      reached_.add(*first);
+      return *first;
     }
     throw InputError(
         fmt::format("{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from "

@@ -34,6 +34,16 @@ std::uint64_t cell_key(const Cell<Dim>& c) {
   return k;
 }
 
+/// Calls visit(cell) for the 3^Dim cells around a cell, itself among them and first.
+template <int Dim, class Visit>
+void for_each_around(const Cell<Dim>& cell, Visit&& visit) {
+  for (int n = 0; n < static_cast<int>(power<Dim>(3)); ++n) {
+    Cell<Dim> around = cell;
+    for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) around[axis] += (rest + 1) % 3 - 1;
+    visit(around);
+  }
+}
+
 template <int Dim>
 class PointGrid {
  public:
@@ -51,20 +61,14 @@ class PointGrid {
   /// the first point added has index 0.
   template <class Visit>
   void visit_near(const Vec<Dim>& x, Visit&& visit) const {
-    const Cell<Dim> centre = cell_of<Dim>(x, radius_);
-    const int neighbours = Dim == 2 ? 9 : 27;
-    for (int n = 0; n < neighbours; ++n) {
-      Cell<Dim> c = centre;
-      for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) {
-        c[axis] += rest % 3 - 1;
-      }
+    for_each_around<Dim>(cell_of<Dim>(x, radius_), [&](const Cell<Dim>& c) {
       const auto found = first_.find(cell_key<Dim>(c));
       for (int i = found == first_.end() ? -1 : found->second; i >= 0; i = next_[i]) {
         if ((points_[i] - x).norm() < radius_) {
           visit(i);
         }
       }
-    }
+    });
   }
 
   bool has_near(const Vec<Dim>& x) const {

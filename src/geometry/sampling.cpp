@@ -163,7 +163,7 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   if (placement_of(spec.scheme.walls).on_wall) {
     return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   }
-  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(block, boundary.faces[wall.face]);
+  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 
 /// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
@@ -183,11 +183,11 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
     const double missing = least_wall_distance * dx - wall.signed_distance;
-    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(block, boundary.faces[wall.face])) break;
+    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    // From the edge of a mesh straight away: the normal of one of its faces leads along the other.
-    const bool is_at_edge = boundary.mesh_of(wall.face) != nullptr && wall.signed_distance > corner_tolerance * dx &&
-                            face.height(x) < wall.signed_distance - corner_tolerance * dx;
+    // From an edge straight away: the normal of one of its faces leads along the other.
+    const bool is_at_edge =
+        wall.signed_distance > corner_tolerance * dx && face.height(x) < wall.signed_distance - corner_tolerance * dx;
     x += missing * (is_at_edge ? Vec<Dim>((x - wall.point) / wall.signed_distance) : face.normal);
   }
   return x;
@@ -215,14 +215,14 @@ class BlockWater {
       lattice_.count[axis] = axes_[axis].count() + (is_on_nodes ? 1 : 0);
       share_[axis] = is_on_nodes ? 0.0 : 0.5;
     }
-    const IsReached<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
-    // Of cells that a body cuts alike some would be taken and others not, and the body would start askew.
-    if (stands_on_walls_ || (block_.shape == BlockShape::box && bodies_.any())) {
+    const CellTest<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
+    if (stands_on_walls_) {
       if (block_.shape == BlockShape::polygon) leave_out_half_of_outline();
       fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
       return;
     }
-    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, ranks);
+    const CellTest<Dim> has_room = [&](const Cell<Dim>& cell) { return leaves_room(cell); };
+    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, has_room, ranks);
     if (block_.shape == BlockShape::mesh) require_room(index);
   }
 
@@ -246,10 +246,14 @@ class BlockWater {
         if (!takes(cell)) return;
         const std::int64_t n = number++;
         if (n < from || n >= to) return;
-        Vec<Dim> x = at(cell);
+        const Vec<Dim> centre = at(cell);
+        Vec<Dim> x = centre;
         for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
           x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
         }
+        // Not to the other side of a plate.
+        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x, -1))
+          x = centre;
         x = kept_off_walls(spec_, boundary_, block_, x);
         double volume = fitted_.share;
         for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
@@ -272,6 +276,13 @@ class BlockWater {
     if (block_.shape == BlockShape::fill && !stands_on_walls_) return shape_.holds(cell, x);
     return shape_.holds(cell, x) && !left_out_.contains(cell_key<Dim>(cell)) &&
            !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
+  }
+
+  /// Whether the particle of a cell that is cut can stand in front of all walls.
+  bool leaves_room(const Cell<Dim>& cell) const {
+    const double dx = spec_.particles.spacing;
+    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, at(cell)), dx);
+    return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
   }
 
   bool takes(const Cell<Dim>& cell) {

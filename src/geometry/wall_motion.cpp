@@ -170,8 +170,7 @@ AffineMap<Dim> WallMotion<Dim>::MovingWall::mean_velocity(double from, double to
 }
 
 template <int Dim>
-WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles)
-    : drawn_particles_(particles) {
+WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles) {
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (!boundary.walls[w].moves()) continue;
     const WallTable& table = spec.walls[w];
@@ -193,7 +192,13 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
     }
   }
   if (boundary.filed_reach() > 0.0) boundary.file_faces(boundary.filed_reach());
+  if (moving_.empty()) return;
   drawn_faces_ = boundary.faces;
+  for (std::size_t row = 0; row < particles.size(); ++row) {
+    const int wall = particles.wall[row];
+    if (!boundary.walls[wall].moves()) continue;
+    drawn_particles_.push_back({row, wall, particles.position[row], particles.normal[row], particles.blocked[row]});
+  }
 }
 
 template <int Dim>
@@ -208,11 +213,12 @@ void WallMotion<Dim>::place(double time, const MotionState<Dim>& state, Boundary
     for (std::size_t f = 0; f < drawn_faces_.size(); ++f) {
       if (drawn_faces_[f].wall == moving.wall) boundary.faces[f] = moved(motion, drawn_faces_[f]);
     }
-    for_each(drawn_particles_.size(), [&](std::size_t row) {
-      if (drawn_particles_.wall[row] != moving.wall) return;
-      particles.position[row] = motion(drawn_particles_.position[row]);
-      particles.normal[row] = motion.linear * drawn_particles_.normal[row];
-      particles.blocked[row] = motion.linear * drawn_particles_.blocked[row] * motion.linear.transpose();
+    for_each(drawn_particles_.size(), [&](std::size_t n) {
+      const DrawnParticle& drawn = drawn_particles_[n];
+      if (drawn.wall != moving.wall) return;
+      particles.position[drawn.row] = motion(drawn.position);
+      particles.normal[drawn.row] = motion.linear * drawn.normal;
+      particles.blocked[drawn.row] = motion.linear * drawn.blocked * motion.linear.transpose();
     });
   }
   if (!moving_.empty()) boundary.hang_screens();
@@ -223,8 +229,9 @@ void WallMotion<Dim>::get_mean_velocity(double from, double to, const MotionStat
                                         std::span<Vec<Dim>> velocity) const {
   for (const MovingWall& moving : moving_) {
     const AffineMap<Dim> map = moving.mean_velocity(from, to, state);
-    for_each(drawn_particles_.size(), [&](std::size_t row) {
-      if (drawn_particles_.wall[row] == moving.wall) velocity[row] = map(drawn_particles_.position[row]);
+    for_each(drawn_particles_.size(), [&](std::size_t n) {
+      const DrawnParticle& drawn = drawn_particles_[n];
+      if (drawn.wall == moving.wall) velocity[drawn.row] = map(drawn.position);
     });
   }
 }

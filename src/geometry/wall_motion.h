@@ -155,9 +155,18 @@ class WallMotion {
   double farthest_way(double from, double to, const MotionState<Dim>& state) const;
 
  private:
+  /// A particle of a moving wall.
+  struct DrawnParticle {
+    std::size_t row;  ///< of the table of wall particles
+    int wall;
+    Vec<Dim> position;
+    Vec<Dim> normal;
+    Mat<Dim> blocked;
+  };
+
   std::vector<MovingWall> moving_;
-  std::vector<WallFace<Dim>> drawn_faces_;
-  WallParticles<Dim> drawn_particles_;
+  std::vector<WallFace<Dim>> drawn_faces_;  ///< none if no wall moves
+  std::vector<DrawnParticle> drawn_particles_;
 };
 
 }  // namespace tailwater

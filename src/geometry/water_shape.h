@@ -62,8 +62,6 @@ class Bodies {
  public:
   Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-  bool any() const { return !boxes_.empty() || !outlines_.empty() || !meshes_.empty(); }
-
   /// Whether `x` is inside one of them, and not on its surface.
   bool hold(const Vec<Dim>& x) const;
 
@@ -75,12 +73,12 @@ class Bodies {
   std::vector<const WallMesh*> meshes_;
 };
 
-/// Whether the particles of `block` are fitted to this face. A misfit between an axis-parallel wall and the edge of a
-/// box is the case file's, and check_geometry reports it.
+/// Whether the particles of `block` are fitted to this face. A misfit between an axis-parallel wall that is no body and
+/// the edge of a box is the case file's, and check_geometry reports it.
 template <int Dim>
-bool adapts_to_wall(const FluidTable& block, const WallFace<Dim>& face) {
+bool adapts_to_wall(const CaseSpec& spec, const FluidTable& block, const WallFace<Dim>& face) {
   const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
-  return block.shape != BlockShape::box || !is_axis_parallel;
+  return block.shape != BlockShape::box || !is_axis_parallel || spec.walls[face.wall].fluid_side == FluidSide::outside;
 }
 
 }  // namespace tailwater

@@ -85,7 +85,8 @@ class New(ProgramTest):
         for template, spacing in TEMPLATES.items():
             with self.subTest(template):
                 wrote = self.call("new", template, f"{template}.toml")
-                self.assertIn(f"tailwater check {template}.toml", wrote.stdout)
+                self.assertEqual(wrote.stdout.splitlines()[:2],
+                                 [f"Wrote {template}.toml. Next:", f"  tailwater check {template}.toml"])
                 check = self.call("check", f"{template}.toml")
                 self.assertEqual(check.stderr, "", "a template must not provoke a warning")
                 coarse = ("--set", f"particles.spacing={spacing}", "--set", "time.end=0.05")
@@ -93,7 +94,7 @@ class New(ProgramTest):
                 self.assertEqual(self.summary(template)["status"], "done")
 
     def test_the_template_with_a_mesh_can_be_checked_and_run(self):
-        self.call("new", "pier", "pier.toml")
+        self.assertIn("how to make pier.stl, which it reads", self.call("new", "pier", "pier.toml").stdout)
         self.assertIn("pier.stl", self.call("check", "pier.toml", expect=2).stderr)
         script = Path(__file__).resolve().parents[2] / "scripts/make_pier_stl.py"
         subprocess.run([sys.executable, script, self.folder / "pier.stl"], check=True)
@@ -119,7 +120,7 @@ class New(ProgramTest):
         self.assertIn("<circle", (self.folder / "pier.preview.svg").read_text())
 
     def test_the_template_with_a_surveyed_bed_can_be_checked_and_run(self):
-        self.call("new", "river-reach", "reach.toml")
+        self.assertIn("how to make bed.csv, which it reads", self.call("new", "river-reach", "reach.toml").stdout)
         self.assertIn("bed.csv", self.call("check", "reach.toml", expect=2).stderr)
         script = Path(__file__).resolve().parents[2] / "scripts/make_river_bed.py"
         subprocess.run([sys.executable, script, self.folder / "bed.csv"], check=True)

@@ -213,6 +213,37 @@ class Books(ProgramTest):
                     self.assertAlmostEqual(sum(before), sum(after), delta=1e-12 * sum(before))
                 self.assertEqual(balance["start"]["mass_kg"], 1000 * balance["start"]["volume_m3"])
 
+    # 0.35 m x 0.33 m, no whole numbers of the spacing of 0.1 m.
+    def test_an_obstacle_inside_a_block_takes_its_volume(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set",
+                  "wall=[{name='tank', points=[[0, 2], [0, 0], [1, 0], [1, 2]]}, "
+                  "{name='block', shape='box', min=[0.32, 0.33], max=[0.67, 0.66], fluid_side='outside'}]", "--set",
+                  "fluid[0].max=[1, 1]")
+        balance = self.summary("run")["water_balance"]
+        self.assertAlmostEqual(balance["start"]["volume_m3"], 1.0 - 0.35 * 0.33, delta=1e-12)
+        self.assertEqual(balance["inside"]["particles"], balance["start"]["particles"])
+        self.assertEqual(balance["outside"]["particles"], 0)
+        for _, path in read_series(self.folder / "run/fields/fields.pvd"):
+            positions, _ = read_points(path)
+            self.assertEqual(len(positions), balance["start"]["particles"])
+            in_block = (np.abs(positions[:, 0] - 0.495) < 0.175) & (np.abs(positions[:, 1] - 0.495) < 0.165)
+            self.assertEqual(np.count_nonzero(in_block), 0)
+
+    def test_what_a_piston_pushes_over_the_rim_is_outside(self):
+        for ranks in ("1", "2"):
+            with self.subTest(ranks=ranks):
+                self.call("run", "small.toml", "--out", ranks, "--quiet", "-n", ranks, "--set",
+                          "wall=[{name='tank', points=[[-0.2, 0], [1, 0], [1, 0.6]]}, "
+                          "{name='piston', points=[[0, 1], [0, 0]], displacement=['2*t', 0]}]", "--set", "time.end=0.4")
+                balance = self.summary(ranks)["water_balance"]
+                positions, _ = read_points(read_series(self.folder / ranks / "fields/fields.pvd")[-1][1])
+                outside = (positions[:, 0] > 1.0) | (positions[:, 1] < 0.0)
+                self.assertGreater(np.count_nonzero(outside), 5)
+                for part, count in (("inside", np.count_nonzero(~outside)), ("outside", np.count_nonzero(outside))):
+                    self.assertEqual(balance[part]["particles"], count)
+                    self.assertAlmostEqual(balance[part]["volume_m3"], 0.01 * count)
+                self.assertEqual(len(positions), balance["start"]["particles"])
+
     def test_warnings_are_kept(self):
         run = self.call("run", "small.toml", "--out", "run", *self.OVER_THE_RIM)
         warnings = [line.removeprefix("warning: ") for line in run.stderr.splitlines() if line.startswith("warning: ")]

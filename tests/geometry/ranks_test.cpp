@@ -9,6 +9,7 @@
 #include "geometry/check.h"
 #include "geometry/sampling.h"
 #include "parallel/at_start.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -33,6 +34,9 @@ std::vector<CaseSpec> cases() {
   fill.fluid[0].seed = {0.5, 0.5};
   fill.fluid[0].level = 0.8;
   cases.push_back(fill);
+  CaseSpec round = boxes;
+  round.walls.push_back(polygon(circle(24, 0.21, {1.02, 0.33}), FluidSide::outside));
+  cases.push_back(round);
   slope.scheme.walls = WallTreatment::pressure_rows;
   cases.push_back(slope);
   CaseSpec wrong = boxes;  // overlapping, behind a wall, and leaking

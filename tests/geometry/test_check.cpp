@@ -400,6 +400,22 @@ TEST(Check, WaterBehindALineIsAnError) {
   expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"dummies\""});
 }
 
+// Water on both sides of a slanted plate, each nearer than dx/2 to the other.
+TEST(Check, BlocksOnBothSidesOfAPlateMayBeNearEachOther) {
+  CaseSpec spec = empty_case(0.05);
+  spec.particles.jitter = 0.2;
+  spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0}, {1, 1}}), polyline({{0.4, 0}, {0.6, 1}})};
+  spec.walls[1].shape = WallShape::plate;
+  for (const double seed : {0.1, 0.9}) {
+    FluidTable water;
+    water.shape = BlockShape::fill;
+    water.seed = {seed, 0.1};
+    water.level = 0.8;
+    spec.fluid.push_back(water);
+  }
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, AnOutletIn3DIsNoLeak) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};

@@ -362,6 +362,31 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
 }
 
+// A tank of 3 m with a body in it, beside it, or so large that the tank is inside.
+TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(unit_box(), FluidSide::outside), box_wall({-1, -1, -1}, {2, 2, 2}, {"+z"})};
+  spec.fluid = {box_fluid({-1, -1, -1}, {2, 2, 1.5})};
+  const auto found = [&] {
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    return check_meshes(spec, boundary, make_fluid_particles(spec, boundary));
+  };
+  EXPECT_TRUE(found().empty());
+  spec.walls[0].translate = {5.0, 0.0, 0.0};
+  Findings findings = found();
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  expect_words(findings[0].message, {"wall 'wall1': file ", "mesh.stl reaches from (5, 0, 0) to (6, 1, 1)",
+                                     "from (-1, -1, -1) to (2, 2, 2), so it stands beside them", "correct translate"});
+  spec.walls[0].translate = {-4.0, -4.0, 0.0};
+  spec.walls[0].scale = 8.0;
+  findings = found();
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  expect_words(findings[0].message, {"is a body 8 m long among water and walls of 3 m", "0.001 for a file in mill"});
+}
+
 TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);
@@ -455,7 +480,8 @@ TEST(Fill, RunsAroundCornersAndOverASheet) {
     const FluidParticles<3> fluid = make_fluid_particles(spec, make_boundary<3>(spec));
     double volume = 0.0;
     for (const double v : fluid.volume) volume += v;
-    EXPECT_NEAR(static_cast<double>(fluid.position.size()), volume / power<3>(0.025), 0.5 + 1e-6);
+    // The 40 cells of a row along the hill are alike: all of them are particles or none.
+    EXPECT_NEAR(static_cast<double>(fluid.position.size()), volume / power<3>(0.025), 20.0 + 1e-6);
     return volume;
   };
   // A third of a cell that two walls cut counts as cut by the nearer: less than half of its section is wrong along the

@@ -9,11 +9,12 @@ namespace {
 
 template <int Dim>
 void check_polygon(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
-  if (particles > 0.0) return;
+  const double area = std::abs(signed_area(block.points));
+  if (particles > 0.0 && area >= 0.5 * dx * dx) return;
   findings.push_back(Finding::error(
       "{} at {} holds no particle: its area is {:.3g} m^2 and the spacing is {:.6g} m; use a smaller spacing, or "
       "correct the block's points",
-      label, place(to_vec<Dim>(block.points[0], label, "points[0]")), std::abs(signed_area(block.points)), dx));
+      label, place(to_vec<Dim>(block.points[0], label, "points[0]")), area, dx));
 }
 
 template <int Dim>

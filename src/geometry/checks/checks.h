@@ -25,7 +25,8 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
 Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 
 /// Errors: a mesh much longer than the water or shorter than dx, which is drawn in another unit; one that crosses
-/// itself; one that is a plate thinner than its layers of wall particles.
+/// itself; one that is a plate thinner than its layers of wall particles. Warnings: one at rest beside all water and
+/// other walls; a body longer than twice all these.
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
 
 /// Error: a wall that is no mesh and thinner than its layers of wall particles, with water or another wall on its other
@@ -41,9 +42,9 @@ Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Error: blocks of fluid that overlap.
+/// Error: blocks of fluid that overlap. On both sides of a plate they may be near each other.
 template <int Dim>
-Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Errors: fluid behind a wall, on both sides of it, or too near to it. Warning: a gap between fluid and wall.
 template <int Dim>

@@ -12,6 +12,9 @@ namespace {
 /// A mesh that is longer than the water by more than this factor is drawn in another unit.
 constexpr double largest_share_of_water = 200.0;
 
+/// A body that is longer than all the rest by more than this factor may be.
+constexpr double largest_share_of_case = 2.0;
+
 /// Walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
 constexpr double least_facing_of_plate = 0.99;
 
@@ -32,6 +35,47 @@ Findings check_size(const CaseSpec& spec, const std::string& label, const MeshSu
                      "else cut off what "
                      "the water does not reach",
                      label, length, water_length)};
+}
+
+/// The box around the water and all walls but one.
+Eigen::AlignedBox<double, 3> box_of_others(const Boundary<3>& boundary, int wall,
+                                           const Eigen::AlignedBox<double, 3>& water) {
+  Eigen::AlignedBox<double, 3> box = water;
+  for (const WallFace<3>& face : boundary.faces) {
+    if (face.wall != wall) box.extend(face.box());
+  }
+  return box;
+}
+
+/// Where a mesh at rest stands beside the rest of the case.
+Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
+                     const Eigen::AlignedBox<double, 3>& water) {
+  const WallTable& table = spec.walls[wall];
+  const Eigen::AlignedBox<double, 3> own(surface.low(), surface.high());
+  const Eigen::AlignedBox<double, 3> others = box_of_others(boundary, wall, water);
+  if (boundary.walls[wall].moves() || others.isEmpty()) return {};
+  const std::string label = wall_label(boundary, wall);
+  if (!own.intersects(others)) {
+    return {Finding::warning(
+        "{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it stands beside them: "
+        "correct translate, or scale = {:g} (0.001 for a file in millimetres)",
+        label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max()),
+        table.scale)};
+  }
+  if (table.fluid_side != FluidSide::outside) return {};
+  const double length = own.sizes().maxCoeff();
+  const double length_of_others = others.sizes().maxCoeff();
+  if (length <= largest_share_of_case * length_of_others) return {};
+  return {Finding::warning(
+      "{}: file {} is a body {:.6g} m long among water and walls of {:.6g} m, of which it takes what it encloses: "
+      "correct scale = {:g} (0.001 for a file in millimetres), or cut off what the water does not reach",
+      label, table.file, length, length_of_others, table.scale)};
+}
+
+Findings check_size_and_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
+                              const Eigen::AlignedBox<double, 3>& water) {
+  Findings findings = check_size(spec, wall_label(boundary, wall), surface, water);
+  return findings.empty() ? check_place(spec, boundary, wall, surface, water) : findings;
 }
 
 bool share_a_point(const TriangleMesh& mesh, int a, int b) {
@@ -106,14 +150,14 @@ Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const F
   Findings findings;
   for (const WallMesh& mesh : boundary.meshes) {
     const std::string label = wall_label(boundary, mesh.wall);
-    append(findings, check_size(spec, label, *mesh.surface, water));
+    append(findings, check_size_and_place(spec, boundary, mesh.wall, *mesh.surface, water));
     append(findings, check_self_crossing(*mesh.surface, label, tolerance));
     append(findings, check_thickness(spec, boundary, mesh, label));
   }
   for (const WallPlate& plate : boundary.plates) {
     if (!plate.sheet) continue;
     const std::string label = wall_label(boundary, plate.wall);
-    append(findings, check_size(spec, label, *plate.sheet, water));
+    append(findings, check_size_and_place(spec, boundary, plate.wall, *plate.sheet, water));
     append(findings, check_self_crossing(*plate.sheet, label, tolerance));
   }
   for (std::size_t b = 0; b < boundary.water.size(); ++b) {

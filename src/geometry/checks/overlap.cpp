@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,7 @@ Candidates<Dim> particles_in_other_boxes(const CaseSpec& spec, const FluidPartic
 }  // namespace
 
 template <int Dim>
-Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
+Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   if (spec.fluid.size() < 2) return {};
   // Particles of neighbouring blocks are dx apart, less the jitter of both.
   const double least = std::min(0.5, 1.0 - 2.0 * spec.particles.jitter) * spec.particles.spacing;
@@ -58,8 +59,11 @@ Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   std::map<std::pair<int, int>, Overlap> overlaps;  // by blocks
   for (const auto& candidate : candidates) {
     int other = -1;
+    const std::span<const int> screens = boundary.screens_near(candidate.position, least);
     grid.visit_near(candidate.position, [&](int j) {
-      if (candidates[j].block != candidate.block) other = candidates[j].block;
+      const auto& [position, block] = candidates[j];
+      if (block == candidate.block) return;
+      if (!is_hidden<Dim>(boundary.screens, screens, position, candidate.position, -1)) other = block;
     });
     grid.add(candidate.position);
     if (other < 0) continue;
@@ -77,7 +81,7 @@ Findings check_overlap(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   return findings;
 }
 
-template Findings check_overlap(const CaseSpec&, const FluidParticles<2>&);
-template Findings check_overlap(const CaseSpec&, const FluidParticles<3>&);
+template Findings check_overlap(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_overlap(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
 
 }  // namespace tailwater
