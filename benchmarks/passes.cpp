@@ -11,10 +11,7 @@ namespace {
 
 void add_neighbours(auto& stage) {
   auto& flow = stage.flow;
-  add_benchmark(
-      "neighbours/search", [&] { flow.neighbourhood.update(flow.state.particles); },
-      [&] { flow.neighbourhood.forget(flow.state.particles); });
-  add_benchmark("neighbours/evaluate", [&] { flow.neighbourhood.update(flow.state.particles); });
+  add_benchmark("neighbours/search", [&] { flow.neighbourhood.update(flow.state.particles); });
 }
 
 template <int Dim>
@@ -33,9 +30,9 @@ void add_operators(Stage<Dim>& stage) {
   const auto vectors = std::make_shared<std::vector<Vec<Dim>>>();
   const auto faces = std::make_shared<std::vector<Vec<Dim>>>(flow.here.open_faces);
   add_benchmark("operators/pair_vectors", [&flow, vectors, faces] {
-    find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), flow.state.particles.position,
-                                     kernel_radius(flow.setup.kernel), flow.state.particles.volume, flow.here.interior,
-                                     flow.here.first_moment, *vectors, *faces);
+    find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), kernel_radius(flow.setup.kernel),
+                                     flow.state.particles.volume, flow.here.interior, flow.here.first_moment, *vectors,
+                                     *faces);
   });
   add_benchmark("operators/divergence", [&flow] { benchmark::DoNotOptimize(find_divergence(flow)); });
   const auto gradients = std::make_shared<std::vector<Vec<Dim>>>(owned);

@@ -55,9 +55,8 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
     return;
   }
   const Particles<Dim>& particles = flow.state.particles;
-  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), particles.position, kernel_radius(setup.kernel),
-                                   particles.volume, here.interior, here.first_moment, here.pair_vectors,
-                                   here.open_faces);
+  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(), kernel_radius(setup.kernel), particles.volume,
+                                   here.interior, here.first_moment, here.pair_vectors, here.open_faces);
 }
 
 }  // namespace
@@ -65,7 +64,7 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks) {
   const Setup<Dim>& setup = flow.setup;
-  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_lists())) return;
+  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
   flow.neighbourhood.update(flow.state.particles);
   hide_pairs_behind_plates(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;

@@ -8,15 +8,10 @@
 namespace tailwater {
 namespace {
 
-/// Share of the support's radius; pairs nearer than this are rare.
-constexpr double nearness = 1e-3;
-
 /// B_i of owned particles.
 template <int Dim>
-void find_moment_corrections(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
-                             std::span<const double> interior, std::span<const Mat<Dim>> first_moment,
-                             std::span<Mat<Dim>> correction) {
-  const double near = nearness * radius;
+void find_moment_corrections(const Pairs<Dim>& pairs, double radius, std::span<const double> interior,
+                             std::span<const Mat<Dim>> first_moment, std::span<Mat<Dim>> correction) {
   const double inverse_square = 1.0 / (radius * radius);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = interior[i];
@@ -27,7 +22,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> 
     Lanes weight_sums{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const Lanes weight = range.only(j(interior.data())) * (1.0 - d.dot(d) * inverse_square);
       const MatLanes<Dim> moment = j.symmetric(first_moment.data());
       for (int b = 0; b < Dim; ++b) {
@@ -64,10 +59,8 @@ inline VecLanes<Dim> corrected_difference(std::span<const Mat<Dim>> correction, 
 
 /// Poses the equation that closes half of the faces which a_ij = -F (B_i + B_j)/2 d_ij leaves open.
 template <int Dim>
-ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
-                                           std::span<const double> volume, std::span<const double> interior,
-                                           std::span<const Mat<Dim>> correction) {
-  const double near = nearness * radius;
+ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, std::span<const double> volume,
+                                           std::span<const double> interior, std::span<const Mat<Dim>> correction) {
   ClosingEquation<Dim> equation;
   equation.divisor.resize(pairs.owned());
   equation.rhs.resize(pairs.owned());
@@ -79,7 +72,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, std::span<co
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
       const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
       for (int a = 0; a < Dim; ++a) sums.at[a] += weight * corrected.at[a];
       weights += weight;
@@ -110,17 +103,15 @@ void sweep(const Pairs<Dim>& pairs, std::span<const double> volume, const Closin
 
 /// Sets a_ij = -F [ (B_i + B_j)/2 d_ij - (l_i - l_j) ], and their sums.
 template <int Dim>
-void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, double radius,
-                 std::span<const double> volume, std::span<const Mat<Dim>> correction, std::span<const Vec<Dim>> l,
-                 std::span<Vec<Dim>> pair_vectors, std::span<Vec<Dim>> open_faces) {
-  const double near = nearness * radius;
+void close_faces(const Pairs<Dim>& pairs, std::span<const double> volume, std::span<const Mat<Dim>> correction,
+                 std::span<const Vec<Dim>> l, std::span<Vec<Dim>> pair_vectors, std::span<Vec<Dim>> open_faces) {
   for_each(pairs.owned(), [&](std::size_t i) {
     VecLanes<Dim> open{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
       const Lanes F = range.load(pairs.F.data());
       const Lanes volume_j = range.only(j(volume.data()));
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
       VecLanes<Dim> pair_vector = j(l.data());
       for (int a = 0; a < Dim; ++a) {
@@ -138,20 +129,21 @@ void close_faces(const Pairs<Dim>& pairs, std::span<const Vec<Dim>> position, do
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors) {
   pair_vectors.resize(pairs.j.size());
-  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.gradient(k); });
+  for_each(pairs.owned(), [&](std::size_t i) {
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) pair_vectors[k] = pairs.gradient(i, k);
+  });
 }
 
 template <int Dim>
-void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, std::span<const Vec<Dim>> position,
-                                 double radius, std::span<const double> volume, std::span<const double> interior,
+void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
+                                 std::span<const double> volume, std::span<const double> interior,
                                  std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
                                  std::vector<Vec<Dim>>& open_faces, int sweeps) {
   std::vector<Mat<Dim>> correction(volume.size());
-  find_moment_corrections<Dim>(pairs, position, radius, interior, first_moment, correction);
+  find_moment_corrections<Dim>(pairs, radius, interior, first_moment, correction);
   halo.exchange(correction);
   pair_vectors.resize(pairs.j.size());
-  const ClosingEquation<Dim> equation =
-      pose_closing_equation<Dim>(pairs, position, radius, volume, interior, correction);
+  const ClosingEquation<Dim> equation = pose_closing_equation<Dim>(pairs, volume, interior, correction);
 
   // The first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(volume.size(), Vec<Dim>::Zero());
@@ -168,14 +160,14 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
     std::swap(l, next);
   }
   open_faces.resize(pairs.owned());
-  close_faces<Dim>(pairs, position, radius, volume, correction, l, pair_vectors, open_faces);
+  close_faces<Dim>(pairs, volume, correction, l, pair_vectors, open_faces);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                     \
-  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, std::vector<Vec<Dim>>&);                 \
-  template void find_corrected_pair_vectors<Dim>(                                                      \
-      const Pairs<Dim>&, const Halo<Dim>&, std::span<const Vec<Dim>>, double, std::span<const double>, \
-      std::span<const double>, std::span<const Mat<Dim>>, std::vector<Vec<Dim>>&, std::vector<Vec<Dim>>&, int);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
+  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, std::vector<Vec<Dim>>&);                                 \
+  template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, double, std::span<const double>, \
+                                                 std::span<const double>, std::span<const Mat<Dim>>,                   \
+                                                 std::vector<Vec<Dim>>&, std::vector<Vec<Dim>>&, int);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

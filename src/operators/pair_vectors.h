@@ -40,10 +40,10 @@ void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_
 
 /// The corrected vector of every pair, and of each owned particle what they leave open of its faces, sum_j w_j a_ij
 /// [1/m]. `interior` is 0 at walls; it and the first moments M must be up to date on ghosts. `radius` [m] is that of
-/// the support. `position` is that of all particles when the pairs were evaluated. Collective.
+/// the support. Collective.
 template <int Dim>
-void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, std::span<const Vec<Dim>> position,
-                                 double radius, std::span<const double> volume, std::span<const double> interior,
+void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, double radius,
+                                 std::span<const double> volume, std::span<const double> interior,
                                  std::span<const Mat<Dim>> first_moment, std::vector<Vec<Dim>>& pair_vectors,
                                  std::vector<Vec<Dim>>& open_faces, int sweeps = closing_sweeps);
 

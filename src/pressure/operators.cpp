@@ -35,12 +35,12 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
     return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t, std::size_t k) {
       return Vec<Dim>(density_weighted_slope<Dim>(pairs, i, k, volume, flow.here.concentration, pressure) *
-                      pairs.e(k));
+                      pairs.e(i, k));
     });
   }
   const bool has_pair_vectors = flow.setup.uses_pair_vectors();
   return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(k);
+    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(i, k);
     return Vec<Dim>((volume[j] * (pressure[i] + pressure[j])) * a);
   });
 }

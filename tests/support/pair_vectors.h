@@ -29,8 +29,8 @@ std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const 
   halo.exchange(moment);
   std::vector<Vec<Dim>> vectors;
   std::vector<Vec<Dim>> open_faces;
-  find_corrected_pair_vectors<Dim>(pairs, halo, set.particles.position, kernel_radius(set.neighbourhood.kernel()),
-                                   set.particles.volume, interior, moment, vectors, open_faces, sweeps);
+  find_corrected_pair_vectors<Dim>(pairs, halo, kernel_radius(set.neighbourhood.kernel()), set.particles.volume,
+                                   interior, moment, vectors, open_faces, sweeps);
   return vectors;
 }
 
