@@ -11,10 +11,7 @@ namespace {
 
 void add_neighbours(auto& stage) {
   auto& flow = stage.flow;
-  add_benchmark(
-      "neighbours/search", [&] { flow.neighbourhood.update(flow.state.particles); },
-      [&] { flow.neighbourhood.forget(flow.state.particles); });
-  add_benchmark("neighbours/evaluate", [&] { flow.neighbourhood.update(flow.state.particles); });
+  add_benchmark("neighbours/search", [&] { flow.neighbourhood.update(flow.state.particles); });
 }
 
 template <int Dim>
@@ -36,8 +33,8 @@ void add_operators(Stage<Dim>& stage) {
     const Particles<Dim>& particles = flow.state.particles;
     constexpr CorrectionReach reach = CorrectionReach::inside;
     find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
-                                     {particles.position, kernel_radius(flow.setup.kernel), particles.volume,
-                                      particles.kind, flow.here.interior, flow.here.first_moment},
+                                     {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
+                                      flow.here.interior, flow.here.first_moment},
                                      reach, closing_sweeps(reach), *vectors, *faces);
   });
   add_benchmark("operators/divergence", [&flow] { benchmark::DoNotOptimize(find_divergence(flow)); });

@@ -10,6 +10,10 @@
 #include <cstring>
 #include <utility>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 #include "base/vec.h"
 
 namespace tailwater {
@@ -55,12 +59,21 @@ inline Lanes in_all_lanes(double value) { return Lanes{} + value; }
 inline Lanes min_of(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes max_of(Lanes a, Lanes b) { return a > b ? a : b; }
 
-/// Whether a comparison holds in some lane.
-inline bool any_of(decltype(Lanes{} < Lanes{}) holds) {
-  auto any = holds[0];
-  for (int n = 1; n < lane_count; ++n) any |= holds[n];
-  return any != 0;
+using LaneTruths = decltype(Lanes{} < Lanes{});
+
+/// Bit n is set where a comparison holds in lane n.
+inline unsigned bits_of(LaneTruths holds) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
+#else
+  unsigned bits = 0;
+  for (int n = 0; n < lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  return bits;
+#endif
 }
+
+/// Whether a comparison holds in some lane.
+inline bool any_of(LaneTruths holds) { return bits_of(holds) != 0; }
 
 /// The sum of all lanes, in their order.
 inline double sum_of(Lanes lanes) {
@@ -101,44 +114,74 @@ class LaneIndices {
     for (int n = 0; n < lane_count; ++n) index_[n] = static_cast<std::ptrdiff_t>(index(n));
   }
 
-  Lanes operator()(const double* array) const { return read<1>(array, std::make_index_sequence<lane_count>()); }
+  Lanes operator()(const double* array) const { return read<1>(array); }
 
   template <int Dim>
   VecLanes<Dim> operator()(const Vec<Dim>* array) const {
+    const auto* const numbers = reinterpret_cast<const double*>(array);
     VecLanes<Dim> lanes;
-    for (int d = 0; d < Dim; ++d) {
-      lanes.at[d] = read<Dim>(reinterpret_cast<const double*>(array) + d, std::make_index_sequence<lane_count>());
-    }
+    read_two<Dim>(numbers, lanes.at[0], lanes.at[1]);
+    if constexpr (Dim == 3) lanes.at[2] = read<Dim>(numbers + 2);
     return lanes;
   }
 
   template <int Dim>
   MatLanes<Dim> operator()(const Mat<Dim>* array) const {
+    const auto* const numbers = reinterpret_cast<const double*>(array);  // column by column
     MatLanes<Dim> lanes;
     for (int b = 0; b < Dim; ++b) {
-      for (int a = 0; a < Dim; ++a) lanes.column[b].at[a] = entry<Dim>(array, a, b);
+      VecLanes<Dim>& column = lanes.column[b];
+      read_two<Dim * Dim>(numbers + Dim * b, column.at[0], column.at[1]);
+      if constexpr (Dim == 3) column.at[2] = read<Dim * Dim>(numbers + Dim * b + 2);
     }
     return lanes;
   }
   /// The same of symmetric matrices.
   template <int Dim>
   MatLanes<Dim> symmetric(const Mat<Dim>* array) const {
+    const auto* const numbers = reinterpret_cast<const double*>(array);
     MatLanes<Dim> lanes;
-    for (int b = 0; b < Dim; ++b) {
-      for (int a = b; a < Dim; ++a) lanes.column[b].at[a] = lanes.column[a].at[b] = entry<Dim>(array, a, b);
+    read_two<Dim * Dim>(numbers, lanes.column[0].at[0], lanes.column[0].at[1]);
+    if constexpr (Dim == 2) {
+      lanes.column[1].at[1] = read<Dim * Dim>(numbers + 3);
+    } else {
+      lanes.column[0].at[2] = read<Dim * Dim>(numbers + 2);
+      read_two<Dim * Dim>(numbers + 4, lanes.column[1].at[1], lanes.column[1].at[2]);
+      lanes.column[2].at[2] = read<Dim * Dim>(numbers + 8);
+    }
+    for (int b = 1; b < Dim; ++b) {
+      for (int a = 0; a < b; ++a) lanes.column[b].at[a] = lanes.column[a].at[b];
     }
     return lanes;
   }
 
  private:
-  template <int Dim>
-  Lanes entry(const Mat<Dim>* array, int a, int b) const {
-    const auto* const numbers = reinterpret_cast<const double*>(array);  // column by column
-    return read<Dim * Dim>(numbers + Dim * b + a, std::make_index_sequence<lane_count>());
+  /// One number of each entry of an array whose entries have `Stride` numbers.
+  template <int Stride>
+  Lanes read(const double* from) const {
+    return read<Stride>(from, std::make_index_sequence<lane_count>());
   }
   template <int Stride, std::size_t... Lane>
   Lanes read(const double* from, std::index_sequence<Lane...>) const {
     return Lanes{from[Stride * index_[Lane]]...};
+  }
+
+  /// A number of each entry and the one that follows it. They are loaded together: loads are what loops over pairs
+  /// have most of.
+  template <int Stride>
+  void read_two(const double* from, Lanes& first, Lanes& second) const {
+    using Two = double __attribute__((vector_size(16)));
+    Two two[lane_count];
+    for (int n = 0; n < lane_count; ++n) std::memcpy(&two[n], from + Stride * index_[n], sizeof(Two));
+#if defined(__AVX__)
+    const Lanes even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
+    const Lanes odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
+    first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    first = __builtin_shufflevector(two[0], two[1], 0, 2);
+    second = __builtin_shufflevector(two[0], two[1], 1, 3);
+#endif
   }
 
   std::array<std::ptrdiff_t, lane_count> index_;
@@ -172,6 +215,10 @@ struct LaneRange {
       for (int n = count; n < lane_count; ++n) lanes[n] = 0.0;
     }
     return lanes;
+  }
+  /// Writes to `place` and behind it.
+  void store(Lanes lanes, double* place) const {
+    std::memcpy(place, &lanes, (is_full ? lane_count : count) * sizeof(double));
   }
   template <int Dim>
   void store(const VecLanes<Dim>& lanes, Vec<Dim>* array) const {

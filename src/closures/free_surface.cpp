@@ -49,7 +49,7 @@ bool cone_is_empty(const SurfaceInput<Dim>& input, std::size_t i) {
   const Vec<Dim> outward = has_normal ? Vec<Dim>(-input.concentration_gradient[i] / steepness) : Vec<Dim>::Zero();
   bool is_empty = has_normal;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (pairs.r(k) < cone_reach * input.spacing && -pairs.e(k).dot(outward) > cone_cosine) is_empty = false;
+    if (pairs.r(i, k) < cone_reach * input.spacing && -pairs.e(i, k).dot(outward) > cone_cosine) is_empty = false;
   }
   if (count_neighbours(pairs, i) < cone_fewest_neighbours ||
       input.tensors[i].least_eigenvalue_A < least_sound_eigenvalue<Dim>)
@@ -63,7 +63,7 @@ bool f35_holds(const SurfaceInput<Dim>& input, std::size_t i) {
   const Pairs<Dim>& pairs = input.pairs;
   Vec<Dim> asymmetry = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    asymmetry += input.particles.volume[pairs.j[k]] * pairs.W[k] * pairs.e(k);
+    asymmetry += input.particles.volume[pairs.j[k]] * pairs.W[k] * pairs.e(i, k);
   }
   const double kernel_sum = input.concentration[i] * input.lattice_concentration;
   return kernel_sum <= f35_kernel_sum && asymmetry.norm() > f35_asymmetry<Dim> &&
@@ -114,7 +114,7 @@ void find_interior_by_marks(const Pairs<Dim>& pairs, const Particles<Dim>& parti
   for_each(pairs.owned(), [&](std::size_t i) {
     bool is_near = !particles.is_fluid(i) || is_surface[i];
     for (std::size_t k = pairs.begin(i); k < pairs.end(i) && !is_near; ++k) {
-      is_near = is_surface[pairs.j[k]] && pairs.r(k) < near_surface_distance * spacing;
+      is_near = is_surface[pairs.j[k]] && pairs.r(i, k) < near_surface_distance * spacing;
     }
     interior[i] = is_near ? 0.0 : 1.0;
   });

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "base/lanes.h"
 #include "closures/fluid_pairs.h"
+#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
@@ -19,10 +19,11 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
   const double inverse_W = 1.0 / law.W_spacing;
   VecLanes<Dim> sum{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const Lanes volume = range.only(range.neighbours(pairs.j.data())(particles.volume.data()));
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes volume = range.only(j(particles.volume.data()));
     const Lanes ratio = range.load(pairs.W.data()) * inverse_W;
     const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
-    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    const VecLanes<Dim> d = differences(pairs, range, j, i);
     for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
   });
   return law.spacing * sum_of(sum);
@@ -31,12 +32,12 @@ Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const P
 template <int Dim>
 Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   double sum = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r(k);
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r(i, k);
   const double mean_distance = sum / static_cast<double>(pairs.end(i) - pairs.begin(i));
   Vec<Dim> direction = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double ratio = mean_distance / pairs.r(k);
-    direction += ratio * ratio * ratio * pairs.e(k);
+    const double ratio = mean_distance / pairs.r(i, k);
+    direction += ratio * ratio * ratio * pairs.e(i, k);
   }
   return direction;
 }

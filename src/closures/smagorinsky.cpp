@@ -20,8 +20,8 @@ void sub_particle_stress(const Pairs<Dim>& pairs, const Particles<Dim>& particle
       const auto j = pairs.j[k];
       if (!particles.is_fluid(j)) continue;
       const double wW = particles.volume[j] * pairs.W[k];
-      A += wW * pairs.e(k) * pairs.e(k).transpose();
-      sum -= wW / pairs.r(k) * (velocity[j] - velocity[i]) * pairs.e(k).transpose();
+      A += wW * pairs.e(i, k) * pairs.e(i, k).transpose();
+      sum -= wW / pairs.r(i, k) * (velocity[j] - velocity[i]) * pairs.e(i, k).transpose();
     }
     if (least_eigenvalue<Dim>(A) < least_sound_eigenvalue<Dim>) return;
     const Mat<Dim> gradient = sum * A.inverse();
@@ -38,7 +38,7 @@ void add_stress_divergence(const Pairs<Dim>& pairs, const Particles<Dim>& partic
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      return particles.volume[j] * pairs.slope(k) * ((stress[i] + stress[j]) * pairs.e(k));
+      return particles.volume[j] * pairs.slope(i, k) * ((stress[i] + stress[j]) * pairs.e(i, k));
     });
   });
 }

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/for_each.h"
-#include "base/lanes.h"
 #include "closures/fluid_pairs.h"
 #include "closures/wall_law.h"
+#include "neighbours/pair_lanes.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
@@ -21,15 +21,6 @@ std::vector<double> volumes_of_fluid(const Particles<Dim>& particles) {
   std::vector<double> volume(particles.size());
   for_each(volume.size(), [&](std::size_t j) { volume[j] = particles.is_fluid(j) ? particles.volume[j] : 0.0; });
   return volume;
-}
-
-/// What morris_laplacian_weight leaves of the weights of pairs that are very near: 1 for nearly all.
-Lanes share_of_weight(Lanes distance_squared, double spacing) {
-  const double least = least_morris_distance * spacing;
-  Lanes share = in_all_lanes(1.0);
-  if (!any_of(distance_squared < in_all_lanes(least * least))) return share;
-  for (int n = 0; n < lane_count; ++n) share[n] = std::min(1.0, std::sqrt(distance_squared[n]) / least);
-  return share;
 }
 
 /// What viscous forces need of several pairs of particle i.
@@ -53,9 +44,9 @@ struct PairLanes {
         volume(range.only(j(volume_of_fluid.data()))),
         difference(j(velocity.data())),
         gradients(j(gradient.data())),
-        d(range.entries()(pairs.d.data())),
+        d(differences(pairs, range, j, i)),
         squared(d.dot(d)),
-        share_of_volume(volume * share_of_weight(squared, spacing)),
+        share_of_volume(volume * share_of_morris_weight(squared, spacing)),
         F(range.load(pairs.F.data())),
         layer_viscosity(particles.layer_viscosity[i] > 0.0 ? j(particles.layer_viscosity.data()) : Lanes{}) {
     for (int a = 0; a < Dim; ++a) {
@@ -132,8 +123,8 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      const double weight = shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(k),
-                                                     pairs.slope(k), eta_squared);
+      const double weight = shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(i, k),
+                                                     pairs.slope(i, k), eta_squared);
       return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
     });
   });
@@ -179,7 +170,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!takes_part[j]) continue;
-      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(k), pairs.W[k], spacing) *
+      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.W[k], spacing) *
              (velocity[j] - velocity[i]);
     }
     acceleration[i] += viscosity[i] * sum;

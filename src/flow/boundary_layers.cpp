@@ -18,7 +18,7 @@ double distance_by_neighbours(const Pairs<Dim>& pairs, const Particles<Dim>& par
   double least = far_from_walls;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    if (particles.is_fluid(j)) least = std::min(least, particles.wall_distance[j] + pairs.r(k));
+    if (particles.is_fluid(j)) least = std::min(least, particles.wall_distance[j] + pairs.r(i, k));
   }
   return least;
 }

@@ -58,10 +58,10 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const CorrectionReach reach = setup.scheme.pair_vectors == PairVectors::corrected_to_surface
                                     ? CorrectionReach::surface
                                     : CorrectionReach::inside;
-  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
-                                   {particles.position, kernel_radius(setup.kernel), particles.volume, particles.kind,
-                                    here.interior, here.first_moment},
-                                   reach, closing_sweeps(reach), here.pair_vectors, here.open_faces);
+  find_corrected_pair_vectors<Dim>(
+      flow.pairs(), flow.halo(),
+      {kernel_radius(setup.kernel), particles.volume, particles.kind, here.interior, here.first_moment}, reach,
+      closing_sweeps(reach), here.pair_vectors, here.open_faces);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
 template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks) {
   const Setup<Dim>& setup = flow.setup;
-  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_lists())) return;
+  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
   flow.neighbourhood.update(flow.state.particles);
   hide_pairs_behind_plates(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;

@@ -144,22 +144,24 @@ std::vector<int> CellMultigrid::order_rows(std::span<const std::uint64_t> cell, 
 
 /// Makes the first level.
 void CellMultigrid::take_rows(LinearSystem& system) {
-  const LinearSystem::Block& own = system.own();
-  const LinearSystem::Block& others = system.others();
-  const std::span<const double> value = system.values_of_own();
-  const std::span<const double> value_of_others = system.values_of_others();
   const auto rows = static_cast<int>(system.size());
-  // Calls body(column, weight). Columns of other ranks are numbered behind the rows until all that are needed are
-  // known.
+  // Columns of other ranks are numbered behind the rows until all that are needed are known; images are their owners.
+  const auto column_of = [&](std::int32_t column) {
+    if (column < rows) return column;
+    const std::int64_t number = system.number_of_ghost(column);
+    const std::int64_t own = number - system.first_number();
+    return own >= 0 && own < rows ? static_cast<int>(own) : rows + static_cast<int>(number);
+  };
+  // Calls body(column, weight).
   const auto for_each_weight = [&](int i, auto&& body) {
-    for (int slot = own.begin[i]; slot < own.begin[i + 1]; ++slot) body(own.column[slot], -value[slot]);
-    for (int slot = others.begin[i]; slot < others.begin[i + 1]; ++slot) {
-      body(rows + others.column[slot], -value_of_others[slot]);
+    for (const LinearSystem::Part* part : {&system.before(), &system.behind(), &system.ghosts()}) {
+      for (std::size_t k = part->begin[i]; k < part->begin[i + 1]; ++k)
+        body(column_of(part->column[k]), part->weight[k]);
     }
   };
   std::vector<double> total(rows);  // of the weights
   for (int i = 0; i < rows; ++i) {
-    double sum = 1.0;  // the diagonal, with weight -1, is among them
+    double sum = 0.0;
     for_each_weight(i, [&](int, double weight) { sum += weight; });
     total[i] = sum;
   }
@@ -167,7 +169,7 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   Level level;
   level.is_whole = ranks_.is_alone();
   const std::vector<int> place = order_rows(system.cells().number, total, level);
-  level.matrix.reserve(rows, own.column.size() + others.column.size());
+  level.matrix.reserve(rows, system.entries());
   std::vector<int> needed;  // of other ranks
   std::vector<Entry> kept;
   for (const int i : row_) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/fp_traps.h"
 #include "linear/cell_multigrid.h"
+#include "linear/petsc_rows.h"
 #include "linear/petsc_solver.h"
 #include "linear/triangular_sweeps.h"
 
@@ -24,84 +25,87 @@ constexpr double vanishing_rhs = 1e-100;
 /// larger than that of 0: its error is rough, and rough errors are smoothed away first.
 constexpr double hopeless_guess = 1e4;
 
-static_assert(sizeof(PetscInt) == sizeof(int), "the CSR arrays are shared with PETSc");
-static_assert(sizeof(PetscScalar) == sizeof(double), "the values are shared with PETSc");
-
 /// Whether the method divided by a number that happened to vanish. Slow convergence is no breakdown.
 bool is_breakdown(KSPConvergedReason reason) {
   return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
          reason == KSP_DIVERGED_NANORINF;
 }
 
-/// y = D x, where the diagonal D is 1.
-PetscErrorCode times_diagonal(Mat, Vec x, Vec y) { return VecCopy(x, y); }
+/// The entries of two of PETSc's vectors, as long as it lives.
+class VectorAccess {
+ public:
+  VectorAccess(Vec from, Vec to) : from_(from), to_(to) {
+    check_petsc(VecGetLocalSize(from, &size_));
+    check_petsc(VecGetArrayRead(from, &read_));
+    check_petsc(VecGetArrayWrite(to, &written_));
+  }
+  ~VectorAccess() {
+    VecRestoreArrayWrite(to_, &written_);
+    VecRestoreArrayRead(from_, &read_);
+  }
+  VectorAccess(const VectorAccess&) = delete;
+  VectorAccess& operator=(const VectorAccess&) = delete;
 
-/// The operation with which PETSc sweeps over the rows of one rank.
-using SweepOperation = PetscErrorCode (*)(Mat, Vec, PetscReal, MatSORType, PetscReal, PetscInt, PetscInt, Vec);
+  std::span<const double> from() const { return {read_, static_cast<std::size_t>(size_)}; }
+  std::span<double> to() const { return {written_, static_cast<std::size_t>(size_)}; }
 
-/// The name under which the block of this rank has its FastSweeps.
-constexpr const char* fast_sweeps_name = "tailwater_sweeps";
-
-/// What takes the place of PETSc's sweeps over the rows of this rank.
-struct FastSweeps {
-  LinearSystem* system = nullptr;
-  TriangularSweeps sweeps;
-  bool has_values = false;  ///< whether `sweeps` have the values of the present matrix
-  SweepOperation of_petsc = nullptr;
+ private:
+  Vec from_;
+  Vec to_;
+  PetscInt size_ = 0;
+  const PetscScalar* read_ = nullptr;
+  PetscScalar* written_ = nullptr;
 };
 
-/// The sweeps of SSOR in Eisenstat's form by TriangularSweeps, and all others by PETSc itself.
-PetscErrorCode sweep(Mat matrix, Vec b, PetscReal omega, MatSORType kind, PetscReal shift, PetscInt iterations,
-                     PetscInt local_iterations, Vec x) noexcept {
-  PetscObject holder = nullptr;
-  void* pointer = nullptr;
-  check_petsc(PetscObjectQuery(reinterpret_cast<PetscObject>(matrix), fast_sweeps_name, &holder));
-  check_petsc(PetscContainerGetPointer(reinterpret_cast<PetscContainer>(holder), &pointer));
-  FastSweeps& fast = *static_cast<FastSweeps*>(pointer);
-  constexpr int from_zero = SOR_ZERO_INITIAL_GUESS;
-  const bool is_eisenstat = kind == SOR_EISENSTAT;
-  const bool is_forward = kind == (from_zero | SOR_LOCAL_FORWARD_SWEEP);
-  const bool is_backward = kind == (from_zero | SOR_LOCAL_BACKWARD_SWEEP);
-  if (shift != 0.0 || iterations * local_iterations != 1 || !(is_eisenstat || is_forward || is_backward)) {
-    return fast.of_petsc(matrix, b, omega, kind, shift, iterations, local_iterations, x);
+/// What PETSc's shell of a matrix calls. An exception in one of these functions has no way out through PETSc and ends
+/// the program.
+struct Operations {
+  const LinearSystem* system;
+  TriangularSweeps sweeps;
+
+  static Operations& of(Mat shell) {
+    Operations* operations = nullptr;
+    check_petsc(MatShellGetContext(shell, &operations));
+    return *operations;
   }
-  if (!fast.has_values) {
-    const LinearSystem::Block& own = fast.system->own();
-    fast.sweeps.take(own.begin, own.column, fast.system->diagonal_of_own(), fast.system->values_of_own());
-    fast.has_values = true;
+
+  /// y = A x
+  static PetscErrorCode multiply(Mat shell, Vec x, Vec y) noexcept {
+    const VectorAccess vectors(x, y);
+    of(shell).system->multiply(vectors.from(), vectors.to());
+    return 0;
   }
-  const PetscScalar* from = nullptr;
-  PetscScalar* to = nullptr;
-  check_petsc(VecGetArrayRead(b, &from));
-  check_petsc(VecGetArrayWrite(x, &to));
-  const std::span<const double> b_rows(from, fast.system->size());
-  const std::span<double> x_rows(to, fast.system->size());
-  if (is_eisenstat) {
-    fast.sweeps.eisenstat(omega, b_rows, x_rows);
-  } else if (is_forward) {
-    fast.sweeps.forward(omega, b_rows, x_rows);
-  } else {
-    fast.sweeps.backward(omega, b_rows, x_rows);
+
+  static PetscErrorCode get_diagonal(Mat, Vec diagonal) noexcept { return VecSet(diagonal, 1.0); }
+
+  /// What SSOR in Eisenstat's form asks for.
+  static PetscErrorCode sweep(Mat shell, Vec b, PetscReal omega, MatSORType kind, PetscReal shift, PetscInt iterations,
+                              PetscInt local_iterations, Vec x) noexcept {
+    constexpr int from_zero = SOR_ZERO_INITIAL_GUESS;
+    if (shift != 0.0 || iterations * local_iterations != 1) return PETSC_ERR_SUP;
+    const VectorAccess vectors(b, x);
+    TriangularSweeps& sweeps = of(shell).sweeps;
+    if (kind == SOR_EISENSTAT) {
+      sweeps.eisenstat(omega, vectors.from(), vectors.to());
+    } else if (kind == (from_zero | SOR_LOCAL_FORWARD_SWEEP)) {
+      sweeps.forward(omega, vectors.from(), vectors.to());
+    } else if (kind == (from_zero | SOR_LOCAL_BACKWARD_SWEEP)) {
+      sweeps.backward(omega, vectors.from(), vectors.to());
+    } else if (kind == SOR_APPLY_UPPER) {
+      sweeps.times_upper(omega, vectors.from(), vectors.to());
+    } else {
+      return PETSC_ERR_SUP;
+    }
+    return 0;
   }
-  check_petsc(VecRestoreArrayWrite(x, &to));
-  check_petsc(VecRestoreArrayRead(b, &from));
-  return 0;
-}
+};
 
 /// correction = multigrid(residual), for PETSc. An exception here has no way out through PETSc and ends the program.
 PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
   CellMultigrid* multigrid = nullptr;
   check_petsc(PCShellGetContext(preconditioner, &multigrid));
-  PetscInt size = 0;
-  const PetscScalar* from = nullptr;
-  PetscScalar* to = nullptr;
-  check_petsc(VecGetLocalSize(residual, &size));
-  check_petsc(VecGetArrayRead(residual, &from));
-  check_petsc(VecGetArrayWrite(correction, &to));
-  const auto count = static_cast<std::size_t>(size);
-  multigrid->apply({from, count}, {to, count});
-  check_petsc(VecRestoreArrayWrite(correction, &to));
-  check_petsc(VecRestoreArrayRead(residual, &from));
+  const VectorAccess vectors(residual, correction);
+  multigrid->apply(vectors.from(), vectors.to());
   return 0;
 }
 
@@ -128,80 +132,37 @@ std::vector<double> shown_residuals(KSP solver, double first) {
 
 /// PETSc's objects, and the system they belong to.
 struct KrylovSolver::Petsc {
-  PetscMatrix matrix;
-  std::vector<int> column_of_others;  ///< a copy for PETSc, which renumbers it
+  PetscMatrix matrix;  ///< a shell around the system
+  std::optional<Operations> operations;
+  PetscRows rows;  ///< only for preconditioners that need them
   PetscVector rhs;
   PetscVector solution;
   PetscVector residual;
   PetscKrylovSolver solver;
   PetscNullSpace constants;
   std::optional<CellMultigrid> multigrid;
-  FastSweeps fast_sweeps;
   std::uint64_t pattern_number = 0;        ///< of the matrix
   std::optional<std::size_t> solver_size;  ///< rows of this rank; none after a restart with another method
 
   /// Returns whether the pattern is new.
-  bool take_matrix(LinearSystem& system) {
-    const bool is_new = pattern_number != system.pattern_number();
-    if (is_new) {
-      make_matrix(system);
-      pattern_number = system.pattern_number();
-    }
-    // The values in the shared arrays have changed, and PETSc chooses the matrix's operations at an assembly.
-    check_petsc(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-    check_petsc(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
-    provide_sweeps(system);
-    return is_new;
-  }
-
-  void make_matrix(LinearSystem& system) {
-    const auto rows = static_cast<PetscInt>(system.size());
-    const LinearSystem::Block& own = system.own();
-    const LinearSystem::Block& others = system.others();
-    if (system.ranks().is_alone()) {
-      check_petsc(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows, rows, const_cast<int*>(own.begin.data()),
-                                            const_cast<int*>(own.column.data()), system.values_of_own().data(),
-                                            matrix.create()));
-    } else {
-      column_of_others = others.column;
-      check_petsc(MatCreateMPIAIJWithSplitArrays(
-          system.ranks().handle(), rows, rows, PETSC_DETERMINE, PETSC_DETERMINE, const_cast<int*>(own.begin.data()),
-          const_cast<int*>(own.column.data()), system.values_of_own().data(), const_cast<int*>(others.begin.data()),
-          column_of_others.data(), system.values_of_others().data(), matrix.create()));
-    }
-    check_petsc(MatSetOption(matrix.get(), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
-    // Where many rows have equal columns, as in separate drops, PETSc treats them in blocks. SSOR in Eisenstat's form
-    // then reads a block diagonal that was never built (PETSc 3.18).
-    check_petsc(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
+  bool take_matrix(const LinearSystem& system) {
+    if (pattern_number == system.pattern_number()) return false;
+    pattern_number = system.pattern_number();
+    operations.emplace(Operations{&system, TriangularSweeps(system)});
+    const auto size = static_cast<PetscInt>(system.size());
+    check_petsc(MatCreateShell(system.ranks().handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE, &*operations,
+                               matrix.create()));
+    using Function = void (*)();
+    check_petsc(MatShellSetOperation(matrix.get(), MATOP_MULT, reinterpret_cast<Function>(Operations::multiply)));
+    check_petsc(
+        MatShellSetOperation(matrix.get(), MATOP_GET_DIAGONAL, reinterpret_cast<Function>(Operations::get_diagonal)));
+    check_petsc(MatShellSetOperation(matrix.get(), MATOP_SOR, reinterpret_cast<Function>(Operations::sweep)));
     check_petsc(MatCreateVecs(matrix.get(), nullptr, residual.create()));
     if (system.constant_is_free()) {
       check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants.create()));
       check_petsc(MatSetNullSpace(matrix.get(), constants.get()));
     }
-  }
-
-  /// Makes PETSc use our sweeps over the rows of this rank; it drops them at each assembly. On several ranks, SSOR in
-  /// Eisenstat's form also needs an operation that PETSc 3.18 lacks.
-  void provide_sweeps(LinearSystem& system) {
-    Mat own = matrix.get();
-    if (!system.ranks().is_alone()) {
-      check_petsc(MatMPIAIJGetSeqAIJ(matrix.get(), &own, nullptr, nullptr));
-      check_petsc(MatSetOperation(own, MATOP_MULT_DIAGONAL_BLOCK, reinterpret_cast<void (*)()>(times_diagonal)));
-    }
-    void (*present)() = nullptr;
-    check_petsc(MatGetOperation(own, MATOP_SOR, &present));
-    if (present != reinterpret_cast<void (*)()>(sweep)) {
-      fast_sweeps.of_petsc = reinterpret_cast<SweepOperation>(present);
-    }
-    fast_sweeps.system = &system;
-    fast_sweeps.has_values = false;
-    PetscContainer holder = nullptr;
-    check_petsc(PetscContainerCreate(PETSC_COMM_SELF, &holder));
-    check_petsc(PetscContainerSetPointer(holder, &fast_sweeps));
-    check_petsc(PetscObjectCompose(reinterpret_cast<PetscObject>(own), fast_sweeps_name,
-                                   reinterpret_cast<PetscObject>(holder)));
-    check_petsc(PetscContainerDestroy(&holder));  // the matrix keeps it
-    check_petsc(MatSetOperation(own, MATOP_SOR, reinterpret_cast<void (*)()>(sweep)));
+    return true;
   }
 
   /// A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over from the old one, and a
@@ -216,7 +177,23 @@ struct KrylovSolver::Petsc {
       configure(solver.get(), settings, traits, ranks.is_alone());
       take_multigrid(system);
     }
-    check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
+    if (is_ours()) {
+      check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
+      return;
+    }
+    rows.take(system);
+    if (constants.get() != nullptr) check_petsc(MatSetNullSpace(rows.get(), constants.get()));
+    check_petsc(KSPSetOperators(solver.get(), rows.get(), rows.get()));
+  }
+
+  /// Whether the preconditioner works on the system's own rows.
+  bool is_ours() const {
+    PC preconditioner = nullptr;
+    PetscBool is_one = PETSC_FALSE;
+    check_petsc(KSPGetPC(solver.get(), &preconditioner));
+    check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_one, PCEISENSTAT, PCSHELL,
+                                          PCNONE, ""));
+    return is_one;
   }
 
   /// Sets up our own multigrid if the solver has it.

@@ -15,120 +15,65 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
                                const ExchangePlan& halo) {
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
-  const std::int64_t first = ranks_.sum_before(count);
+  first_number_ = ranks_.sum_before(count);
   size_of_all_ = ranks_.sum(count);
-  std::vector<std::int64_t> number(rows);  // of each unknown, over all ranks
-  std::iota(number.begin(), number.end(), first);
-  halo.exchange(number);
+  number_.resize(rows);
+  std::iota(number_.begin(), number_.end(), first_number_);
+  halo.exchange(number_);
+  halo_ = halo;
 
   ++pattern_number_;
   cells_ = {};
   pattern_begin_.assign(row_begin.begin(), row_begin.end());
-  slot_.resize(columns.size());
-  diagonal_slot_.resize(rows);
   rhs_.assign(rows, 0.0);
   scale_.assign(rows, 1.0);
-  for (Block* block : {&own_, &others_}) {
-    block->begin.assign(1, 0);
-    block->column.clear();
+  for (Part& part : parts_) {
+    part.begin.assign(1, 0);
+    part.column.clear();
   }
-
-  /// An entry of a row: the unknown, and the place of its weight; -1 for the diagonal.
-  struct Entry {
-    std::int64_t number;
-    std::ptrdiff_t k;
-    bool operator<(const Entry& other) const { return number < other.number; }
-  };
-  std::vector<Entry> entries;
-  std::vector<std::size_t> of_others;  // the entries in others_, whose slots follow those of own_
-  own_.column.reserve(columns.size() + rows);
-  const auto add_own_row = [&](std::size_t i, std::span<const std::int32_t> row) {  // with ascending columns
-    const auto diagonal = static_cast<std::int32_t>(i);
-    const auto behind = std::lower_bound(row.begin(), row.end(), diagonal);
-    const auto before = static_cast<int>(behind - row.begin());
-    const auto begin = static_cast<int>(own_.column.size());
-    own_.column.insert(own_.column.end(), row.begin(), behind);
-    own_.column.push_back(diagonal);
-    own_.column.insert(own_.column.end(), behind, row.end());
-    diagonal_slot_[i] = begin + before;
-    int* const slot = slot_.data() + row_begin[i];
-    for (int k = 0; k < static_cast<int>(row.size()); ++k) slot[k] = begin + k + (k < before ? 0 : 1);
-  };
   for (std::size_t i = 0; i < rows; ++i) {
     const std::span<const std::int32_t> row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
-    if (row.empty() || (static_cast<std::size_t>(row.back()) < rows && std::is_sorted(row.begin(), row.end()))) {
-      add_own_row(i, row);
-      for (Block* block : {&own_, &others_}) block->begin.push_back(static_cast<int>(block->column.size()));
-      continue;
+    const auto is_before = [i](std::int32_t j) { return static_cast<std::size_t>(j) < i; };
+    const auto is_own = [rows](std::int32_t j) { return static_cast<std::size_t>(j) < rows; };
+    TAILWATER_ASSERT(std::ranges::is_partitioned(row, is_before) && std::ranges::is_partitioned(row, is_own),
+                     "the columns of a row are in order");
+    const auto diagonal = std::ranges::partition_point(row, is_before);
+    const auto ghost = std::ranges::partition_point(row, is_own);
+    const std::array ends{row.begin(), diagonal, ghost, row.end()};
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+      Part& part = parts_[n];
+      part.column.insert(part.column.end(), ends[n], ends[n + 1]);
+      part.begin.push_back(part.column.size());
     }
-    const Entry diagonal{first + static_cast<std::int64_t>(i), -1};
-    bool has_diagonal = false;
-    entries.clear();
-    for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) {
-      if (!has_diagonal && number[columns[k]] > diagonal.number) {
-        entries.push_back(diagonal);
-        has_diagonal = true;
-      }
-      entries.push_back({number[columns[k]], static_cast<std::ptrdiff_t>(k)});
-    }
-    if (!has_diagonal) entries.push_back(diagonal);
-    // Most rows are sorted already, because neighbours are listed by ascending index.
-    if (!std::is_sorted(entries.begin(), entries.end())) std::sort(entries.begin(), entries.end());
-    for (const Entry& entry : entries) {
-      const std::int64_t column = entry.number - first;
-      const bool is_own = column >= 0 && column < count;
-      Block& block = is_own ? own_ : others_;
-      const int slot = static_cast<int>(block.column.size());
-      block.column.push_back(static_cast<int>(is_own ? column : entry.number));
-      if (entry.k < 0) {
-        diagonal_slot_[i] = slot;
-      } else {
-        slot_[entry.k] = slot;
-        if (!is_own) of_others.push_back(static_cast<std::size_t>(entry.k));
-      }
-    }
-    for (Block* block : {&own_, &others_}) block->begin.push_back(static_cast<int>(block->column.size()));
   }
-  for (const std::size_t k : of_others) slot_[k] += static_cast<int>(own_.column.size());
-  value_.resize(own_.column.size() + others_.column.size());
+  for (Part& part : parts_) part.weight.resize(part.column.size());
+  has_ghosts_ = ranks_.any(!ghosts().column.empty());
 }
 
-/// Calls body with every slot of row i.
+/// Calls body with every weight of row i.
 template <class Body>
-void LinearSystem::for_each_slot(std::size_t i, Body&& body) const {
-  for (int slot = own_.begin[i]; slot < own_.begin[i + 1]; ++slot) body(slot);
-  const int first = static_cast<int>(own_.column.size());
-  for (int slot = others_.begin[i]; slot < others_.begin[i + 1]; ++slot) body(first + slot);
+void LinearSystem::for_each_weight(std::size_t i, Body&& body) {
+  for (Part& part : parts_) {
+    for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) body(part.weight[k]);
+  }
 }
-
-LinearSystem::Row::Row(LinearSystem& system, std::size_t i)
-    : system_(system),
-      i_(i),
-      begin_(system.pattern_begin_[i]),
-      end_(system.pattern_begin_[i + 1]),
-      slot_(system.slot_.data() + begin_),
-      value_(system.value_.data()) {}
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {
   TAILWATER_ASSERT(diagonal != 0.0, "a pressure row has no diagonal");
   const double scale = 1.0 / diagonal;
-  system_.for_each_slot(i_, [&](int slot) { value_[slot] *= -scale; });
-  value_[system_.diagonal_slot_[i_]] = 1.0;
+  system_.for_each_weight(i_, [scale](double& weight) { weight *= scale; });
   system_.rhs_[i_] = scale * rhs;
   system_.scale_[i_] = scale;
 }
 
 void LinearSystem::Row::finish_as_zero() {
-  system_.for_each_slot(i_, [&](int slot) { value_[slot] = 0.0; });
-  finish(1.0, 0.0);
+  system_.for_each_weight(i_, [](double& weight) { weight = 0.0; });
+  system_.rhs_[i_] = 0.0;
   system_.scale_[i_] = 0.0;
 }
 
 void LinearSystem::divide_diagonal(std::size_t i, double share) {
-  const int diagonal = diagonal_slot_[i];
-  for_each_slot(i, [&](int slot) {
-    if (slot != diagonal) value_[slot] *= share;  // the diagonal is scaled to 1
-  });
+  for_each_weight(i, [share](double& weight) { weight *= share; });  // the diagonal is scaled to 1
   rhs_[i] *= share;
   scale_[i] *= share;
 }
@@ -145,16 +90,18 @@ void LinearSystem::make_rhs_consistent() {
 
 void LinearSystem::sweep(std::span<double> solution) const {
   TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
-  std::fill(solution.begin(), solution.end(), 0.0);
-  const auto relax_row = [&](std::size_t i) {
-    double sum = rhs_[i] + solution[i];  // the diagonal is 1
-    for (int slot = own_.begin[i]; slot < own_.begin[i + 1]; ++slot) {
-      sum -= value_[slot] * solution[own_.column[slot]];
-    }
-    solution[i] = sum;
-  };
-  for (std::size_t i = 0; i < size(); ++i) relax_row(i);
-  for (std::size_t i = size(); i-- > 0;) relax_row(i);
+  double* const x = solution.data();
+  for (std::size_t i = 0; i < size(); ++i) x[i] = rhs_[i] + before().sum(i, x);
+  // What stands before a row has not changed when the way back comes to it.
+  for (std::size_t i = size(); i-- > 0;) x[i] += behind().sum_back(i, x);
+}
+
+void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {
+  for (std::size_t i = 0; i < size(); ++i) y[i] = x[i] - before().sum(i, x.data()) - behind().sum(i, x.data());
+  if (!has_ghosts_) return;
+  std::vector<double> with_ghosts(x.begin(), x.end());
+  exchange(with_ghosts);
+  for (std::size_t i = 0; i < size(); ++i) y[i] -= ghosts().sum(i, with_ghosts.data());
 }
 
 }  // namespace tailwater

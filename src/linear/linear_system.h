@@ -1,9 +1,12 @@
-// The rows of a sparse linear system: pattern, values and right-hand side, without any solver. There is one row per
-// owned particle. The pattern is set when neighbours change; values are written in place. Rows are scaled to unit
-// diagonal, so that wall rows and fluid rows have equal weight. On several ranks the rows are numbered rank after rank.
-// Each rank writes its own rows, and no entry is sent.
+// The rows of a sparse linear system: weights and right-hand side, without any solver. There is one row per owned
+// particle. The pattern is set when neighbours change; weights are written in place. Rows are scaled to unit diagonal,
+// so that wall rows and fluid rows have equal weight. Each rank writes its own rows, and no entry is sent.
+//
+// A row is kept in three parts, each in an array of its own: the unknowns of this rank before the diagonal, those
+// behind it, and ghosts. Solvers sweep over one part at a time, and wait for memory, not for arithmetic.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,16 +19,46 @@ namespace tailwater {
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
 class LinearSystem {
  public:
-  /// The entries of all rows in one kind of column (own() or others()), in compressed rows.
-  struct Block {
-    std::vector<int> begin;   ///< rows + 1
-    std::vector<int> column;  ///< ascending in each row
+  /// A part of every row, in compressed rows.
+  struct Part {
+    std::vector<std::size_t> begin;  ///< rows + 1
+    std::vector<std::int32_t> column;
+    std::vector<double> weight;  ///< over the row's diagonal
+
+    /// sum_k weight_ik x_j(i,k). Two partial sums, so that an addition need not wait for the one before it.
+    double sum(std::size_t i, const double* x) const {
+      const std::size_t end = begin[i + 1];
+      double even = 0.0;
+      double odd = 0.0;
+      std::size_t k = begin[i];
+      for (; k + 2 <= end; k += 2) {
+        even += weight[k] * x[column[k]];
+        odd += weight[k + 1] * x[column[k + 1]];
+      }
+      if (k < end) even += weight[k] * x[column[k]];
+      return even + odd;
+    }
+
+    /// The same from the row's end to its begin, for sweeps that go back: x of the column next to the diagonal, which
+    /// was found just now, is used last, and the other products need not wait for it.
+    double sum_back(std::size_t i, const double* x) const {
+      const std::size_t first = begin[i];
+      double even = 0.0;
+      double odd = 0.0;
+      std::size_t k = begin[i + 1];
+      for (; k >= first + 2; k -= 2) {
+        even += weight[k - 1] * x[column[k - 1]];
+        odd += weight[k - 2] * x[column[k - 2]];
+      }
+      if (k > first) even += weight[first] * x[column[first]];
+      return even + odd;
+    }
   };
 
   explicit LinearSystem(Communicator ranks = {}) : ranks_(std::move(ranks)) {}
 
-  /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], in any order, without
-  /// the diagonal. Columns are owned entries and ghosts of `halo`; a ghost's unknown is its owner's. Collective.
+  /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], without the diagonal; in
+  /// each row those below i, then those above it, then ghosts of `halo`, whose unknowns are their owners'. Collective.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                    const ExchangePlan& halo);
   /// The same without ghosts, on one rank.
@@ -39,16 +72,29 @@ class LinearSystem {
   /// Writes one row in place. Touches nothing but that row.
   class Row {
    public:
-    /// Weight of the k-th unknown of the pattern's row.
-    void set_weight(std::size_t k, double weight) { value_[slot_[k]] = weight; }
     /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns their sum.
     template <class Weight>
     double set_weights(Weight&& weight) {
+      std::size_t k = system_.pattern_begin_[i_];
       double sum = 0.0;
-      for (std::size_t k = begin_; k < end_; ++k) {
-        const double w = weight(k);
-        value_[slot_[k - begin_]] = w;
-        sum += w;
+      for (Part& part : system_.parts_) {
+        for (std::size_t n = part.begin[i_]; n < part.begin[i_ + 1]; ++n, ++k) {
+          part.weight[n] = weight(k);
+          sum += part.weight[n];
+        }
+      }
+      return sum;
+    }
+    /// The same part by part: write(first, end, weights) writes those of the pattern's entries first .. end and returns
+    /// their sum.
+    template <class Write>
+    double write_weights(Write&& write) {
+      std::size_t first = system_.pattern_begin_[i_];
+      double sum = 0.0;
+      for (Part& part : system_.parts_) {
+        const std::size_t end = first + part.begin[i_ + 1] - part.begin[i_];
+        sum += write(first, end, part.weight.data() + part.begin[i_]);
+        first = end;
       }
       return sum;
     }
@@ -59,13 +105,9 @@ class LinearSystem {
 
    private:
     friend class LinearSystem;
-    Row(LinearSystem& system, std::size_t i);
+    Row(LinearSystem& system, std::size_t i) : system_(system), i_(i) {}
     LinearSystem& system_;
     std::size_t i_;
-    std::size_t begin_;
-    std::size_t end_;
-    const int* slot_;
-    double* value_;
   };
   Row row(std::size_t i) { return {*this, i}; }
 
@@ -82,38 +124,48 @@ class LinearSystem {
   /// For systems with a free constant: changes the right-hand side so that a solution exists. Collective.
   void make_rhs_consistent();
 
-  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, over each rank's own block.
+  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, over the rows of each rank as if
+  /// ghosts were 0.
   void sweep(std::span<double> solution) const;
+
+  /// y = A x. Collective.
+  void multiply(std::span<const double> x, std::span<double> y) const;
 
   std::size_t size() const { return rhs_.size(); }
   std::int64_t size_of_all() const { return size_of_all_; }  ///< rows of all ranks
   const Communicator& ranks() const { return ranks_; }
 
-  /// For the solver, which shares the arrays: the number of the present pattern, and the compressed rows.
+  /// For solvers: the number of the present pattern, and the rows.
   std::uint64_t pattern_number() const { return pattern_number_; }
-  const Block& own() const { return own_; }        ///< unknowns of this rank, columns counted from its first
-  const Block& others() const { return others_; }  ///< unknowns of other ranks, columns counted over all ranks
-  std::span<const int> diagonal_of_own() const { return diagonal_slot_; }  ///< index in values_of_own(), by row
-  std::span<double> values_of_own() { return std::span(value_).first(own_.column.size()); }
-  std::span<double> values_of_others() { return std::span(value_).subspan(own_.column.size()); }
+  const Part& before() const { return parts_[0]; }  ///< unknowns of this rank, left of the diagonal
+  const Part& behind() const { return parts_[1]; }  ///< unknowns of this rank, right of it
+  const Part& ghosts() const { return parts_[2]; }  ///< columns are those of the pattern, from size() on
+  std::size_t entries() const { return parts_[0].column.size() + parts_[1].column.size() + parts_[2].column.size(); }
+  /// The number over all ranks, rank after rank, of this rank's first unknown, and of the unknown of a ghost's column.
+  std::int64_t first_number() const { return first_number_; }
+  std::int64_t number_of_ghost(std::int32_t column) const { return number_[column]; }
+  /// Whether some row of this or another rank couples ghosts, so that products exchange them.
+  bool has_ghosts() const { return has_ghosts_; }
+  /// Values of x with those of ghosts behind them. Collective.
+  void exchange(std::vector<double>& x) const { halo_.exchange(x); }
   std::span<double> rhs() { return rhs_; }
   std::span<const double> rhs() const { return rhs_; }
 
  private:
   template <class Body>
-  void for_each_slot(std::size_t i, Body&& body) const;
+  void for_each_weight(std::size_t i, Body&& body);
 
   Communicator ranks_;
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;
+  bool has_ghosts_ = false;
   std::int64_t size_of_all_ = 0;
+  std::int64_t first_number_ = 0;
+  ExchangePlan halo_;
   Cells cells_;
-  Block own_;
-  Block others_;
-  std::vector<double> value_;  ///< of own_, then of others_
+  std::array<Part, 3> parts_;
   std::vector<std::size_t> pattern_begin_;
-  std::vector<int> slot_;           ///< index in value_ of the k-th entry of the pattern
-  std::vector<int> diagonal_slot_;  ///< index in value_ of the diagonal of row i
+  std::vector<std::int64_t> number_;  ///< over all ranks, of each column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };

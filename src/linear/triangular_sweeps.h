@@ -1,39 +1,32 @@
-// The triangular sweeps of SSOR over a matrix with unit diagonal, A = L + I + U. They have a copy of L and one of U,
-// each in the order in which its sweep reads it: memory is what a sweep waits for, and a sweep through the whole rows
-// would drag both halves through the cache to use one.
+// The triangular sweeps of SSOR over the rows of a LinearSystem, A = L + I + U - G: L and U hold the unknowns of this
+// rank before and behind the diagonal, G ghosts, which the preconditioner leaves out.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "linear/linear_system.h"
+
 namespace tailwater {
 
+/// Borrows the system. All vectors have one entry per row.
 class TriangularSweeps {
  public:
-  /// Copies a matrix of compressed rows: the entries of row i are begin[i] .. begin[i + 1], with ascending columns, and
-  /// its diagonal, 1, is at diagonal[i].
-  void take(std::span<const int> begin, std::span<const int> column, std::span<const int> diagonal,
-            std::span<const double> value);
+  explicit TriangularSweeps(const LinearSystem& system) : system_(system) {}
 
-  /// x = (D + L)^-1 b with D = I/omega. All vectors have one entry per row.
+  /// x = (D + L)^-1 b with D = I/omega.
   void forward(double omega, std::span<const double> b, std::span<double> x) const;
   /// x = (D + U)^-1 b.
   void backward(double omega, std::span<const double> b, std::span<double> x) const;
-  /// x = (D + L)^-1 A (D + U)^-1 b, in Eisenstat's form (docs/theory/linear.md).
+  /// x = (D + U) b.
+  void times_upper(double omega, std::span<const double> b, std::span<double> x) const;
+  /// x = (D + L)^-1 A (D + U)^-1 b, in Eisenstat's form (docs/theory/linear.md). Collective.
   void eisenstat(double omega, std::span<const double> b, std::span<double> x);
 
  private:
-  /// Half of the entries, row after row in the order of the sweep.
-  struct Triangle {
-    std::vector<int> count;  ///< entries of each row
-    std::vector<int> column;
-    std::vector<double> value;
-  };
-  class Reader;
-
-  Triangle lower_;  ///< rows ascending
-  Triangle upper_;  ///< rows descending
+  const LinearSystem& system_;
   std::vector<double> scratch_;
+  std::vector<double> with_ghosts_;
 };
 
 }  // namespace tailwater

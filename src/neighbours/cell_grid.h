@@ -29,6 +29,14 @@ class CellGrid {
   /// Calls body(j) for every particle in the cells around `place`: all within reach(), and some farther away.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {
+    for_each_range_near(place, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t n = begin; n < end; ++n) body(order_[n]);
+    });
+  }
+
+  /// The same by ranges of order(): calls body(begin, end).
+  template <class Body>
+  void for_each_range_near(const Vec<Dim>& place, Body&& body) const {
     const auto centre = cell_of(place);
     std::array<std::int64_t, Dim> low;
     std::array<std::int64_t, Dim> high;
@@ -43,10 +51,9 @@ class CellGrid {
       for (std::int64_t b = low_middle; b <= high_middle; ++b) {
         // The cells of one row lie side by side, so their particles are one range.
         const std::int64_t row = (Dim == 3 ? a * count_[1] + b : a) * count_[Dim - 1];
+        const std::int32_t begin = cell_begin_[row + low[Dim - 1]];
         const std::int32_t end = cell_begin_[row + high[Dim - 1] + 1];
-        for (std::int32_t k = cell_begin_[row + low[Dim - 1]]; k < end; ++k) {
-          body(order_[k]);
-        }
+        if (begin < end) body(begin, end);
       }
     }
   }

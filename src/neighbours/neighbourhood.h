@@ -1,28 +1,26 @@
-// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions at low cost: lists reach a skin
-// beyond the support and are rebuilt only when some particle has moved half a skin.
+// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions. Ghosts reach a skin beyond the
+// support and are chosen anew only when some particle has moved half a skin.
 #pragma once
 
 #include <vector>
 
 #include "neighbours/cell_grid.h"
+#include "neighbours/find_pairs.h"
 #include "neighbours/halo.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
 
 namespace tailwater {
 
-/// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
-enum class WallRows { fluid_only, all };
-
 template <int Dim>
 class Neighbourhood {
  public:
-  /// `skin` [m] is how far lists reach beyond the kernel's support.
+  /// `skin` [m] is how far ghosts reach beyond the kernel's support.
   Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain,
                 Communicator ranks = {});
 
-  /// Brings everything up to date with particles.position. Collective. Returns whether the lists, and with them the
-  /// number of ghosts, are new. pairs() and their order may change at every call.
+  /// Brings everything up to date with particles.position. Collective. Returns whether the ghosts, and their number,
+  /// are new. pairs() and their order may change at every call.
   bool update(Particles<Dim>& particles);
 
   /// Keeps those pairs of the last update for which keep(i, k) is true: k of row i.
@@ -38,33 +36,34 @@ class Neighbourhood {
   Vec<Dim> wrapped(const Vec<Dim>& position) const { return tailwater::wrapped<Dim>(domain_, position); }
 
   /// Wraps the owned particles, sorts them in the order of a cell grid (slabs across the direction of largest spread),
-  /// and forgets lists and ghosts. Particles near in space are then near in memory, and an incomplete factorisation in
+  /// and forgets pairs and ghosts. Particles near in space are then near in memory, and an incomplete factorisation in
   /// this order needs the fewest iterations. Call between steps only: indices change.
   void reorder(Particles<Dim>& particles);
 
-  /// Forgets lists and ghosts; the next `update` builds them as if for the first time.
+  /// Forgets pairs and ghosts; the next `update` finds them as if for the first time.
   void forget(Particles<Dim>& particles);
 
-  /// Keeps only these owned particles, in this order, and forgets lists and ghosts. Call between steps only: indices
+  /// Keeps only these owned particles, in this order, and forgets pairs and ghosts. Call between steps only: indices
   /// change.
   void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);
 
-  /// Cost of a step for each owned particle, in pairs; 1 for each if the lists are not of the present indices.
+  /// Cost of a step for each owned particle, in pairs; 1 for each if the pairs are not of the present indices.
   std::vector<double> work(const Particles<Dim>& particles) const;
 
-  /// Whether lists and ghosts are of the present indices.
-  bool has_lists() const { return has_lists_; }
+  /// Whether pairs and ghosts are of the present indices.
+  bool has_pairs() const { return has_pairs_; }
 
   const Pairs<Dim>& pairs() const { return pairs_; }
   const Halo<Dim>& halo() const { return halo_; }
-  /// All particles, ghosts included, as they were when the lists were built: search half a skin farther.
+  /// All particles, ghosts included, as they were when the pairs were found.
   const CellGrid<Dim>& grid() const { return grid_; }
   const Kernel<Dim>& kernel() const { return kernel_; }
-  std::size_t rebuilds() const { return rebuilds_; }
+  /// How often ghosts were chosen anew.
+  std::size_t renewals() const { return renewals_; }
 
  private:
-  bool lists_are_valid(const Particles<Dim>& particles) const;
-  void rebuild(Particles<Dim>& particles);
+  bool ghosts_are_valid(const Particles<Dim>& particles) const;
+  void renew_ghosts(Particles<Dim>& particles);
 
   Kernel<Dim> kernel_;
   double spacing_;
@@ -74,11 +73,10 @@ class Neighbourhood {
   Communicator ranks_;
   CellGrid<Dim> grid_;
   Halo<Dim> halo_;
-  NeighbourList list_;
   Pairs<Dim> pairs_;
-  bool has_lists_ = false;
-  std::vector<Vec<Dim>> position_at_rebuild_;
-  std::size_t rebuilds_ = 0;
+  bool has_pairs_ = false;
+  std::vector<Vec<Dim>> position_at_renewal_;
+  std::size_t renewals_ = 0;
 };
 
 }  // namespace tailwater

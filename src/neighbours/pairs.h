@@ -1,5 +1,6 @@
 // The interacting pairs: compact neighbour rows, and for each pair the values every operator needs. Operators see the
-// kernel only through these values.
+// kernel only through these values. What follows from the positions is not kept by pair: neighbours' positions are in
+// the cache, and an array with an entry per pair is not.
 #pragma once
 
 #include <cstdint>
@@ -16,34 +17,29 @@ namespace tailwater {
 template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
-  std::vector<std::int32_t> j;         ///< neighbour, owned or ghost
-  std::vector<Vec<Dim>> d;             ///< m; r_ij = r_i - r_j, from j to i, never 0
+  std::vector<std::int32_t> j;         ///< neighbour: in each row those below i, those above it, then ghosts
   std::vector<double> W;               ///< 1/m^Dim; kernel
   std::vector<double> F;               ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+  std::vector<Vec<Dim>> position;      ///< m; of all particles when the pairs were found
+  std::vector<std::int64_t> id;        ///< of all particles
+  double least_distance = 0.0;         ///< m; two particles nearer than this count as this far apart
 
-  double r(std::size_t k) const { return d[k].norm(); }            ///< m; |r_ij|
-  Vec<Dim> e(std::size_t k) const { return d[k] / r(k); }          ///< unit vector along r_ij
-  double slope(std::size_t k) const { return -F[k] * r(k); }       ///< 1/m^(Dim+1); dW/dr
-  Vec<Dim> gradient(std::size_t k) const { return -F[k] * d[k]; }  ///< 1/m^(Dim+1); grad_i W_ij
+  /// r_ij = r_i - r_j [m] of entry k of row i, from j to i, never 0. Two particles at one place get an arbitrary
+  /// direction, opposite for the two (by their ids), so that they can separate.
+  Vec<Dim> d(std::size_t i, std::size_t k) const {
+    const Vec<Dim> r_ij = position[i] - position[j[k]];
+    if (r_ij.squaredNorm() > least_distance * least_distance) return r_ij;
+    return (id[j[k]] > id[i] ? least_distance : -least_distance) * Vec<Dim>::UnitX();
+  }
+  double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }            ///< m; |r_ij|
+  Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }    ///< unit vector along r_ij
+  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }       ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }
   std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
 };
-
-/// Particles that may come within the support of owned particle i while the list is valid: j[row_begin[i]] ..
-/// j[row_begin[i + 1]].
-struct NeighbourList {
-  std::vector<std::size_t> row_begin{0};  ///< owned + 1 entries
-  std::vector<std::int32_t> j;            ///< owned or ghost, ascending in each row
-};
-
-/// Makes pairs of the list's entries that are within the support at the given positions, in the list's order. Two
-/// particles at one place get r = `least_distance` and an arbitrary direction, opposite for the two (by their `id`s),
-/// so that they can separate.
-template <int Dim>
-void evaluate_pairs(const Kernel<Dim>& kernel, std::span<const Vec<Dim>> position, std::span<const std::int64_t> id,
-                    double least_distance, const NeighbourList& list, Pairs<Dim>& pairs);
 
 /// Keeps the pairs k of row i for which keep(i, k) is true, in their order.
 template <int Dim, class Keep>
@@ -55,7 +51,6 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
     for (std::size_t k = begin; k < end; ++k) {
       if (!keep(i, k)) continue;
       pairs.j[n] = pairs.j[k];
-      pairs.d[n] = pairs.d[k];
       pairs.W[n] = pairs.W[k];
       pairs.F[n] = pairs.F[k];
       ++n;
@@ -64,7 +59,6 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
     pairs.row_begin[i + 1] = n;
   }
   pairs.j.resize(n);
-  pairs.d.resize(n);
   pairs.W.resize(n);
   pairs.F.resize(n);
 }

@@ -9,8 +9,7 @@
 
 #include <span>
 
-#include "base/lanes.h"
-#include "neighbours/pairs.h"
+#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 
@@ -27,9 +26,10 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<co
   VecLanes<Dim> gradient{};
   MatLanes<Dim> moment{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const Lanes volume_j = range.only(range.neighbours(pairs.j.data())(volume.data()));
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes volume_j = range.only(j(volume.data()));
     const Lanes F = range.load(pairs.F.data());
-    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    const VecLanes<Dim> d = differences(pairs, range, j, i);
     concentration += volume_j * range.load(pairs.W.data());
     for (int b = 0; b < Dim; ++b) {
       const Lanes weight = volume_j * F * d.at[b];

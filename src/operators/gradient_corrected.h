@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <span>
 
-#include "base/lanes.h"
-#include "neighbours/pairs.h"
+#include "neighbours/pair_lanes.h"
 #include "operators/symmetric.h"
 
 namespace tailwater {
@@ -29,7 +28,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
-    const VecLanes<Dim> d = range.entries()(pairs.d.data());
+    const VecLanes<Dim> d = differences(pairs, range, j, i);
     const VecLanes<Dim> field_j = j(field.data());
     for (int b = 0; b < Dim; ++b) {
       for (int a = 0; a < Dim; ++a) sums.column[b].at[a] -= weight * d.at[b] * (field_j.at[a] - field[i][a]);

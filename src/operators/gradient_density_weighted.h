@@ -14,13 +14,13 @@
 
 namespace tailwater {
 
-/// The share of pair k of particle i in the gradient below, along pairs.e(k).
+/// The share of pair k of particle i in the gradient below, along pairs.e(i, k).
 template <int Dim>
 double density_weighted_slope(const Pairs<Dim>& pairs, std::size_t i, std::size_t k, std::span<const double> volume,
                               std::span<const double> density, std::span<const double> field) {
   const auto j = pairs.j[k];
   const double own = field[i] / (density[i] * density[i]);
-  return volume[j] * pairs.slope(k) * (own + field[j] / (density[j] * density[j]));
+  return volume[j] * pairs.slope(i, k) * (own + field[j] / (density[j] * density[j]));
 }
 
 /// rho_0/rho times the gradient of a scalar at particle i; `density` is c.
@@ -29,7 +29,7 @@ Vec<Dim> density_weighted_gradient(const Pairs<Dim>& pairs, std::size_t i, std::
                                    std::span<const double> density, std::span<const double> field) {
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    sum += density_weighted_slope<Dim>(pairs, i, k, volume, density, field) * pairs.e(k);
+    sum += density_weighted_slope<Dim>(pairs, i, k, volume, density, field) * pairs.e(i, k);
   }
   return sum;
 }

@@ -6,7 +6,10 @@
 // only for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/lanes.h"
 
 namespace tailwater {
 
@@ -18,6 +21,15 @@ inline double morris_laplacian_weight(double volume_j, double F, double distance
   const double least = least_morris_distance * spacing;
   const double weight = 2.0 * volume_j * F;
   return distance_squared < least * least ? weight * std::sqrt(distance_squared) / least : weight;
+}
+
+/// What the least distance leaves of the weights 2 w_j F of several pairs: 1 for nearly all.
+inline Lanes share_of_morris_weight(Lanes distance_squared, double spacing) {
+  const double least = least_morris_distance * spacing;
+  Lanes share = in_all_lanes(1.0);
+  if (!any_of(distance_squared < in_all_lanes(least * least))) return share;
+  for (int n = 0; n < lane_count; ++n) share[n] = std::min(1.0, std::sqrt(distance_squared[n]) / least);
+  return share;
 }
 
 }  // namespace tailwater

@@ -11,9 +11,6 @@
 namespace tailwater {
 namespace {
 
-/// Share of the support's radius; pairs nearer than this are rare.
-constexpr double nearness = 1e-3;
-
 /// Least eigenvalue of a first moment that is divided by, over its largest: that of half a support.
 constexpr double least_share = 0.5;
 
@@ -35,7 +32,6 @@ Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, CorrectionReach reach,
                              std::span<Mat<Dim>> correction) {
-  const double near = nearness * input.radius;
   const double inverse_square = 1.0 / (input.radius * input.radius);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = input.interior[i];
@@ -51,7 +47,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     Lanes weight_sums{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, input.position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const Lanes weight = range.only(j(input.interior.data())) * (1.0 - d.dot(d) * inverse_square);
       const MatLanes<Dim> moment = j.symmetric(input.first_moment.data());
       for (int b = 0; b < Dim; ++b) {
@@ -91,7 +87,6 @@ inline VecLanes<Dim> corrected_difference(std::span<const Mat<Dim>> correction, 
 template <int Dim>
 ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input,
                                            CorrectionReach reach, std::span<const Mat<Dim>> correction) {
-  const double near = nearness * input.radius;
   const bool to_surface = reach == CorrectionReach::surface;
   ClosingEquation<Dim> equation;
   equation.divisor.resize(pairs.owned());
@@ -106,7 +101,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
       const Lanes weight = range.only(j(input.volume.data())) * range.load(pairs.F.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, input.position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
       for (int a = 0; a < Dim; ++a) sums.at[a] += weight * corrected.at[a];
       for (int a = 0; a < Dim; ++a) kernel_sums.at[a] += weight * d.at[a];
@@ -146,14 +141,13 @@ void sweep(const Pairs<Dim>& pairs, std::span<const double> volume, const Closin
 template <int Dim>
 void close_faces(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, std::span<const Mat<Dim>> correction,
                  std::span<const Vec<Dim>> l, std::span<Vec<Dim>> pair_vectors, std::span<Vec<Dim>> open_faces) {
-  const double near = nearness * input.radius;
   for_each(pairs.owned(), [&](std::size_t i) {
     VecLanes<Dim> open{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
       const Lanes F = range.load(pairs.F.data());
       const Lanes volume_j = range.only(j(input.volume.data()));
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, input.position, i, near);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
       VecLanes<Dim> pair_vector = j(l.data());
       for (int a = 0; a < Dim; ++a) {
@@ -171,7 +165,9 @@ void close_faces(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, std
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors) {
   pair_vectors.resize(pairs.j.size());
-  for_each(pair_vectors.size(), [&](std::size_t k) { pair_vectors[k] = pairs.gradient(k); });
+  for_each(pairs.owned(), [&](std::size_t i) {
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) pair_vectors[k] = pairs.gradient(i, k);
+  });
 }
 
 template <int Dim>

@@ -48,7 +48,6 @@ constexpr int closing_sweeps(CorrectionReach reach) { return reach == Correction
 /// What the corrections go by. All arrays have an entry per particle, ghosts included and up to date.
 template <int Dim>
 struct CorrectionInput {
-  std::span<const Vec<Dim>> position;      ///< m; when the pairs were evaluated
   double radius;                           ///< m; of the support
   std::span<const double> volume;          ///< m^Dim
   std::span<const ParticleKind> kind;      ///< only fluid has an l

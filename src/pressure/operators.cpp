@@ -34,12 +34,13 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   const std::vector<double>& volume = particles.volume;
   if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
     return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t, std::size_t k) {
-      return Vec<Dim>(density_weighted_slope<Dim>(pairs, i, k, volume, flow.here.concentration, pressure) * pairs.e(k));
+      return Vec<Dim>(density_weighted_slope<Dim>(pairs, i, k, volume, flow.here.concentration, pressure) *
+                      pairs.e(i, k));
     });
   }
   const bool has_pair_vectors = flow.setup.uses_pair_vectors();
   return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(k);
+    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(i, k);
     return Vec<Dim>((volume[j] * (pressure[i] + pressure[j])) * a);
   });
 }
@@ -58,21 +59,23 @@ double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec
 }
 
 template <int Dim>
-std::vector<double> find_divergence(Flow<Dim>& flow) {
+std::vector<double> find_divergence(Flow<Dim>& flow, int stride) {
   Particles<Dim>& particles = flow.state.particles;
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> divergence(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) divergence[i] = divergence_at(flow, i, particles.velocity);
+    if (particles.is_fluid(i) && particles.id[i] % stride == 0) {
+      divergence[i] = divergence_at(flow, i, particles.velocity);
+    }
   });
   return divergence;
 }
 
 template <int Dim>
-double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
-  double squares =
-      sum_over(field.size(), 0.0, [&](std::size_t i) { return flow.is_inside(i) ? field[i] * field[i] : 0.0; });
-  std::size_t count = count_each(field.size(), [&](std::size_t i) { return flow.is_inside(i); });
+double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int stride) {
+  const auto counts = [&](std::size_t i) { return flow.is_inside(i) && flow.state.particles.id[i] % stride == 0; };
+  double squares = sum_over(field.size(), 0.0, [&](std::size_t i) { return counts(i) ? field[i] * field[i] : 0.0; });
+  std::size_t count = count_each(field.size(), counts);
   flow.setup.ranks.sum_each(squares, count);
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
 }
@@ -81,8 +84,8 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);           \
   template Vec<Dim> push_of_wall_particle<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&); \
   template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&);         \
-  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                           \
-  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&);
+  template std::vector<double> find_divergence<Dim>(Flow<Dim>&, int);                                      \
+  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&, int);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

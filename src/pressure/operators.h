@@ -21,12 +21,16 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
 template <int Dim>
 double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity);
 
-/// div u at owned particles [1/s], 0 at walls, at the present positions.
-template <int Dim>
-std::vector<double> find_divergence(Flow<Dim>& flow);
+/// The divergence that steps report is an rms over every eighth particle, by its id: nothing else needs it.
+inline constexpr int reported_stride = 8;
 
-/// rms of a field (owned entries) over the bulk fluid particles of all ranks. Collective.
+/// div u at owned particles [1/s], 0 at walls, at the present positions; of every `stride`-th particle, the others' is
+/// 0.
 template <int Dim>
-double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field);
+std::vector<double> find_divergence(Flow<Dim>& flow, int stride = 1);
+
+/// rms of a field (owned entries) over the bulk fluid particles of all ranks, every `stride`-th of them. Collective.
+template <int Dim>
+double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int stride = 1);
 
 }  // namespace tailwater

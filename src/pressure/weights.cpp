@@ -18,6 +18,7 @@
 
 #include "base/for_each.h"
 #include "linear/find_cells.h"
+#include "neighbours/pair_lanes.h"
 #include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
 #include "operators/laplacian_shao_lo.h"
@@ -33,42 +34,50 @@ constexpr double softness = 1e-4;
 /// [dx] of the cells of a multigrid (linear/cell_multigrid.h).
 constexpr double cell_edge = 2.0;
 
-/// Sets the weights of row i and returns their sum.
+/// Sets the weights of row i and returns their sum. `volume_taking_part` is 0 for particles that do not.
 template <int Dim>
-double set_laplacian_weights(const Flow<Dim>& flow, std::size_t i, LinearSystem::Row& row, bool& fell_back) {
+double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volume_taking_part, std::size_t i,
+                             LinearSystem::Row& row, bool& fell_back) {
   const Pairs<Dim>& pairs = flow.pairs();
   const Surroundings<Dim>& here = flow.here;
   const std::vector<double>& volume = flow.state.particles.volume;
   const double spacing = flow.setup.spacing;
   if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
-    return row.set_weights([&](std::size_t k) {
-      return here.takes_part[pairs.j[k]]
-                 ? morris_laplacian_weight(volume[pairs.j[k]], pairs.F[k], pairs.d[k].squaredNorm(), spacing)
-                 : 0.0;
+    return row.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+      Lanes sums{};
+      for_each_lanes(first, end, [&](auto range) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const VecLanes<Dim> d = differences(pairs, range, j, i);
+        const Lanes share = share_of_morris_weight(d.dot(d), spacing);
+        const Lanes weight = range.only(2.0 * share * j(volume_taking_part.data()) * range.load(pairs.F.data()));
+        range.store(weight, weights + (range.begin - first));
+        sums += weight;
+      });
+      return sum_of(sums);
     });
   }
   if (flow.setup.scheme.laplacian == LaplacianKind::shao_lo) {
     const std::vector<double>& density = here.concentration;
     return row.set_weights([&](std::size_t k) {
       const auto j = pairs.j[k];
-      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(k),
-                                                           pairs.slope(k), flow.setup.eta_squared)
+      return here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(i, k),
+                                                           pairs.slope(i, k), flow.setup.eta_squared)
                                 : 0.0;
     });
   }
   const Renormalisation<Dim>& tensors = here.tensors[i];
   if (tensors.laplacian_is_sound()) {
     const double sum = row.set_weights([&](std::size_t k) {
-      return here.takes_part[pairs.j[k]]
-                 ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e(k), pairs.r(k), pairs.W[k])
-                 : 0.0;
+      return here.takes_part[pairs.j[k]] ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e(i, k),
+                                                                            pairs.r(i, k), pairs.W[k])
+                                         : 0.0;
     });
     if (sum > 0.0) return sum;
   }
   fell_back = true;
   return row.set_weights([&](std::size_t k) {
     return here.takes_part[pairs.j[k]]
-               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(k), pairs.W[k], spacing)
+               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k), pairs.W[k], spacing)
                : 0.0;
   });
 }
@@ -121,7 +130,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
   double hydrostatic = 0.0;
   row.set_weights([&](std::size_t k) {
     const double share = weight(k) / total;
-    hydrostatic += share * setup.density * setup.gravity.dot(pairs.d[k]);
+    hydrostatic += share * setup.density * setup.gravity.dot(pairs.d(i, k));
     return share;
   });
   row.finish(1.0, hydrostatic);
@@ -129,7 +138,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
 
 /// Writes row i without its source. Returns whether it had to fall back to two-point weights.
 template <int Dim>
-bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
+bool assemble_equation(Flow<Dim>& flow, std::span<const double> volume_taking_part, std::size_t i) {
   const Setup<Dim>& setup = flow.setup;
   if (flow.is_in_end_stretch(i)) {
     assemble_end_row(flow, i);
@@ -142,7 +151,7 @@ bool assemble_equation(Flow<Dim>& flow, std::size_t i) {
     return false;
   }
   bool fell_back = false;
-  const double sum = set_laplacian_weights(flow, i, row, fell_back);
+  const double sum = set_laplacian_weights(flow, volume_taking_part, i, row, fell_back);
   const double own = setup.has_air() ? closing_weight(flow, i, sum) : 0.0;
   if (sum + own <= 0.0) {
     row.finish_as_zero();  // a lone particle has no pressure
@@ -164,8 +173,11 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
                         [&](std::size_t i) { return flow.has_equation(i) && !flow.is_fed(i); }));
   }
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
+  std::vector<double> volume(flow.state.particles.size());
+  for_each(volume.size(),
+           [&](std::size_t j) { volume[j] = flow.here.takes_part[j] ? flow.state.particles.volume[j] : 0.0; });
   return count_each(flow.state.particles.owned,
-                    [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, i); });
+                    [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, volume, i); });
 }
 
 template std::size_t assemble_weights<2>(Flow<2>&, const WallDrive<2>&);

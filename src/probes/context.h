@@ -34,9 +34,8 @@ struct FlowTotals {
   std::vector<double> section_volumes = {};  ///< m^Dim; one per discharge probe, what has passed it
 };
 
-/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them. Its reach must exceed the kernel's
-/// support by the largest distance a particle has moved since the grid was made; the grid of a Neighbourhood exceeds it
-/// by the skin.
+/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, where they are now, and reaches as
+/// far as the kernel's support.
 template <int Dim>
 struct ProbeContext {
   const Particles<Dim>& particles;

@@ -82,14 +82,13 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
   // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
   constexpr double fields = 3.0 * (6 * Dim + 10) * number;
-  // Per pair: the neighbour's index, unit vector, pair vector, distance, kernel and its derivative; a row entry of the
-  // matrix with its place, and one of its factors.
-  constexpr double pair = index + (2 * Dim + 3) * number + 3.0 * index + 2.0 * number;
+  // Per pair: the neighbour's index, kernel and its derivative, pair vector; a weight of the matrix with its column.
+  constexpr double pair = index + (Dim + 2) * number + index + number;
   // Rows of dummies hold the fluid's half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
-  // Lists grow by doubling, and libraries keep buffers. The peak in summary.json after some steps, less the program, is
-  // 1.6 times the arrays for cases/zhou1999 at dx = 0.003 m (435 MB) and 0.7 times for the 3D tank of cases/robustness
-  // at 0.015 m (244 MB), both before there were checkpoints; long runs need a little more.
+  // Arrays grow by doubling, and libraries keep buffers. The peak in summary.json after some steps, less the program,
+  // is 1.6 times the arrays for cases/zhou1999 at dx = 0.003 m (435 MB) and 0.7 times for the 3D tank of
+  // cases/robustness at 0.015 m (244 MB), both before there were checkpoints; long runs need a little more.
   constexpr double slack = 1.9;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }

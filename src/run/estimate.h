@@ -13,7 +13,7 @@ template <int Dim>
 double neighbours_in_support(double support);
 
 /// Memory of a run [bytes] with `count` particles that have `neighbours` each on average. An upper estimate of what is
-/// held at once: fields, neighbour lists with kernel values, matrix and preconditioner.
+/// held at once: fields, pairs with kernel values, matrix.
 template <int Dim>
 double memory_estimate(const ParticleCount& count, double neighbours);
 

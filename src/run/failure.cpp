@@ -71,7 +71,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
       fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.state.particles, i));
     }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
-    if (flow.neighbourhood.has_lists()) list_neighbours(flow, last_good, i, report);
+    if (flow.neighbourhood.has_pairs()) list_neighbours(flow, last_good, i, report);
   }
   const std::vector<std::string> reports = flow.setup.ranks.gather(report);
   do_on_root(flow.setup.ranks,

@@ -8,10 +8,10 @@ namespace tailwater {
 template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = project(flow, start, dt);  // (F14)-(F16)
-  const std::vector<double> divergence_old = find_divergence(flow);
-  report.divergence_old = bulk_rms(flow, divergence_old);  // (F18): the remainder at the old positions
-  report.interventions.put_back += move(flow, start, dt);  // (F17)
-  report.interventions += shift(flow, dt);                 // (F28)-(F32)
+  const std::vector<double> divergence_old = find_divergence(flow, reported_stride);
+  report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);  // (F18): the remainder at the old positions
+  report.interventions.put_back += move(flow, start, dt);                   // (F17)
+  report.interventions += shift(flow, dt);                                  // (F28)-(F32)
   locate(flow);
   report_divergence(flow, divergence_old, report);
   return report;

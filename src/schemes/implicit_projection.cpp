@@ -50,7 +50,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   report.interventions += second.interventions;
   report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
   report.work.ends = end_work(flow, dt);
-  report.divergence_old = bulk_rms(flow, find_divergence(flow));
+  report.divergence_old = bulk_rms(flow, find_divergence(flow, reported_stride), reported_stride);
   report.divergence_new = report.divergence_old;  // the last solve was at the new positions
   return report;
 }
@@ -74,8 +74,8 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     report.add(solve(flow, start, equation, dt, drive));
     correct(flow, predicted, drive, dt);  // (F24)
     report.work = book_works(flow, start, predicted, equation, dt);
-    divergence_old = find_divergence(flow);
-    report.divergence_old = bulk_rms(flow, divergence_old);
+    divergence_old = find_divergence(flow, reported_stride);
+    report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);
 
     report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);
     relax(scheme.relax_pressure, pressure_before, particles.pressure);

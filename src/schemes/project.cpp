@@ -22,11 +22,11 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
 
 template <int Dim>
 void report_divergence(Flow<Dim>& flow, const std::vector<double>& divergence_old, StepReport& report) {
-  const std::vector<double> divergence = find_divergence(flow);
+  const std::vector<double> divergence = find_divergence(flow, reported_stride);
   std::vector<double> change(divergence.size());
   for_each(change.size(), [&](std::size_t i) { change[i] = divergence_old[i] - divergence[i]; });
-  report.divergence_new = bulk_rms(flow, divergence);
-  report.divergence_moved = bulk_rms(flow, change);
+  report.divergence_new = bulk_rms(flow, divergence, reported_stride);
+  report.divergence_moved = bulk_rms(flow, change, reported_stride);
 }
 
 template StepReport project<2>(Flow<2>&, const StepStart<2>&, double);

@@ -27,8 +27,8 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   report.add(found.solved);
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)
   report.work = book_works(flow, start, found.predicted, found.equation, dt);
-  const std::vector<double> divergence_old = find_divergence(flow);
-  report.divergence_old = bulk_rms(flow, divergence_old);
+  const std::vector<double> divergence_old = find_divergence(flow, reported_stride);
+  report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);
   report.interventions.put_back += move(flow, start, dt);  // (B19)
   report.interventions += shift(flow, dt);
   locate(flow);

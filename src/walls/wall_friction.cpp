@@ -12,11 +12,12 @@ namespace {
 /// dx
 constexpr double least_distance = 0.25;
 
-/// lambda c of a pair, k in the row of either particle, between a wall particle of `row` and one of `volume` [1/m^2].
+/// lambda c of pair k in the row of either particle, i, between a wall particle of `row` and one of `volume` [1/m^2].
 template <int Dim>
-double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double volume, std::size_t k, double spacing) {
+double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double volume, std::size_t i, std::size_t k,
+                       double spacing) {
   return scene.walls.friction[row] *
-         morris_laplacian_weight(volume, scene.pairs.F[k], scene.pairs.d[k].squaredNorm(), spacing);
+         morris_laplacian_weight(volume, scene.pairs.F[k], scene.pairs.d(i, k).squaredNorm(), spacing);
 }
 
 /// Calls visit(j, row, weight, k) for each particle of walls with friction in reach of fluid particle i.
@@ -29,7 +30,7 @@ void visit_rubbing_pairs(const WallScene<Dim>& scene, double spacing, std::size_
     if (particles.is_fluid(j)) continue;
     const auto row = particles.wall_row[j];
     if (scene.walls.friction[row] == 0.0) continue;
-    visit(j, row, friction_weight(scene, row, particles.volume[j], k, spacing), k);
+    visit(j, row, friction_weight(scene, row, particles.volume[j], i, k, spacing), k);
   }
 }
 
@@ -63,7 +64,7 @@ RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLa
   visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
     wall.weight += weight;
     wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - V[row]);
-    wall.distance += weight * (scene.pairs.d[k].dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
+    wall.distance += weight * (scene.pairs.d(i, k).dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
     wall.roughness += weight * scene.walls.roughness[row];
   });
   if (wall.weight == 0.0) return {};
@@ -106,7 +107,7 @@ void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
     const Vec<Dim> sum = sum_over_fluid(scene.pairs, particles, w, [&](std::int32_t i, std::size_t k) -> Vec<Dim> {
-      const double weight = friction_weight(scene, row, particles.volume[i], k, law.spacing);
+      const double weight = friction_weight(scene, row, particles.volume[i], w, k, law.spacing);
       return weight * (law.viscosity * (velocity[i] - no_slip[w]) + excess_viscosity[i] * (velocity[i] - V[row]));
     });
     force[w] = particles.volume[w] * along_wall<Dim>(scene, row, sum);

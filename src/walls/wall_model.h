@@ -73,7 +73,7 @@ struct WallForce {
   /// hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho (g - a) . n (F37).
   double hydrostatic_difference(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
                                 std::size_t k) const {
-    return density * felt(particles.wall_row[i]).dot(pairs.d[k]);
+    return density * felt(particles.wall_row[i]).dot(pairs.d(i, k));
   }
 };
 

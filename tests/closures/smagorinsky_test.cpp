@@ -93,7 +93,7 @@ TYPED_TEST(SmagorinskyTest, DivergenceConservesMomentum) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     force += set.particles.volume[i] * acceleration[i];
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      forces += 2.0 * Dim * set.particles.volume[i] * set.particles.volume[pairs.j[k]] * std::abs(pairs.slope(k));
+      forces += 2.0 * Dim * set.particles.volume[i] * set.particles.volume[pairs.j[k]] * std::abs(pairs.slope(i, k));
     }
   }
   EXPECT_LT(force.norm(), static_cast<double>(set.size() + 200) * eps * forces);

@@ -60,9 +60,9 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
     power += w_i * acceleration[i].dot(velocity[i]);
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      const double weight = w_i *
-                            morris_laplacian_weight(set.particles.volume[j], pairs.F[k], pairs.d[k].squaredNorm(), dx) *
-                            0.5 * (viscosity[i] + viscosity[j]);
+      const double weight =
+          w_i * morris_laplacian_weight(set.particles.volume[j], pairs.F[k], pairs.d(i, k).squaredNorm(), dx) * 0.5 *
+          (viscosity[i] + viscosity[j]);
       pair_power -= 0.5 * weight * (velocity[i] - velocity[j]).squaredNorm();
       forces += weight * (velocity[i] - velocity[j]).norm();
     }

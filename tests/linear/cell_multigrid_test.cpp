@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "linear/find_cells.h"
@@ -138,8 +139,7 @@ void pose_ring(PressureSystem& system, int n, double own) {
   std::vector<std::int32_t> columns;
   std::vector<Vec<2>> position;
   for (int i = 0; i < n; ++i) {
-    columns.push_back((i + 1) % n);
-    columns.push_back((i + n - 1) % n);
+    for (const int j : std::set{(i + 1) % n, (i + n - 1) % n}) columns.push_back(j);
     row_begin.push_back(columns.size());
     position.emplace_back(i, 0.0);
   }

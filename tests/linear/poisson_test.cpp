@@ -92,14 +92,7 @@ double solution_error(const Problem<Dim>& problem, int n, double jitter) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const Vec<Dim>& x = set.position(i);
     PressureSystem::Row row = system.row(i);
-    const auto set_row = [&](auto&& weight) {
-      double sum = 0.0;
-      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-        row.set_weight(k - pairs.begin(i), weight(k));
-        sum += weight(k);
-      }
-      return sum;
-    };
+    const auto set_row = [&](auto&& weight) { return row.set_weights(weight); };
     switch (place_of<Dim>(x)) {
       case Place::dirichlet:
         set_row([](std::size_t) { return 0.0; });
@@ -107,8 +100,8 @@ double solution_error(const Problem<Dim>& problem, int n, double jitter) {
         break;
       case Place::neumann: {
         const double sum = set_row([&](std::size_t k) {
-          return consistent_gradient_weight<Dim>(operators.tensors[i].B1, set.particles.volume[pairs.j[k]], pairs.e(k),
-                                                 pairs.r(k), pairs.W[k])[1];
+          return consistent_gradient_weight<Dim>(operators.tensors[i].B1, set.particles.volume[pairs.j[k]],
+                                                 pairs.e(i, k), pairs.r(i, k), pairs.W[k])[1];
         });
         row.finish(sum, -problem.normal_derivative(x));
         break;

@@ -74,6 +74,7 @@ Share make_share(const Communicator& ranks, Owner&& owner, int edge = small_edge
   share.halo = ExchangePlan(ranks, share.own.size(), sent);
   for (const int number : share.own) {
     for (const int other : neighbours_of(number, share.edge)) share.columns.push_back(place[other]);
+    std::sort(share.columns.begin() + static_cast<std::ptrdiff_t>(share.row_begin.back()), share.columns.end());
     share.row_begin.push_back(share.columns.size());
   }
   return share;
@@ -88,11 +89,8 @@ void pass_values(const Share& share, PressureSystem& system) {
     const double scale = 1.0 + number % 5;
     PressureSystem::Row row = system.row(i);
     double rhs = 4.0 * scale * exact(number);
-    std::size_t k = 0;
-    for (const int other : neighbours_of(number, share.edge)) {
-      row.set_weight(k++, scale);
-      rhs -= scale * exact(other);
-    }
+    row.set_weights([&](std::size_t) { return scale; });
+    for (const int other : neighbours_of(number, share.edge)) rhs -= scale * exact(other);
     row.finish(4.0 * scale, rhs);
   }
 }

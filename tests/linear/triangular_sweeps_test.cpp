@@ -15,40 +15,52 @@ namespace {
 constexpr double omega = 1.35;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A matrix of 0 to 6 entries beside the diagonal, 1, in each row, and its compressed rows.
+/// A matrix of 0 to 6 entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
+/// couples images: ghosts of this rank's first rows.
 struct SparseRows {
-  explicit SparseRows(int rows) : whole(Eigen::MatrixXd::Identity(rows, rows)) {
+  SparseRows(int rows, int images)
+      : own(Eigen::MatrixXd::Identity(rows, rows)), of_ghosts(Eigen::MatrixXd::Zero(rows, rows)) {
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> weight(-0.2, 0.1);
-    begin.push_back(0);
+    std::uniform_real_distribution<double> weight(-0.1, 0.2);
+    std::vector<std::size_t> row_begin{0};
+    std::vector<std::int32_t> columns;
+    std::vector<double> weights;
+    const auto add = [&](Eigen::MatrixXd& matrix, int i, int j, int column) {
+      columns.push_back(column);
+      weights.push_back(weight(random));
+      matrix(i, j) = -weights.back();
+    };
     for (int i = 0; i < rows; ++i) {
-      for (int n = i % 7; n > 0; --n) whole(i, (i + 11 * n) % rows) = weight(random);
-      whole(i, i) = 1.0;
+      std::vector<bool> is_coupled(rows, false);
+      for (int n = i % 7; n > 0; --n) is_coupled[(i + 11 * n) % rows] = true;
       for (int j = 0; j < rows; ++j) {
-        if (whole(i, j) == 0.0) continue;
-        if (i == j) diagonal.push_back(static_cast<int>(column.size()));
-        column.push_back(j);
-        value.push_back(whole(i, j));
+        if (is_coupled[j] && j != i) add(own, i, j, j);
       }
-      begin.push_back(static_cast<int>(column.size()));
+      for (int k = 0; i % 3 == 0 && k < images; ++k) add(of_ghosts, i, k, rows + k);
+      row_begin.push_back(columns.size());
     }
-    sweeps.take(begin, column, diagonal, value);
+    std::vector<std::int32_t> sent(images);
+    for (int k = 0; k < images; ++k) sent[k] = k;
+    system.set_pattern(row_begin, columns, ExchangePlan({}, rows, {sent}));
+    for (int i = 0; i < rows; ++i) {
+      LinearSystem::Row row = system.row(i);
+      row.set_weights([&](std::size_t k) { return weights[k]; });
+      row.finish(1.0, 0.0);
+    }
   }
 
   Eigen::MatrixXd lower() const {
-    return Eigen::MatrixXd(whole.triangularView<Eigen::StrictlyLower>()) + diagonal_matrix();
+    return Eigen::MatrixXd(own.triangularView<Eigen::StrictlyLower>()) + diagonal_matrix();
   }
   Eigen::MatrixXd upper() const {
-    return Eigen::MatrixXd(whole.triangularView<Eigen::StrictlyUpper>()) + diagonal_matrix();
+    return Eigen::MatrixXd(own.triangularView<Eigen::StrictlyUpper>()) + diagonal_matrix();
   }
-  Eigen::MatrixXd diagonal_matrix() const { return Eigen::MatrixXd::Identity(whole.rows(), whole.cols()) / omega; }
+  Eigen::MatrixXd whole() const { return own + of_ghosts; }
+  Eigen::MatrixXd diagonal_matrix() const { return Eigen::MatrixXd::Identity(own.rows(), own.cols()) / omega; }
 
-  Eigen::MatrixXd whole;
-  std::vector<int> begin;
-  std::vector<int> column;
-  std::vector<int> diagonal;
-  std::vector<double> value;
-  TriangularSweeps sweeps;
+  Eigen::MatrixXd own;        ///< what a rank couples of its own
+  Eigen::MatrixXd of_ghosts;  ///< and of images, in the columns of what they copy
+  LinearSystem system;
 };
 
 std::span<const double> entries(const Eigen::VectorXd& vector) {
@@ -57,32 +69,86 @@ std::span<const double> entries(const Eigen::VectorXd& vector) {
 std::span<double> entries(Eigen::VectorXd& vector) { return {vector.data(), static_cast<std::size_t>(vector.size())}; }
 
 TEST(TriangularSweeps, SolveWithTheLowerAndTheUpperTriangle) {
-  const SparseRows rows(40);
+  const SparseRows rows(40, 0);
+  const TriangularSweeps sweeps(rows.system);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
   Eigen::VectorXd x(40);
-  rows.sweeps.forward(omega, entries(b), entries(x));
+  sweeps.forward(omega, entries(b), entries(x));
   EXPECT_LT((rows.lower() * x - b).lpNorm<Eigen::Infinity>(), 20.0 * eps);
-  rows.sweeps.backward(omega, entries(b), entries(x));
+  sweeps.backward(omega, entries(b), entries(x));
   EXPECT_LT((rows.upper() * x - b).lpNorm<Eigen::Infinity>(), 20.0 * eps);
+  sweeps.times_upper(omega, entries(b), entries(x));
+  EXPECT_LT((rows.upper() * b - x).lpNorm<Eigen::Infinity>(), 20.0 * eps);
 }
 
 TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
-  SparseRows rows(40);
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
-  Eigen::VectorXd x(40);
-  rows.sweeps.eisenstat(omega, entries(b), entries(x));
-  const Eigen::VectorXd product = rows.whole * rows.upper().partialPivLu().solve(b);
-  EXPECT_LT((rows.lower() * x - product).lpNorm<Eigen::Infinity>(), 100.0 * eps);
+  for (const int images : {0, 5}) {
+    const SparseRows rows(40, images);
+    TriangularSweeps sweeps(rows.system);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
+    Eigen::VectorXd x(40);
+    sweeps.eisenstat(omega, entries(b), entries(x));
+    const Eigen::VectorXd product = rows.whole() * rows.upper().partialPivLu().solve(b);
+    EXPECT_LT((rows.lower() * x - product).lpNorm<Eigen::Infinity>(), 100.0 * eps);
+  }
 }
 
-TEST(TriangularSweeps, TakeAnotherMatrixOfAnotherSize) {
-  SparseRows rows(40);
-  const SparseRows others(13);
-  rows.sweeps.take(others.begin, others.column, others.diagonal, others.value);
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(13, 1.0, 2.0);
-  Eigen::VectorXd x(13);
-  rows.sweeps.backward(omega, entries(b), entries(x));
-  EXPECT_LT((others.upper() * x - b).lpNorm<Eigen::Infinity>(), 20.0 * eps);
+TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
+  for (const int images : {0, 5}) {
+    const SparseRows rows(40, images);
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
+    Eigen::VectorXd y(40);
+    rows.system.multiply(entries(x), entries(y));
+    EXPECT_LT((rows.whole() * x - y).lpNorm<Eigen::Infinity>(), 20.0 * eps);
+  }
+}
+
+TEST(LinearSystemSweep, IsGaussSeidelForwardAndBack) {
+  SparseRows rows(40, 0);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
+  for (int i = 0; i < 40; ++i) rows.system.set_rhs(i, b[i]);
+  Eigen::VectorXd x(40);
+  rows.system.sweep(entries(x));
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(40);
+  for (int n = 0; n < 80; ++n) {
+    const int i = n < 40 ? n : 79 - n;
+    expected[i] += b[i] - rows.own.row(i).dot(expected);
+  }
+  EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 100.0 * eps);
+}
+
+TEST(LinearSystemRow, IsWrittenPartByPartAsOneByOne) {
+  std::vector<std::size_t> row_begin{0};
+  std::vector<std::int32_t> columns;
+  constexpr int rows = 23;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < rows + 3; ++j) {
+      if (j != i) columns.push_back(j);
+    }
+    row_begin.push_back(columns.size());
+  }
+  const ExchangePlan images({}, rows, {{0, 1, 2}});
+  LinearSystem one_by_one;
+  LinearSystem by_parts;
+  one_by_one.set_pattern(row_begin, columns, images);
+  by_parts.set_pattern(row_begin, columns, images);
+  const auto weight = [](std::size_t k) { return 1.0 / (1.0 + static_cast<double>(k)); };
+  for (std::size_t i = 0; i < rows; ++i) {
+    LinearSystem::Row row = one_by_one.row(i);
+    LinearSystem::Row same = by_parts.row(i);
+    const double sum = row.set_weights(weight);
+    const double sum_of_parts = same.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+      double part = 0.0;
+      for (std::size_t k = first; k < end; ++k) part += weights[k - first] = weight(k);
+      return part;
+    });
+    EXPECT_NEAR(sum_of_parts, sum, sum * rows * eps);
+    row.finish(2.0, 1.0);
+    same.finish(2.0, 1.0);
+  }
+  EXPECT_EQ(by_parts.before().weight, one_by_one.before().weight);
+  EXPECT_EQ(by_parts.behind().weight, one_by_one.behind().weight);
+  EXPECT_EQ(by_parts.ghosts().weight, one_by_one.ghosts().weight);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@ namespace tailwater {
 namespace {
 
 constexpr std::size_t count = 23;
-constexpr double radius = 2.0;
-constexpr double least_distance = 1e-6;
 
 /// Particles in a unit box; the row of particle i has its i neighbours of lower index. The last two are at one place.
 template <int Dim>
@@ -19,23 +17,24 @@ struct Rows {
   Rows() {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(0.0, 1.0);
-    NeighbourList list;
+    pairs.row_begin.push_back(0);
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < i; ++j) list.j.push_back(static_cast<std::int32_t>(j));
-      list.row_begin.push_back(list.j.size());
-      position.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      for (std::size_t j = 0; j < i; ++j) {
+        pairs.j.push_back(static_cast<std::int32_t>(j));
+        pairs.F.push_back(number(random));
+      }
+      pairs.row_begin.push_back(pairs.j.size());
+      pairs.position.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      pairs.id.push_back(static_cast<std::int64_t>(i));
       matrix.push_back(Mat<Dim>::NullaryExpr([&] { return number(random); }));
       volume.push_back(number(random));
-      id.push_back(static_cast<std::int64_t>(i));
     }
-    position[count - 1] = position[count - 2];
-    evaluate_pairs<Dim>(WendlandC2<Dim>(radius), position, id, least_distance, list, pairs);
+    pairs.position[count - 1] = pairs.position[count - 2];
+    pairs.least_distance = 1e-6;
   }
 
-  std::vector<Vec<Dim>> position;
   std::vector<Mat<Dim>> matrix;
   std::vector<double> volume;
-  std::vector<std::int64_t> id;
   Pairs<Dim> pairs;
 };
 
@@ -51,29 +50,32 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   ASSERT_EQ(pairs.j.size(), count * (count - 1) / 2);
   std::vector<int> visits(pairs.j.size(), 0);
   std::vector<Vec<Dim>> stored(pairs.j.size(), Vec<Dim>::Constant(7.0));
+  std::vector<Vec<Dim>> expected(pairs.j.size());
   for (std::size_t i = 0; i < count; ++i) {
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, rows.position, i, 0.01);
+      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const MatLanes<Dim> matrix = j(rows.matrix.data());
       const Lanes volume = j(rows.volume.data());
       const Lanes F = range.load(pairs.F.data());
       for (int n = 0; n < range.count; ++n) {
         const std::size_t k = range.begin + n;
         ++visits[k];
+        expected[k] = pairs.d(i, k);
         EXPECT_EQ(F[n], pairs.F[k]);
         EXPECT_EQ(volume[n], rows.volume[pairs.j[k]]);
         for (int a = 0; a < Dim; ++a) {
-          EXPECT_EQ(d.at[a][n], pairs.d[k][a]);
+          EXPECT_EQ(d.at[a][n], expected[k][a]);
           for (int b = 0; b < Dim; ++b) EXPECT_EQ(matrix.column[b].at[a][n], rows.matrix[pairs.j[k]](a, b));
         }
       }
       range.store(d, stored.data());
     });
   }
+  EXPECT_EQ(expected.back().norm(), pairs.least_distance);
   for (std::size_t k = 0; k < visits.size(); ++k) {
     EXPECT_EQ(visits[k], 1);
-    EXPECT_EQ(stored[k], pairs.d[k]);
+    EXPECT_EQ(stored[k], expected[k]);
   }
 }
 

@@ -46,7 +46,7 @@ TYPED_TEST(ConservationTest, ForcesOfTheConservativeGradientSumToZero) {
       sum += w_i * conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, pressure);
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         const auto j = pairs.j[k];
-        terms += std::abs(w_i * set.particles.volume[j] * pairs.slope(k) * (pressure[i] + pressure[j]));
+        terms += std::abs(w_i * set.particles.volume[j] * pairs.slope(i, k) * (pressure[i] + pressure[j]));
       }
     }
     // Summation error: at most (terms in a row + rows) eps times the sum of all magnitudes.
@@ -82,7 +82,7 @@ TYPED_TEST(ConservationTest, StandardDivergenceIsTheAdjointOfTheConservativeGrad
     sum += volume[i] * pressure[i] * standard_divergence<Dim>(pairs, i, volume, vectors, velocity);
     sum += volume[i] * velocity[i].dot(conservative_gradient<Dim>(pairs, i, volume, vectors, pressure));
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      terms += 4.0 * std::sqrt(Dim) * volume[i] * volume[pairs.j[k]] * std::abs(pairs.slope(k));
+      terms += 4.0 * std::sqrt(Dim) * volume[i] * volume[pairs.j[k]] * std::abs(pairs.slope(i, k));
     }
   }
   EXPECT_LT(std::abs(sum), static_cast<double>(pairs.owned() + 200) * eps * terms);

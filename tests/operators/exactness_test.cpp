@@ -78,8 +78,8 @@ TYPED_TEST(ExactnessTest, GradientOfLinearFieldsInteriorAndEdges) {
         // Differences of values of size 2 carry 4 eps; their weights sum to at most tr A |B1| sqrt(Dim)/r_min.
         double weights = 0.0;
         for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
-          weights += consistent_gradient_weight<Dim>(tensors.B1, set.particles.volume[i], set.pairs().e(k),
-                                                     set.pairs().r(k), set.pairs().W[k])
+          weights += consistent_gradient_weight<Dim>(tensors.B1, set.particles.volume[i], set.pairs().e(i, k),
+                                                     set.pairs().r(i, k), set.pairs().W[k])
                          .norm();
         }
         const double condition = tensors.trace_A / tensors.least_eigenvalue_A;
@@ -169,9 +169,9 @@ TYPED_TEST(ExactnessTest, SignOfTheSecondTermOfF23) {
     double weights = 0.0;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      A += set.particles.volume[j] * pairs.W[k] * pairs.e(k) * pairs.e(k).transpose();
+      A += set.particles.volume[j] * pairs.W[k] * pairs.e(i, k) * pairs.e(i, k).transpose();
       const double weight =
-          consistent_laplacian_weight<Dim>(printed, set.particles.volume[j], pairs.e(k), pairs.r(k), pairs.W[k]);
+          consistent_laplacian_weight<Dim>(printed, set.particles.volume[j], pairs.e(i, k), pairs.r(i, k), pairs.W[k]);
       with_plus += weight * (linear[j] - linear[i]);
       weights += std::abs(weight) + std::abs(operators.laplacian_weight(i, k));
     }
@@ -218,10 +218,10 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       double consistent = 0.0;
       double first_moment = 0.0;
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-        morris += morris_laplacian_weight(set.particles.volume[i], pairs.F[k], pairs.d[k].squaredNorm(), dx);
-        consistent += consistent_laplacian_weight<Dim>(operators.tensors[i], set.particles.volume[i], pairs.e(k),
-                                                       pairs.r(k), pairs.W[k]);
-        first_moment -= set.particles.volume[i] * pairs.slope(k) * pairs.r(k) / Dim;
+        morris += morris_laplacian_weight(set.particles.volume[i], pairs.F[k], pairs.d(i, k).squaredNorm(), dx);
+        consistent += consistent_laplacian_weight<Dim>(operators.tensors[i], set.particles.volume[i], pairs.e(i, k),
+                                                       pairs.r(i, k), pairs.W[k]);
+        first_moment -= set.particles.volume[i] * pairs.slope(i, k) * pairs.r(i, k) / Dim;
       }
       // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.
       const double relative = 1e4 * eps;

@@ -65,7 +65,7 @@ TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
         std::size_t back = pairs.begin(j);
         while (static_cast<std::size_t>(pairs.j[back]) != i) ++back;
         ASSERT_EQ(vectors[k], Vec<Dim>(-vectors[back]));
-        corrected += vectors[k] != pairs.gradient(k);
+        corrected += vectors[k] != pairs.gradient(i, k);
       }
     }
     EXPECT_GT(corrected, reach == CorrectionReach::inside ? pairs.j.size() / 20 : pairs.j.size() / 2);

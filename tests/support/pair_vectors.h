@@ -33,9 +33,8 @@ std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const 
   std::vector<Vec<Dim>> vectors;
   std::vector<Vec<Dim>> open_faces;
   const double radius = kernel_radius(set.neighbourhood.kernel());
-  find_corrected_pair_vectors<Dim>(
-      pairs, halo, {set.particles.position, radius, set.particles.volume, set.particles.kind, interior, moment}, reach,
-      sweeps.value_or(closing_sweeps(reach)), vectors, open_faces);
+  find_corrected_pair_vectors<Dim>(pairs, halo, {radius, set.particles.volume, set.particles.kind, interior, moment},
+                                   reach, sweeps.value_or(closing_sweeps(reach)), vectors, open_faces);
   return vectors;
 }
 

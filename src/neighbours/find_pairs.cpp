@@ -1,0 +1,189 @@
+#include "neighbours/find_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "base/for_each.h"
+#include "base/lanes.h"
+
+namespace tailwater {
+namespace {
+
+/// For each set of lanes, as bits: which lanes these are, put to the front.
+constexpr std::array<std::array<std::int32_t, lane_count>, 1 << lane_count> lanes_of_bits = [] {
+  std::array<std::array<std::int32_t, lane_count>, 1 << lane_count> lanes{};
+  for (unsigned bits = 0; bits < lanes.size(); ++bits) {
+    int count = 0;
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if ((bits >> lane & 1U) != 0) lanes[bits][count++] = lane;
+    }
+  }
+  return lanes;
+}();
+
+/// The particles in the order of a grid, their positions coordinate by coordinate, so that those of a range of cells
+/// are read in lanes. The last range may be read beyond its end.
+template <int Dim>
+class OrderedParticles {
+ public:
+  OrderedParticles(std::span<const std::int32_t> order, std::span<const Vec<Dim>> position)
+      : index_(order.begin(), order.end()) {
+    index_.resize(order.size() + lane_count);
+    for (int d = 0; d < Dim; ++d) {
+      at_[d].resize(index_.size());
+      for_each(order.size(), [&](std::size_t n) { at_[d][n] = position[index_[n]][d]; });
+    }
+  }
+
+  /// Writes the indices of those particles at place n of the order and behind it whose bit is set. Writes to as many
+  /// entries as there are lanes.
+  void write(std::size_t n, unsigned bits, std::int32_t* row) const {
+    // Without a branch: which candidates are near is unpredictable.
+    for (int m = 0; m < lane_count; ++m) row[m] = index_[n + lanes_of_bits[bits][m]];
+  }
+
+  /// Bit m is set if the particle at place n + m of the order is nearer to `point` than the square root of `squared`.
+  unsigned nearer(const Vec<Dim>& point, Lanes squared, std::size_t n) const {
+    Lanes sum{};
+    for (int d = 0; d < Dim; ++d) {
+      Lanes x;
+      std::memcpy(&x, at_[d].data() + n, sizeof(x));
+      x = point[d] - x;
+      sum += x * x;
+    }
+    return bits_of(sum < squared);
+  }
+
+ private:
+  std::vector<std::int32_t> index_;
+  std::array<std::vector<double>, Dim> at_;  ///< m
+};
+
+/// A grid of the fluid alone. Most dummies are dry: in it they find empty cells only.
+template <int Dim>
+struct FluidGrid {
+  FluidGrid(const Particles<Dim>& particles, double reach) {
+    for (const std::size_t j : indices_where(particles.size(), [&](std::size_t n) { return particles.is_fluid(n); })) {
+      order.push_back(static_cast<std::int32_t>(j));
+    }
+    std::vector<Vec<Dim>> position(order.size());
+    for_each(order.size(), [&](std::size_t n) { position[n] = particles.position[order[n]]; });
+    grid = CellGrid<Dim>(position, reach);
+    const std::vector<std::int32_t> fluid = order;
+    for_each(order.size(), [&](std::size_t n) { order[n] = fluid[grid.order()[n]]; });
+  }
+
+  CellGrid<Dim> grid;
+  std::vector<std::int32_t> order;  ///< of the grid, as indices of particles
+};
+
+/// Puts the indices below `self`, those above it and those from `owned` on, ghosts, one behind the other into
+/// `ordered`, each kind in the order it has. Returns how many. `self` is left out.
+std::size_t put_in_order(std::span<const std::int32_t> found, std::int32_t self, std::int32_t owned,
+                         std::vector<std::int32_t>& behind, std::vector<std::int32_t>& ghosts, std::int32_t* ordered) {
+  std::size_t before_count = 0;
+  std::size_t behind_count = 0;
+  std::size_t ghost_count = 0;
+  for (const std::int32_t j : found) {  // each index to all three places, and only one of them moves on
+    ordered[before_count] = j;
+    behind[behind_count] = j;
+    ghosts[ghost_count] = j;
+    before_count += static_cast<std::size_t>(j < self);
+    behind_count += static_cast<std::size_t>(j > self) & static_cast<std::size_t>(j < owned);
+    ghost_count += static_cast<std::size_t>(j >= owned);
+  }
+  std::copy_n(behind.begin(), behind_count, ordered + before_count);
+  std::copy_n(ghosts.begin(), ghost_count, ordered + before_count + behind_count);
+  return before_count + behind_count + ghost_count;
+}
+
+/// Puts the particles nearer to `point` than `radius` into `row`, in the order of the grid. Returns how many. `row`
+/// needs room for `lane_count` more.
+template <int Dim>
+std::size_t find_row(const CellGrid<Dim>& grid, const OrderedParticles<Dim>& ordered, const Vec<Dim>& point,
+                     double radius, std::int32_t* row) {
+  const Lanes radius_squared = in_all_lanes(radius * radius);
+  std::size_t found = 0;
+  grid.for_each_range_near(point, [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t n = begin; n < end; n += lane_count) {
+      const unsigned in_range = (1U << std::min(end - n, lane_count)) - 1U;
+      const unsigned near = ordered.nearer(point, radius_squared, n) & in_range;
+      ordered.write(n, near, row + found);
+      found += std::popcount(near);
+    }
+  });
+  return found;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
+                WallRows wall_rows, double least_distance, Pairs<Dim>& pairs) {
+  const double radius = kernel_radius(kernel);
+  const double least_squared = least_distance * least_distance;
+  const Vec<Dim>* const position = particles.position.data();
+  const OrderedParticles<Dim> ordered(grid.order(), particles.position);
+  const FluidGrid<Dim> fluid(particles, radius);
+  const OrderedParticles<Dim> ordered_fluid(fluid.order, particles.position);
+  const auto owned = static_cast<std::int32_t>(particles.owned);
+  std::vector<std::int32_t> near(particles.size() + lane_count);
+  std::vector<std::int32_t> behind(near.size());
+  std::vector<std::int32_t> ghosts(near.size());
+  std::vector<std::int32_t> row(near.size());
+  std::vector<double> squared;
+  std::vector<double> row_W;
+  std::vector<double> row_F;
+
+  pairs.position = particles.position;
+  pairs.id = particles.id;
+  pairs.least_distance = least_distance;
+  pairs.row_begin.resize(particles.owned + 1);
+  pairs.row_begin[0] = 0;
+  const std::size_t before = pairs.j.size();
+  const auto empty = [&](auto&... arrays) {
+    // A little more room than the last pairs had: it is not touched beyond the new ones, and costs no memory.
+    ((arrays.clear(), arrays.capacity() < before + before / 32 ? arrays.reserve(before + before / 8) : void()), ...);
+  };
+  empty(pairs.j, pairs.W, pairs.F);
+
+  std::visit(
+      [&](const auto chosen) {
+        for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
+          const Vec<Dim> r_i = position[i];
+          const bool sees_all = wall_rows == WallRows::all || particles.is_fluid(i);
+          const std::size_t found = sees_all ? find_row(grid, ordered, r_i, radius, near.data())
+                                             : find_row(fluid.grid, ordered_fluid, r_i, radius, near.data());
+          const std::size_t n =
+              put_in_order({near.data(), found}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
+          if (squared.size() < n + lane_count) {
+            for (std::vector<double>* values : {&squared, &row_W, &row_F}) values->resize(n + lane_count);
+          }
+          for_each_lanes(0, n, [&](auto range) {
+            VecLanes<Dim> d = range.neighbours(row.data())(position);
+            for (int a = 0; a < Dim; ++a) d.at[a] = r_i[a] - d.at[a];
+            const Lanes square = max_of(d.dot(d), in_all_lanes(least_squared));
+            std::memcpy(squared.data() + range.begin, &square, sizeof(square));
+          });
+          for_each(n, [&, W = row_W.data(), F = row_F.data(), s = squared.data()](std::size_t k) {
+            const double r = std::sqrt(s[k]);
+            W[k] = chosen.value(r);
+            F[k] = -chosen.derivative(r) / r;
+          });
+          const auto count = static_cast<std::ptrdiff_t>(n);
+          pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + count);
+          pairs.W.insert(pairs.W.end(), row_W.begin(), row_W.begin() + count);
+          pairs.F.insert(pairs.F.end(), row_F.begin(), row_F.begin() + count);
+          pairs.row_begin[i + 1] = pairs.j.size();
+        }
+      },
+      kernel);
+}
+
+template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);
+template void find_pairs<3>(const Kernel<3>&, const CellGrid<3>&, const Particles<3>&, WallRows, double, Pairs<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,20 @@
+// The search for pairs: all particles within the support of each owned one.
+#pragma once
+
+#include "neighbours/cell_grid.h"
+#include "neighbours/pairs.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
+enum class WallRows { fluid_only, all };
+
+/// Makes the pairs of all owned particles at their present positions; ghosts are neighbours only. `grid` has all
+/// particles, where they are now, and the kernel's support as its reach. Particles nearer than `least_distance` [m]
+/// count as that far apart.
+template <int Dim>
+void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
+                WallRows wall_rows, double least_distance, Pairs<Dim>& pairs);
+
+}  // namespace tailwater
