@@ -1,8 +1,9 @@
 #include "probes/wall_force.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -115,6 +116,12 @@ class WallForceProbe {
     centres_.resize(patches_.size());
     for_each(patches_.size(), [&](std::size_t k) { centres_[k] = patches_[k].centre(boundary); });
     grid_ = CellGrid<Dim>(centres_, reach_);
+    around_chosen_.setEmpty();
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      if (chosen_[k] > 0.0) around_chosen_.extend(centres_[k]);
+    }
+    around_chosen_.min().array() -= reach_;
+    around_chosen_.max().array() += reach_;
   }
 
   /// Of each wall: from a place on it to its mean velocity there during the step.
@@ -160,6 +167,7 @@ class WallForceProbe {
   Loads<Dim> part_of(const Loads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
                      const std::vector<AffineMap<Dim>>& velocity) const {
     const Vec<Dim>& x = context.particles.position[i];
+    if (!takes_all_ && !around_chosen_.contains(x)) return {};
     const std::vector<Share> shares = shares_near(context.boundary, x);
     Mat<Dim> all_across = Mat<Dim>::Zero();
     Mat<Dim> all_along = Mat<Dim>::Zero();
@@ -198,11 +206,13 @@ class WallForceProbe {
     double sum = 0.0;
     grid_.for_each_near(x, [&](std::int32_t k) {
       const Vec<Dim> offset = x - centres_[k];
-      const double nearness = 1.0 - offset.norm() / reach_;
-      if (nearness <= 0.0) return;
+      const double distance = offset.norm();
+      if (distance >= reach_) return;
+      const double nearness = 1.0 - distance / reach_;
       const Vec<Dim>& n = boundary.faces[patches_[k].face].normal;
       const bool is_behind = n.dot(offset) < 0.0;
-      const double weight = patches_[k].measure * std::pow(nearness, 4) * (is_behind ? 1.0 : weight_in_front);
+      const double weight =
+          patches_[k].measure * (nearness * nearness) * (nearness * nearness) * (is_behind ? 1.0 : weight_in_front);
       const Mat<Dim> across = n * n.transpose();
       const Mat<Dim> any = Mat<Dim>::Identity();
       shares.push_back({k, weight * (across + indifference * any), weight * (any - across + indifference * any)});
@@ -223,8 +233,9 @@ class WallForceProbe {
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  std::vector<Vec<Dim>> centres_;  ///< of the patches, where they are
-  CellGrid<Dim> grid_;             ///< of these
+  std::vector<Vec<Dim>> centres_;                 ///< of the patches, where they are
+  CellGrid<Dim> grid_;                            ///< of these
+  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< all that chosen patches take a share of is in it
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint keeps.
