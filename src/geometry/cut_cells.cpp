@@ -185,7 +185,6 @@ namespace {
 /// What is summed over cells, row by row, so that the sums do not depend on who makes them.
 struct RowSums {
   double reached = 0.0;          ///< cells
-  double volume_reached = 0.0;   ///< m^Dim
   double whole = 0.0;            ///< cells that are all water
   double volume_whole = 0.0;     ///< m^Dim
   double volume_of_water = 0.0;  ///< m^Dim, in all cells
@@ -282,10 +281,7 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
       const double share = cutter.share_of_water(cell);
       if (!is_cell_reached && share < same_share) return;
       sums.volume_of_water += share * volume;
-      if (is_cell_reached) {
-        sums.reached += 1.0;
-        sums.volume_reached += volume;
-      }
+      if (is_cell_reached) sums.reached += 1.0;
       if (is_cell_reached && share > 1.0 - same_share) {
         sums.whole += 1.0;
         sums.volume_whole += volume;
@@ -304,8 +300,6 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
   for (const RowSums& row : rows) {
     fitted.in_row.push_back(row.whole);
     all.reached += row.reached;
-    all.volume_reached += row.volume_reached;
-    all.whole += row.whole;
     all.volume_whole += row.volume_whole;
     all.volume_of_water += row.volume_of_water;
     all.volume_in_shape += row.volume_in_shape;

@@ -159,14 +159,14 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
                                              : find_row(fluid.grid, ordered_fluid, r_i, radius, near.data());
           const std::size_t n =
               put_in_order({near.data(), found}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
-          if (squared.size() < n + lane_count) {
-            for (std::vector<double>* values : {&squared, &row_W, &row_F}) values->resize(n + lane_count);
+          if (squared.size() < n) {
+            for (std::vector<double>* values : {&squared, &row_W, &row_F}) values->resize(n);
           }
           for_each_lanes(0, n, [&](auto range) {
             VecLanes<Dim> d = range.neighbours(row.data())(position);
             for (int a = 0; a < Dim; ++a) d.at[a] = r_i[a] - d.at[a];
             const Lanes square = max_of(d.dot(d), in_all_lanes(least_squared));
-            std::memcpy(squared.data() + range.begin, &square, sizeof(square));
+            range.store(square, squared.data() + range.begin);
           });
           for_each(n, [&, W = row_W.data(), F = row_F.data(), s = squared.data()](std::size_t k) {
             const double r = std::sqrt(s[k]);

@@ -35,12 +35,11 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
   const double inverse_square = 1.0 / (input.radius * input.radius);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = input.interior[i];
-    correction[i].setIdentity();
+    Mat<Dim> at_surface = Mat<Dim>::Identity();
     if (reach == CorrectionReach::surface && share < 1.0) {
-      correction[i] = (1.0 - share) * equalising_correction<Dim>(input.first_moment[i]);
-    } else {
-      correction[i] *= 1.0 - share;
+      at_surface = equalising_correction<Dim>(input.first_moment[i]);
     }
+    correction[i] = (1.0 - share) * at_surface;
     if (share == 0.0) return;
     // Weights 1 - (r/R)^2: a mean over as many neighbours as there are, and continuous.
     MatLanes<Dim> sums{};
@@ -65,7 +64,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
 /// The equation for l, row by row.
 template <int Dim>
 struct ClosingEquation {
-  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j F_ij, `inside` over interior_i; 0 where there is no equation
+  std::vector<double> divisor;  ///< 1/m^2; sum_j w_j F_ij, over interior_i with the reach `inside`; 0: no equation
   std::vector<Vec<Dim>> rhs;    ///< 1/m
 };
 
@@ -104,7 +103,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
       const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const VecLanes<Dim> corrected = corrected_difference<Dim>(correction, i, j, d);
       for (int a = 0; a < Dim; ++a) sums.at[a] += weight * corrected.at[a];
-      for (int a = 0; a < Dim; ++a) kernel_sums.at[a] += weight * d.at[a];
+      for (int a = 0; to_surface && a < Dim; ++a) kernel_sums.at[a] += weight * d.at[a];
       weights += weight;
     });
     const Vec<Dim> open = sum_of(sums);

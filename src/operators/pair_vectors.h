@@ -19,7 +19,8 @@
 //        away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far as it matters: what
 //        varies from particle to particle. The row is divided by `interior`, so l is 0 at the surface.
 //
-// That is the reach `inside`. With the reach `surface` the outermost rows take part, which are else an elastic skin:
+// This is the reach `inside`. It leaves the outermost rows an elastic skin. With the reach `surface` they are corrected
+// too:
 //
 // B_i    tends to T_i = lambda_min M_i^-1 at the surface, so that B_i M_i has no direction: stretching the surface is
 //        not taken for a compression, and across it the kernel's gradient stays, which fits the air (pressure/weights).
