@@ -37,7 +37,6 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
 /// The starting lattice. With dummy walls a particle is the centre of its cell. As many cells become particles as the
 /// block, without what bodies and walls take, has volume, those that have most of their volume in it (cut_cells.h), and
 /// the particles have this volume to round-off. Where nothing cuts a cell, particles have the volumes of their cells.
-/// In a box of water around bodies, particles are the cells whose centres are outside the bodies, with their volumes.
 /// With a row of particles on the wall they stand at the cells' corners, except in periodic directions, but not nearer
 /// than dx/2 to a wall, where a wall particle stands; of those on the outline of a polygon every second one is taken,
 /// because half of their cells is inside. Particles nearer than dx/4 to a wall to which their block adapts are moved to
