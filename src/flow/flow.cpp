@@ -97,6 +97,16 @@ void Flow<Dim>::restore(State<Dim> saved) {
   place_walls(*this, state.time);
 }
 
+template <int Dim>
+Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : walls.boundary.faces) box.extend(face.box());
+  for (const OpenEnd<Dim>& end : setup.open_ends) {
+    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
+  }
+  return box;
+}
+
 template struct Flow<2>;
 template struct Flow<3>;
 

@@ -73,6 +73,8 @@ struct Flow {
   double kinetic_energy_of(std::size_t i) const {
     return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
   }
+  /// The box around all walls, where they are now, and all open ends; empty if there are none.
+  Eigen::AlignedBox<double, Dim> box() const;
   /// Relative to the origin.
   double potential_energy_of(std::size_t i) const {
     return -setup.density * state.particles.volume[i] * setup.gravity.dot(state.particles.position[i]);

@@ -90,6 +90,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.density_error_mean = sums.density_error / count;
     measures.density_error_rms = std::sqrt(sums.density_error_squared / count);
   }
+  measures.departed = flow.state.fallen;
   for (const OpenEndState& end : flow.state.open_ends) {
     measures.departed += end.departed;
     measures.arrived += end.arrived;

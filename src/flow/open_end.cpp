@@ -351,33 +351,6 @@ void hold_open_ends(Flow<Dim>& flow, double dt) {
 }
 
 template <int Dim>
-bool let_go(Flow<Dim>& flow) {
-  const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
-  if (ends.empty()) return false;
-  const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::size_t> passed(particles.owned);  // which end; the number of ends for a particle that stays
-  for_each(particles.owned, [&](std::size_t i) {
-    const auto end = std::find_if(ends.begin(), ends.end(), [&](const OpenEnd<Dim>& e) {
-      return particles.is_fluid(i) && e.opening.is_passed_by(particles.position[i]);
-    });
-    passed[i] = static_cast<std::size_t>(end - ends.begin());
-  });
-  for (std::size_t e = 0; e < ends.size(); ++e) {
-    Passed departed = sum_over(particles.owned, Passed{}, [&](std::size_t i) -> Passed {
-      if (passed[i] != e) return {};
-      return {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
-    });
-    flow.setup.ranks.sum_each(departed.particles, departed.volume, departed.energy);
-    flow.state.open_ends[e].departed += departed;
-  }
-  const std::vector<std::size_t> kept =
-      indices_where(particles.owned, [&](std::size_t i) { return passed[i] == ends.size(); });
-  if (kept.size() == particles.owned) return false;
-  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
-  return true;
-}
-
-template <int Dim>
 bool let_in(Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   bool some_came = false;
@@ -430,7 +403,6 @@ Passed sump_of(const Flow<Dim>& flow, int circuit) {
   template Passed sump_of(const Flow<Dim>&, int);                \
   template std::vector<OpenEnd<Dim>> make_ends(const CaseSpec&); \
   template void hold_open_ends<Dim>(Flow<Dim>&, double);         \
-  template bool let_go<Dim>(Flow<Dim>&);                         \
   template bool let_in<Dim>(Flow<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -24,6 +24,7 @@ struct State {
   MotionState<Dim> motion;              ///< of wave makers and floating bodies
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
+  Passed fallen;                        ///< water that fell below all walls, and is no longer computed
 };
 
 }  // namespace tailwater

@@ -63,8 +63,9 @@ void hold_open_ends(Flow<Dim>& flow, double dt);
 template <int Dim>
 void steer_wave_makers(Flow<Dim>& flow);
 
-/// Removes and books the particles that have passed an open end outwards. Returns whether this rank had any; if so, its
-/// indices have changed and its lists are gone. Call between steps only.
+/// Removes and books the particles that have passed an open end outwards, and those that have fallen below all walls
+/// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.
+/// Call between steps only. Collective.
 template <int Dim>
 bool let_go(Flow<Dim>& flow);
 

@@ -164,12 +164,13 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, energy_rise, density_share] =
-      checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, energy_rise, density_share,
+               fallen] = checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
+                      {"fallen", json_of(fallen)},
                       {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
                       {"wave_makers", nlohmann::json::array()},
@@ -191,6 +192,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.step = json.at("step");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
+  state.fallen = passed_of(json.at("fallen"));
   checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
   for (const nlohmann::json& maker : json.at("wave_makers")) state.motion.wave_makers.push_back(maker_of(maker));

@@ -271,8 +271,8 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
   warn(
-      fmt::format("at t = {:.4f} s {} fluid particle(s) left the walls for good; they are still computed, and "
-                  "counted in summary.json. Remedy: higher walls",
+      fmt::format("at t = {:.4f} s {} fluid particle(s) left the walls for good; they are computed until they "
+                  "are below all walls, and counted in summary.json. Remedy: higher walls",
                   flow.state.time, outside));
 }
 
@@ -335,11 +335,9 @@ template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   const Water outside = water_outside(flow);
   if (flow.setup.open_ends.empty() && outside.particles == 0) return;
-  Water inside = water_in(flow);
-  inside -= outside;
   const Water came = water_came(flow);
   tell(fmt::format("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
-                   came.particles > 0 ? came.text() + " in, " : "", inside.text(), outside.text(),
+                   came.particles > 0 ? came.text() + " in, " : "", water_inside(flow).text(), outside.text(),
                    water_out(flow).text()));
 }
 

@@ -17,17 +17,6 @@ nlohmann::ordered_json json_of(const Water& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
-/// The box around all walls and open ends; empty if there are none.
-template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const Flow<Dim>& flow) {
-  Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : flow.walls.boundary.faces) box.extend(face.box());
-  for (const OpenEnd<Dim>& end : flow.setup.open_ends) {
-    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
-  }
-  return box;
-}
-
 /// The height of x above the wall that a body falling from it meets first, m: positive if it meets the front. None if
 /// it meets no wall on the way to `lowest`.
 template <int Dim>
@@ -73,6 +62,11 @@ bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box
   return height.value_or(-1.0) > 0.0;
 }
 
+template <int Dim>
+Water water_fallen(const Flow<Dim>& flow) {
+  return {flow.state.fallen.particles, flow.state.fallen.volume};
+}
+
 }  // namespace
 
 Water& Water::operator+=(const Water& other) {
@@ -101,7 +95,7 @@ Water water_in(const Flow<Dim>& flow) {
 
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow) {
-  const Eigen::AlignedBox<double, Dim> box = box_around(flow);
+  const Eigen::AlignedBox<double, Dim> box = flow.box();
   if (box.isEmpty()) return {};
   const Particles<Dim>& particles = flow.state.particles;
   Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
@@ -111,6 +105,15 @@ Water water_outside(const Flow<Dim>& flow) {
     return is_outside ? Water{1, particles.volume[i]} : Water();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
+  water += water_fallen(flow);
+  return water;
+}
+
+template <int Dim>
+Water water_inside(const Flow<Dim>& flow) {
+  Water water = water_in(flow);
+  water += water_fallen(flow);
+  water -= water_outside(flow);
   return water;
 }
 
@@ -155,13 +158,10 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     }
     (is_inlet ? inlets : outlets).push_back(json);
   }
-  const Water outside = water_outside(flow);
-  Water inside = water_in(flow);
-  inside -= outside;
   return {{"start", json_of(at_start, density)},
           {"in", json_of(water_came(flow), density)},
-          {"inside", json_of(inside, density)},
-          {"outside", json_of(outside, density)},
+          {"inside", json_of(water_inside(flow), density)},
+          {"outside", json_of(water_outside(flow), density)},
           {"out", json_of(water_out(flow), density)},
           {"inlets", inlets},
           {"outlets", outlets}};
@@ -170,6 +170,7 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
 #define TAILWATER_INSTANTIATE(Dim)                     \
   template Water water_in<Dim>(const Flow<Dim>&);      \
   template Water water_outside<Dim>(const Flow<Dim>&); \
+  template Water water_inside<Dim>(const Flow<Dim>&);  \
   template Water water_out<Dim>(const Flow<Dim>&);     \
   template Water water_came<Dim>(const Flow<Dim>&);    \
   template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&);

@@ -23,11 +23,16 @@ struct Water {
 template <int Dim>
 Water water_in(const Flow<Dim>& flow);
 
-/// The part of it that has left the walls for good, over all ranks: it is beyond the box around walls and open ends,
-/// and straight below it along gravity there is no wall that would catch it. Spray above an open tank is not lost. Nor
-/// does water on its way out through an open end belong to it. Collective.
+/// The water that has left the walls for good, over all ranks: it is beyond the box around walls and open ends, and
+/// straight below it along gravity there is no wall that would catch it, or it has fallen below all walls already and
+/// is no longer computed. Spray above an open tank is not lost. Nor does water on its way out through an open end
+/// belong to it. Collective.
 template <int Dim>
 Water water_outside(const Flow<Dim>& flow);
+
+/// The water that is computed and not outside; collective.
+template <int Dim>
+Water water_inside(const Flow<Dim>& flow);
 
 /// The water that left through all open ends since the start.
 template <int Dim>

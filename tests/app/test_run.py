@@ -213,6 +213,24 @@ class Books(ProgramTest):
                     self.assertAlmostEqual(sum(before), sum(after), delta=1e-12 * sum(before))
                 self.assertEqual(balance["start"]["mass_kg"], 1000 * balance["start"]["volume_m3"])
 
+    def test_water_that_fell_below_all_walls_is_counted_and_no_longer_computed(self):
+        floor = -0.3  # a support below the bed, m
+        self.call("run", "small.toml", "--out", "run", "--quiet", *self.OVER_THE_RIM, "--set", "time.end=1.2")
+        summary = self.summary("run")
+        balance = summary["water_balance"]
+        positions, _ = read_points(read_series(self.folder / "run/fields/fields.pvd")[-1][1])
+        fallen = balance["start"]["particles"] - len(positions)
+        self.assertGreater(fallen, 0)
+        # The last step may have taken some below it.
+        self.assertGreater(positions[:, 1].min(), floor - 0.1)
+        beside = np.count_nonzero((positions[:, 0] > 1.2) & (positions[:, 1] < 0.6))
+        self.assertEqual(balance["outside"]["particles"], beside + fallen)
+        self.assertEqual(balance["inside"]["particles"] + balance["outside"]["particles"],
+                         balance["start"]["particles"])
+        self.assertGreaterEqual(summary["volume"]["outside_the_walls_most"], fallen)
+        # The energy that it took is booked.
+        self.assertLess(summary["energy"]["largest_rise_over_start"], 1e-3)
+
     # 0.35 m x 0.33 m, no whole numbers of the spacing of 0.1 m.
     def test_an_obstacle_inside_a_block_takes_its_volume(self):
         self.call("run", "small.toml", "--out", "run", "--quiet", "--set",
