@@ -24,6 +24,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"ogee", templates::ogee},
     {"sluice-gate", templates::sluice_gate},
     {"hydraulic-jump", templates::hydraulic_jump},
+    {"backwater", templates::backwater},
     {"circulation", templates::circulation},
     {"run-up", templates::run_up},
     {"wave-flume", templates::wave_flume},
@@ -70,8 +71,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
           "template", options->kind,
           "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
           "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, ogee, "
-          "sluice-gate and hydraulic-jump (steady flow in a flume), circulation, run-up, pier (3D, a dam breaks "
-          "against a pier from an STL file), wave-flume (regular waves, gauges and a damping zone), "
+          "sluice-gate, hydraulic-jump and backwater (steady flow in a flume), circulation, run-up, pier (3D, a dam "
+          "breaks against a pier from an STL file), wave-flume (regular waves, gauges and a damping zone), "
           "solitary-wave, sloshing (a tank that rolls) or floating-box (a body on two lines)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))

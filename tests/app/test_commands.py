@@ -13,7 +13,7 @@ COMMANDS = ("new", "check", "run", "resume", "info", "bench")
 # With a coarse spacing (m) for a short run.
 TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "channel": 0.1, "weir": 0.03, "broad-weir": 0.03, "ogee": 0.025, "sluice-gate": 0.02,
              "hydraulic-jump": 0.025, "wave-flume": 0.05, "solitary-wave": 0.05, "sloshing": 0.025,
-             "floating-box": 0.03, "circulation": 0.05, "run-up": 0.025}
+             "floating-box": 0.03, "backwater": 0.05, "circulation": 0.05, "run-up": 0.025}
 
 
 class CommandLine(ProgramTest):

@@ -115,6 +115,31 @@ class SteadyFlows(unittest.TestCase):
         self.assertAlmostEqual(numbers["discharge_error"], 0.01, places=9)
         self.assertAlmostEqual(numbers["level_error_dx"], 0.2, places=9)
 
+    def test_a_backwater_curve_ends_at_the_normal_depth(self):
+        # Far upstream the friction of the side walls takes the slope of the bed; half as fast, less than that.
+        walls = (0.05, 0.002, 1e-6, G)
+        slope = flume.side_wall_slope(0.6, *walls)
+        self.assertLess(flume.side_wall_slope(0.5, *walls), slope)
+        normal = flume.backwater_curve(0.21, 60.0, 0.09, slope, lambda speed: flume.side_wall_slope(speed, *walls), G, 1000)
+        self.assertAlmostEqual(normal, 0.09 / 0.6, places=5)
+        # Without friction the energy head falls with the bed.
+        above = flume.backwater_curve(0.21, 5.0, 0.09, 0.01, lambda speed: 0.0, G)
+        heads = [h + 0.09**2 / (2 * G * h**2) for h in (above, 0.21)]
+        self.assertAlmostEqual(heads[1] - heads[0], 0.05, places=5)
+
+    def test_a_backwater_is_told_from_its_curve(self):
+        friction = lambda speed: flume.side_wall_slope(speed, 0.05, 0.002, 1e-6, G)
+        upstream, middle, downstream = (flume.backwater_curve(0.21, x, 0.09, 0.01, friction, G) for x in (5.0, 3.0, 1.0))
+        run = self.run_with({"L": 6.0, "S": 0.01, "H": 0.21, "q": 0.09},
+                            {"upstream": ("connected_m", 0.15, upstream + 0.003), "middle": ("connected_m", 0.18, middle),
+                             "downstream": ("connected_m", 0.2, downstream - 0.001), "discharge": ("volume_m3", 0.0, 0.0909)})
+        effective = run.path / "case.effective.toml"
+        effective.write_text(effective.read_text().replace(
+            "[physics]", "[physics]\nchannel_width = 0.05\nchannel_roughness = 0.002\nviscosity = 1e-6"))
+        numbers = flume.backwater(RunFolder(run.path))
+        self.assertAlmostEqual(numbers["level_error_dx"], 0.3, places=6)
+        self.assertAlmostEqual(numbers["discharge_error"], 0.01, places=9)
+
     def test_water_that_circulates_is_counted(self):
         run = self.run_with({"H": 0.2, "q": 0.1}, {"depth_upstream": ("connected_m", 0.2, 0.2),
                                                    "depth_downstream": ("connected_m", 0.2, 0.2),

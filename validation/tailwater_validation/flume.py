@@ -171,6 +171,43 @@ def channel(run):
             "level_error_dx": max(abs(level - depth) for level in levels) / run.spacing}
 
 
+def side_wall_slope(speed, width, roughness, viscosity, g):
+    """Slope of the energy line that the friction of a channel's side walls takes, for the law of docs/theory/friction.md."""
+    def speed_with(shear):
+        zero_height, half = 0.11 * viscosity / shear + roughness / 30, 0.5 * width
+        return shear / 0.41 * ((1 + zero_height / half) * math.log1p(half / zero_height) - 1)
+
+    shear = solve(lambda u: speed_with(u) - speed, 1e-3 * speed, speed)
+    return 2 * shear**2 / (g * width)
+
+
+def backwater_curve(depth, distance, discharge, slope, friction, g, steps=100):
+    """Depth at `distance` (m) upstream of `depth` (m): dh/dx = (S - friction(u))/(1 - F^2), by the midpoint rule."""
+    def rise(h):
+        return (slope - friction(discharge / h)) / (1 - discharge**2 / (g * h**3))
+
+    step = distance / steps
+    for _ in range(steps):
+        depth -= step * rise(depth - 0.5 * step * rise(depth))
+    return depth
+
+
+def backwater(run):
+    """level_error_dx: largest error of the depth at three gauges against the backwater curve that the tailwater, the
+    discharge and the side walls ask for. discharge_error: of the mean in the middle."""
+    physics = run.case["physics"]
+    length, slope, tailwater, discharge = (run.parameters[name] for name in ("L", "S", "H", "q"))
+    walls = (physics["channel_width"], physics["channel_roughness"], physics["viscosity"], run.gravity)
+    found, errors = {}, []
+    for name, upstream_of_outlet in (("upstream", 5 / 6), ("middle", 1 / 2), ("downstream", 1 / 6)):
+        found[f"{name}_m"] = steady_mean(run, name, "connected_m")
+        curve = backwater_curve(tailwater, upstream_of_outlet * length, discharge, slope,
+                                lambda speed: side_wall_slope(speed, *walls), run.gravity)
+        errors.append((found[f"{name}_m"] - curve) / run.spacing)
+    return {"level_error_dx": max(map(abs, errors)), "discharge_error": steady_discharge(run, "discharge") / discharge - 1,
+            **found, "upstream_drift_m": drift(run, "upstream", "connected_m")}
+
+
 def circulation(run):
     """channel's numbers; lost_particles: of start and sump, neither inside nor in the sump at the end. discharge_drift,
     level_drift_dx: of the last quarter from the one before."""
@@ -254,5 +291,5 @@ def solitary_wave(run):
 
 
 FLOWS = {"weir": weir, "broad-weir": broad_weir, "ogee": ogee, "sluice-gate": sluice_gate, "hydraulic-jump": hydraulic_jump,
-         "channel": channel, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
+         "channel": channel, "backwater": backwater, "circulation": circulation, "run-up": run_up, "solitary-wave": solitary_wave, "wave-flume": wave_flume,
          "irregular-waves": irregular_waves, "floating-box": floating_box}

@@ -142,7 +142,7 @@ def soares_frazao(plan):
 def box_run(plan, count, end):
     """The box with `count` particles over the water's depth, until `end` (s)."""
     return plan.run(f"kleefsman2005_H-{count}_{end:g}s", "kleefsman2005/case.toml",
-                    (f"particles.spacing=H/{count}", f"time.end={end}"), 110 * end * (count / 11) ** 4,
+                    (f"particles.spacing=H/{count}", f"time.end={end}"), 22 * end * (count / 11) ** 4,
                     plan.integrators[0])
 
 
