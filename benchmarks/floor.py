@@ -47,24 +47,24 @@ def vector(d):
 # vectors, which depend on sums over neighbours, are kept, in single precision. A pass is joined to the one before it
 # unless it needs a result of that one at the neighbours.
 PASSES = (
-    Pass("search", lambda d: INDEX + 2 * DOUBLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + 13),
-    Pass("kernel sums", lambda d: INDEX + 2 * DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3),
-    Pass("interior", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 4),
+    Pass("search", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + 13),
+    Pass("kernel sums", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3),
+    Pass("interior", lambda d: INDEX, lambda d: INDEX, lambda d: 4),
     Pass("moment correction", lambda d: INDEX, lambda d: INDEX, lambda d: 2 * d**2 + 2 * d + 5),
     Pass("closing: pose", lambda d: INDEX + DOUBLE, lambda d: INDEX,
          lambda d: 3 * d**2 + 2 * d + 3),
     Pass("closing: two sweeps", lambda d: 2 * (INDEX + DOUBLE), lambda d: 2 * INDEX, lambda d: 2 * (2 * d + 1)),
-    Pass("closing: close", lambda d: INDEX + vector(d) + DOUBLE, lambda d: INDEX + SINGLE * d,
+    Pass("closing: close", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d,
          lambda d: 5 * d),
     Pass("velocity gradient", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
-    Pass("viscosity and noise", lambda d: INDEX + vector(d) + DOUBLE, lambda d: INDEX + SINGLE * d,
+    Pass("viscosity and noise", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d,
          lambda d: 5 * d**2 + 18 * d + 11),
     Pass("pattern", lambda d: 2 * INDEX, lambda d: 2 * INDEX, lambda d: 0),
-    Pass("weights; divergence, source", lambda d: 2 * INDEX + 2 * DOUBLE + vector(d),
+    Pass("weights; divergence, source", lambda d: 2 * (INDEX + DOUBLE) + DOUBLE,
          lambda d: INDEX + DOUBLE + SINGLE * d, lambda d: 5 * d + 4),
-    Pass("gradient", lambda d: INDEX + vector(d), lambda d: INDEX + SINGLE * d, lambda d: 2 * d + 2),
-    Pass("divergence, reported", lambda d: (INDEX + vector(d)) / 8, lambda d: 0, lambda d: (3 * d + 1) / 8, 2),
-    Pass("shift", lambda d: 2 * INDEX + 3 * DOUBLE, lambda d: INDEX, lambda d: 2 * d + 12),
+    Pass("gradient", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d, lambda d: 2 * d + 2),
+    Pass("divergence, reported", lambda d: (INDEX + DOUBLE) / 8, lambda d: 0, lambda d: (3 * d + 1) / 8, 2),
+    Pass("shift", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d + 12),
 )
 AT_BEST_NEVER = {"divergence, reported"}
 

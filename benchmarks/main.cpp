@@ -32,8 +32,8 @@ template <int Dim>
 void add_memory(const Stage<Dim>& stage, double bytes_before) {
   const Pairs<Dim>& pairs = stage.flow.pairs();
   add_context("bytes.all", bytes_on_heap() - bytes_before);
-  add_context("bytes.pairs", bytes_of(pairs.j) + bytes_of(pairs.W) + bytes_of(pairs.F));
-  add_context("bytes.pair_vectors", bytes_of(stage.flow.here.pair_vectors));
+  add_context("bytes.pairs", bytes_of(pairs.j) + bytes_of(pairs.F));
+  add_context("bytes.pair_vectors", bytes_of(stage.flow.here.pair_vectors.ends));
   const auto entries = static_cast<double>(stage.flow.pressure_rows.entries());
   add_context("bytes.matrix", entries * (sizeof(std::int32_t) + sizeof(double)));
 }

@@ -27,7 +27,7 @@ void add_operators(Stage<Dim>& stage) {
       }
     });
   });
-  const auto vectors = std::make_shared<std::vector<Vec<Dim>>>();
+  const auto vectors = std::make_shared<PairVectorField<Dim>>();
   const auto faces = std::make_shared<std::vector<Vec<Dim>>>(flow.here.open_faces);
   add_benchmark("operators/pair_vectors", [&flow, vectors, faces] {
     const Particles<Dim>& particles = flow.state.particles;

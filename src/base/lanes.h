@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -56,8 +57,25 @@ struct MatLanes {
 
 inline Lanes in_all_lanes(double value) { return Lanes{} + value; }
 
+#if defined(__AVX__)
+inline constexpr Lanes lane_numbers{0.0, 1.0, 2.0, 3.0};
+#else
+inline constexpr Lanes lane_numbers{0.0, 1.0};
+#endif
+
 inline Lanes min_of(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes max_of(Lanes a, Lanes b) { return a > b ? a : b; }
+inline double max_of(double a, double b) { return a > b ? a : b; }
+
+inline Lanes sqrt_of(Lanes lanes) {
+#if defined(__AVX__)
+  return _mm256_sqrt_pd(lanes);
+#else
+  for (int n = 0; n < lane_count; ++n) lanes[n] = std::sqrt(lanes[n]);
+  return lanes;
+#endif
+}
+inline double sqrt_of(double number) { return std::sqrt(number); }
 
 using LaneTruths = decltype(Lanes{} < Lanes{});
 
@@ -115,6 +133,23 @@ class LaneIndices {
   }
 
   Lanes operator()(const double* array) const { return read<1>(array); }
+
+  /// Where holds(index) is true.
+  template <class Condition>
+  LaneTruths where(Condition&& holds) const {
+    LaneTruths truths;
+    for (int n = 0; n < lane_count; ++n) truths[n] = holds(index_[n]) ? -1 : 0;
+    return truths;
+  }
+
+  /// The numbers of entries that have `Size` of them one behind the other, a multiple of four.
+  template <int Size>
+  [[gnu::always_inline]] std::array<Lanes, Size> record(const double* numbers) const {
+    static_assert(Size % 4 == 0);
+    std::array<Lanes, Size> lanes;
+    for (int n = 0; n < Size; n += 4) read_four<Size>(numbers + n, &lanes[n]);
+    return lanes;
+  }
 
   template <int Dim>
   VecLanes<Dim> operator()(const Vec<Dim>* array) const {
@@ -184,6 +219,25 @@ class LaneIndices {
 #endif
   }
 
+  /// The same of four numbers.
+  template <int Stride>
+  void read_four(const double* from, Lanes* lanes) const {
+#if defined(__AVX__)
+    Lanes four[lane_count];
+    for (int n = 0; n < lane_count; ++n) std::memcpy(&four[n], from + Stride * index_[n], sizeof(Lanes));
+    const Lanes low_even = __builtin_shufflevector(four[0], four[1], 0, 4, 2, 6);
+    const Lanes low_odd = __builtin_shufflevector(four[0], four[1], 1, 5, 3, 7);
+    const Lanes high_even = __builtin_shufflevector(four[2], four[3], 0, 4, 2, 6);
+    const Lanes high_odd = __builtin_shufflevector(four[2], four[3], 1, 5, 3, 7);
+    lanes[0] = __builtin_shufflevector(low_even, high_even, 0, 1, 4, 5);
+    lanes[1] = __builtin_shufflevector(low_odd, high_odd, 0, 1, 4, 5);
+    lanes[2] = __builtin_shufflevector(low_even, high_even, 2, 3, 6, 7);
+    lanes[3] = __builtin_shufflevector(low_odd, high_odd, 2, 3, 6, 7);
+#else
+    for (int n = 0; n < 4; ++n) lanes[n] = read<Stride>(from + n);
+#endif
+  }
+
   std::array<std::ptrdiff_t, lane_count> index_;
 };
 
@@ -211,14 +265,16 @@ struct LaneRange {
   }
   /// `lanes` with 0 in those left over.
   Lanes only(Lanes lanes) const {
-    if constexpr (!is_full) {
-      for (int n = count; n < lane_count; ++n) lanes[n] = 0.0;
-    }
+    if constexpr (!is_full) lanes = lane_numbers < in_all_lanes(count) ? lanes : Lanes{};
     return lanes;
   }
   /// Writes to `place` and behind it.
   void store(Lanes lanes, double* place) const {
-    std::memcpy(place, &lanes, (is_full ? lane_count : count) * sizeof(double));
+    if constexpr (is_full) {
+      std::memcpy(place, &lanes, sizeof(lanes));
+    } else {
+      for (int n = 0; n < count; ++n) place[n] = lanes[n];
+    }
   }
   template <int Dim>
   void store(const VecLanes<Dim>& lanes, Vec<Dim>* array) const {

@@ -14,19 +14,32 @@ namespace {
 constexpr double least_steepness = 1e-3;
 
 template <int Dim>
-Vec<Dim> lind_direction(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                        std::size_t i) {
+struct LindShift {
+  Vec<Dim> direction;
+  double mean_interior;  ///< over fluid neighbours
+};
+
+template <int Dim>
+LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                          std::span<const double> interior, std::size_t i) {
   const double inverse_W = 1.0 / law.W_spacing;
   VecLanes<Dim> sum{};
+  Lanes interiors{};
+  Lanes weights{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes volume = range.only(j(particles.volume.data()));
-    const Lanes ratio = range.load(pairs.W.data()) * inverse_W;
-    const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
     const VecLanes<Dim> d = differences(pairs, range, j, i);
+    const Lanes W = W_at(pairs, d);
+    const Lanes ratio = W * inverse_W;
+    const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
     for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
+    const Lanes W_of_fluid = of_fluid(particles, j, range.only(W));
+    interiors += W_of_fluid * j(interior.data());
+    weights += W_of_fluid;
   });
-  return law.spacing * sum_of(sum);
+  const double weight = sum_of(weights);
+  return {law.spacing * sum_of(sum), weight > 0.0 ? sum_of(interiors) / weight : 0.0};
 }
 
 template <int Dim>
@@ -42,13 +55,11 @@ Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   return direction;
 }
 
-/// Share of a shift's part along the surface's normal that particle i keeps: 0 in the three outermost rows, whose
+/// Share of a shift's part along the surface's normal that a particle keeps: 0 in the three outermost rows, whose
 /// support the surface cuts, 1 where all neighbours are inside. A flat surface reads a mean of `interior` over the
 /// neighbours of 0.26, 0.75, 0.98, 1 from the second row on.
-template <int Dim>
-double normal_share(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> interior,
-                    std::size_t i) {
-  return interior[i] * std::clamp(4.0 * mean_over_fluid(pairs, particles, i, interior, 0.0) - 3.0, 0.0, 1.0);
+double normal_share(double interior, double mean_interior) {
+  return interior * std::clamp(4.0 * mean_interior - 3.0, 0.0, 1.0);
 }
 
 }  // namespace
@@ -60,12 +71,14 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i)) return false;
+    double kept = interior[i];
     if (law.kind == ShiftingKind::lind) {
-      shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind_direction(law, pairs, particles, i);
+      const LindShift<Dim> lind = lind_shift(law, pairs, particles, interior, i);
+      shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind.direction;
+      kept = normal_share(interior[i], lind.mean_interior);
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
-    const double kept = law.kind == ShiftingKind::lind ? normal_share(pairs, particles, interior, i) : interior[i];
     if (kept < 1.0) {
       const double steepness = concentration_gradient[i].norm();
       if (steepness * law.spacing > least_steepness) {

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "operators/pair_vectors.h"
 #include "operators/renormalisation.h"
 
 namespace tailwater {
 
-/// One entry per particle, ghosts included, but for `pair_vectors`. Entries of ghosts are up to date only where the
-/// comment says "ghosts too".
+/// One entry per particle, ghosts included. Those of ghosts are up to date only where the comment says "ghosts too".
 template <int Dim>
 struct Surroundings {
   std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
@@ -22,8 +22,8 @@ struct Surroundings {
   std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;          ///< ghosts too
   std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
-  std::vector<Vec<Dim>> pair_vectors;            ///< 1/m^(Dim+1); one entry per pair (pair_vectors.h)
-  std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles: sum_j w_j a_ij
+  PairVectorField<Dim> pair_vectors;             ///< what they are made of (pair_vectors.h); ghosts too
+  std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
 
   void resize(std::size_t count, bool with_tensors) {
     concentration.resize(count);

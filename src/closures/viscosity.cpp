@@ -31,23 +31,23 @@ struct PairLanes {
   VecLanes<Dim> difference;  ///< m/s; u_j - u_i
   MatLanes<Dim> gradients;   ///< 1/s; sum of both velocity gradients
   VecLanes<Dim> d;           ///< m; r_i - r_j
+  Lanes F;                   ///< of the kernel
   Lanes squared;             ///< m^2; d.d
   Lanes share_of_volume;     ///< m^Dim; of w_j in the weights of the Morris Laplacian
-  Lanes F;                   ///< of the kernel
   Lanes layer_viscosity;     ///< m^2/s; of j if i belongs to a boundary layer, else 0
 
   template <class Range>
-  PairLanes(const Pairs<Dim>& pairs, const Range& range, const Particles<Dim>& particles,
-            std::span<const double> volume_of_fluid, double spacing, std::size_t i, std::span<const Vec<Dim>> velocity,
-            std::span<const Mat<Dim>> gradient)
-      : j(range.neighbours(pairs.j.data())),
+  PairLanes(const Range& range, const LaneIndices& neighbours, const VecLanes<Dim>& d_of_pairs, Lanes F_of_pairs,
+            const Particles<Dim>& particles, std::span<const double> volume_of_fluid, double spacing, std::size_t i,
+            std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient)
+      : j(neighbours),
         volume(range.only(j(volume_of_fluid.data()))),
         difference(j(velocity.data())),
         gradients(j(gradient.data())),
-        d(differences(pairs, range, j, i)),
+        d(d_of_pairs),
+        F(F_of_pairs),
         squared(d.dot(d)),
         share_of_volume(volume * share_of_morris_weight(squared, spacing)),
-        F(range.load(pairs.F.data())),
         layer_viscosity(particles.layer_viscosity[i] > 0.0 ? j(particles.layer_viscosity.data()) : Lanes{}) {
     for (int a = 0; a < Dim; ++a) {
       difference.at[a] -= velocity[i][a];
@@ -57,7 +57,7 @@ struct PairLanes {
 
   /// Adds `viscosity` times the acceleration by the noise in the difference of velocity. The shear of a boundary layer,
   /// to which both particles belong, is left alone.
-  void add_noise_force(double viscosity, VecLanes<Dim>& sum) const {
+  [[gnu::always_inline]] void add_noise_force(double viscosity, VecLanes<Dim>& sum) const {
     constexpr double least = std::numeric_limits<double>::min();  // prevents 0/0
     VecLanes<Dim> explained = gradients.times(d);
     VecLanes<Dim> noise;
@@ -93,7 +93,7 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                             std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
+                             const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
   const std::vector<double> volume = volumes_of_fluid(particles);
@@ -101,8 +101,9 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
     if (!particles.is_fluid(i)) return;
     VecLanes<Dim> sum{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const PairLanes<Dim> pair(pairs, range, particles, volume, spacing, i, velocity, gradient);
-      const VecLanes<Dim> a = range.entries()(pair_vectors.data());
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const auto [d_ij, kernel_F, a] = pair_vectors(pairs, range, j, i);
+      const PairLanes<Dim> pair(range, j, d_ij, kernel_F, particles, volume, spacing, i, velocity, gradient);
       // Only of pairs that nearly coincide may the corrections turn the sign.
       const Lanes F = max_of(Lanes{}, -a.dot(pair.d)) / pair.squared;
       const Lanes laplacian = 2.0 * pair.share_of_volume * F;
@@ -148,7 +149,10 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
     if (!particles.is_fluid(i)) return;
     VecLanes<Dim> sum{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      PairLanes<Dim>(pairs, range, particles, volume, spacing, i, velocity, gradient).add_noise_force(viscosity, sum);
+      const LaneIndices j = range.neighbours(pairs.j.data());
+      const VecLanes<Dim> d = differences(pairs, range, j, i);
+      PairLanes<Dim>(range, j, d, range.load(pairs.F.data()), particles, volume, spacing, i, velocity, gradient)
+          .add_noise_force(viscosity, sum);
     });
     acceleration[i] += sum_of(sum);
   });
@@ -170,7 +174,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!takes_part[j]) continue;
-      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.W[k], spacing) *
+      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.W(i, k), spacing) *
              (velocity[j] - velocity[i]);
     }
     acceleration[i] += viscosity[i] * sum;
@@ -180,7 +184,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
 #define TAILWATER_INSTANTIATE(Dim)                                                                                    \
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
   template void add_newtonian_viscosity<Dim>(                                                                         \
-      const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const Vec<Dim>>, std::span<const double>, double,   \
+      const Pairs<Dim>&, const Particles<Dim>&, double, const PairVectorField<Dim>&, std::span<const double>, double, \
       std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);                                     \
   template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
                                            std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-#include "neighbours/pairs.h"
+#include "operators/pair_vectors.h"
 #include "operators/renormalisation.h"
 #include "particles/particles.h"
 
@@ -47,7 +47,7 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// adds what add_noise_viscosity does, in the same pass.
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                             std::span<const Vec<Dim>> pair_vectors, std::span<const double> viscosity,
+                             const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration);
 

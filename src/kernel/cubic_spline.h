@@ -3,9 +3,9 @@
 // the larger of x and 0.
 #pragma once
 
-#include <algorithm>
 #include <numbers>
 
+#include "base/lanes.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -16,18 +16,25 @@ struct CubicSpline {
       : radius(support_radius),
         scale((Dim == 2 ? 10.0 / 7.0 : 1.0) / (std::numbers::pi * power<Dim>(0.5 * support_radius))) {}
 
-  double value(double r) const {
-    const double s = 2.0 * r / radius;
-    const double a = std::max(0.0, 2.0 - s);
-    const double b = std::max(0.0, 1.0 - s);
+  template <class Number>
+  Number value(Number r) const {
+    const Number s = 2.0 * r / radius;
+    const Number a = max_of(Number{}, 2.0 - s);
+    const Number b = max_of(Number{}, 1.0 - s);
     return 0.25 * scale * (a * a * a - 4.0 * b * b * b);
   }
 
-  double derivative(double r) const {
-    const double s = 2.0 * r / radius;
-    const double a = std::max(0.0, 2.0 - s);
-    const double b = std::max(0.0, 1.0 - s);
+  template <class Number>
+  Number derivative(Number r) const {
+    const Number s = 2.0 * r / radius;
+    const Number a = max_of(Number{}, 2.0 - s);
+    const Number b = max_of(Number{}, 1.0 - s);
     return -1.5 * scale / radius * (a * a - 4.0 * b * b);
+  }
+
+  template <class Number>
+  Number F(Number r) const {
+    return -derivative(r) / r;
   }
 
   double radius;

@@ -2,9 +2,9 @@
 // 2D; in 3D the integral 4 pi R^3 (1/3 - 1/2 + 1/5) = 2 pi R^3/15 gives s = 15/(2 pi R^3).
 #pragma once
 
-#include <algorithm>
 #include <numbers>
 
+#include "base/lanes.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -14,12 +14,21 @@ struct FarzinKernel {
   explicit FarzinKernel(double support_radius)
       : radius(support_radius), scale((Dim == 2 ? 6.0 : 7.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
 
-  double value(double r) const {
-    const double a = std::max(0.0, 1.0 - r / radius);
+  template <class Number>
+  Number value(Number r) const {
+    const Number a = max_of(Number{}, 1.0 - r / radius);
     return scale * a * a;
   }
 
-  double derivative(double r) const { return -2.0 * scale / radius * std::max(0.0, 1.0 - r / radius); }
+  template <class Number>
+  Number derivative(Number r) const {
+    return -2.0 * scale / radius * max_of(Number{}, 1.0 - r / radius);
+  }
+
+  template <class Number>
+  Number F(Number r) const {
+    return -derivative(r) / r;
+  }
 
   double radius;
   double scale;

@@ -10,8 +10,8 @@
 
 namespace tailwater {
 
-/// One of the kernels, chosen by name. Visit it once per loop: `std::visit([&](const auto& kernel) {...}, chosen)`;
-/// every alternative has `radius` [m], `value(r)` [1/m^Dim] and `derivative(r)` = dW/dr [1/m^(Dim+1)].
+/// One of the kernels, chosen by name. Every alternative has `radius` [m], `value(r)` [1/m^Dim], `derivative(r)` =
+/// dW/dr [1/m^(Dim+1)] and `F(r)` = -(dW/dr)/r [1/m^(Dim+2)].
 template <int Dim>
 using Kernel = std::variant<WendlandC2<Dim>, CubicSpline<Dim>, FarzinKernel<Dim>>;
 
@@ -33,9 +33,25 @@ double kernel_radius(const Kernel<Dim>& kernel) {
   return std::visit([](const auto& chosen) { return chosen.radius; }, kernel);
 }
 
-template <int Dim>
-double kernel_value(const Kernel<Dim>& kernel, double r) {
-  return std::visit([r](const auto& chosen) { return chosen.value(r); }, kernel);
+/// Calls body with the kernel that was chosen. The default one is asked for first, and in the caller's loop.
+template <int Dim, class Body>
+inline auto with_kernel(const Kernel<Dim>& kernel, Body&& body) {
+  if (const auto* wendland = std::get_if<WendlandC2<Dim>>(&kernel)) [[likely]] {
+    return body(*wendland);
+  }
+  return std::visit(body, kernel);
+}
+
+/// At one distance, or at several in lanes.
+template <int Dim, class Number>
+inline Number kernel_value(const Kernel<Dim>& kernel, Number r) {
+  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.value(r); });
+}
+
+/// -(dW/dr)/r, never negative; r is not 0.
+template <int Dim, class Number>
+inline Number kernel_F(const Kernel<Dim>& kernel, Number r) {
+  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.F(r); });
 }
 
 template <int Dim>

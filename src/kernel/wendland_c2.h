@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/lanes.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -16,10 +17,17 @@ struct WendlandC2 {
         inverse_radius(1.0 / support_radius),
         scale((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
 
-  double value(double r) const {
-    const double q = r * inverse_radius;
-    const double a = std::max(0.0, radius - r) * inverse_radius;  // 1 - q, and 0 exactly at the rim
+  template <class Number>
+  Number value(Number r) const {
+    const Number q = r * inverse_radius;
+    const Number a = max_of(Number{}, radius - r) * inverse_radius;  // 1 - q, and 0 exactly at the rim
     return scale * a * a * a * a * (1.0 + 4.0 * q);
+  }
+
+  template <class Number>
+  Number F(Number r) const {
+    const Number a = max_of(Number{}, radius - r) * inverse_radius;
+    return (20.0 * scale * inverse_radius * inverse_radius) * a * a * a;
   }
 
   double derivative(double r) const {

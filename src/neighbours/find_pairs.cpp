@@ -134,13 +134,12 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   std::vector<std::int32_t> behind(near.size());
   std::vector<std::int32_t> ghosts(near.size());
   std::vector<std::int32_t> row(near.size());
-  std::vector<double> squared;
-  std::vector<double> row_W;
-  std::vector<double> row_F;
+  std::vector<double> row_F(near.size());
 
   pairs.position = particles.position;
   pairs.id = particles.id;
   pairs.least_distance = least_distance;
+  pairs.kernel = kernel;
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
   const std::size_t before = pairs.j.size();
@@ -148,7 +147,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
     // A little more room than the last pairs had: it is not touched beyond the new ones, and costs no memory.
     ((arrays.clear(), arrays.capacity() < before + before / 32 ? arrays.reserve(before + before / 8) : void()), ...);
   };
-  empty(pairs.j, pairs.W, pairs.F);
+  empty(pairs.j, pairs.F);
 
   std::visit(
       [&](const auto chosen) {
@@ -159,23 +158,14 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
                                              : find_row(fluid.grid, ordered_fluid, r_i, radius, near.data());
           const std::size_t n =
               put_in_order({near.data(), found}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
-          if (squared.size() < n) {
-            for (std::vector<double>* values : {&squared, &row_W, &row_F}) values->resize(n);
-          }
           for_each_lanes(0, n, [&](auto range) {
             VecLanes<Dim> d = range.neighbours(row.data())(position);
             for (int a = 0; a < Dim; ++a) d.at[a] = r_i[a] - d.at[a];
             const Lanes square = max_of(d.dot(d), in_all_lanes(least_squared));
-            range.store(square, squared.data() + range.begin);
-          });
-          for_each(n, [&, W = row_W.data(), F = row_F.data(), s = squared.data()](std::size_t k) {
-            const double r = std::sqrt(s[k]);
-            W[k] = chosen.value(r);
-            F[k] = -chosen.derivative(r) / r;
+            range.store(chosen.F(sqrt_of(square)), row_F.data() + range.begin);
           });
           const auto count = static_cast<std::ptrdiff_t>(n);
           pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + count);
-          pairs.W.insert(pairs.W.end(), row_W.begin(), row_W.begin() + count);
           pairs.F.insert(pairs.F.end(), row_F.begin(), row_F.begin() + count);
           pairs.row_begin[i + 1] = pairs.j.size();
         }

@@ -1,6 +1,5 @@
-// The interacting pairs: compact neighbour rows, and for each pair the values every operator needs. Operators see the
-// kernel only through these values. What follows from the positions is not kept by pair: neighbours' positions are in
-// the cache, and an array with an entry per pair is not.
+// The interacting pairs: compact neighbour rows, and for each pair the kernel's slope, which nearly every loop needs.
+// Nothing else is kept by pair: neighbours' positions are in the cache, and an array with an entry per pair is not.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +17,11 @@ template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
   std::vector<std::int32_t> j;         ///< neighbour: in each row those below i, those above it, then ghosts
-  std::vector<double> W;               ///< 1/m^Dim; kernel
   std::vector<double> F;               ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
   std::vector<Vec<Dim>> position;      ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;        ///< of all particles
   double least_distance = 0.0;         ///< m; two particles nearer than this count as this far apart
+  Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
 
   /// r_ij = r_i - r_j [m] of entry k of row i, from j to i, never 0. Two particles at one place get an arbitrary
   /// direction, opposite for the two (by their ids), so that they can separate.
@@ -31,10 +30,11 @@ struct Pairs {
     if (r_ij.squaredNorm() > least_distance * least_distance) return r_ij;
     return (id[j[k]] > id[i] ? least_distance : -least_distance) * Vec<Dim>::UnitX();
   }
-  double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }            ///< m; |r_ij|
-  Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }    ///< unit vector along r_ij
-  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }       ///< 1/m^(Dim+1); dW/dr
-  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
+  double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }                 ///< m; |r_ij|
+  Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }         ///< unit vector along r_ij
+  double W(std::size_t i, std::size_t k) const { return kernel_value(kernel, r(i, k)); }  ///< 1/m^Dim
+  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }            ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }       ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }
@@ -51,7 +51,6 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
     for (std::size_t k = begin; k < end; ++k) {
       if (!keep(i, k)) continue;
       pairs.j[n] = pairs.j[k];
-      pairs.W[n] = pairs.W[k];
       pairs.F[n] = pairs.F[k];
       ++n;
     }
@@ -59,7 +58,6 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
     pairs.row_begin[i + 1] = n;
   }
   pairs.j.resize(n);
-  pairs.W.resize(n);
   pairs.F.resize(n);
 }
 

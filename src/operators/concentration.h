@@ -28,11 +28,11 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<co
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes volume_j = range.only(j(volume.data()));
-    const Lanes F = range.load(pairs.F.data());
     const VecLanes<Dim> d = differences(pairs, range, j, i);
-    concentration += volume_j * range.load(pairs.W.data());
+    concentration += volume_j * W_at(pairs, d);
+    const Lanes volume_F = volume_j * range.load(pairs.F.data());
     for (int b = 0; b < Dim; ++b) {
-      const Lanes weight = volume_j * F * d.at[b];
+      const Lanes weight = volume_F * d.at[b];
       gradient.at[b] -= weight;
       for (int a = b; a < Dim; ++a) moment.column[b].at[a] += weight * d.at[a];
     }

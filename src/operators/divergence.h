@@ -8,20 +8,19 @@
 
 #include <span>
 
-#include "base/lanes.h"
-#include "neighbours/pairs.h"
+#include "operators/pair_vectors.h"
 
 namespace tailwater {
 
 template <int Dim>
 double standard_divergence(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
-                           std::span<const Vec<Dim>> pair_vectors, std::span<const Vec<Dim>> velocity) {
+                           const PairVectorField<Dim>& pair_vectors, std::span<const Vec<Dim>> velocity) {
   Lanes sum{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     VecLanes<Dim> difference = j(velocity.data());
     for (int d = 0; d < Dim; ++d) difference.at[d] -= velocity[i][d];
-    sum += range.only(j(volume.data())) * difference.dot(range.entries()(pair_vectors.data()));
+    sum += range.only(j(volume.data())) * difference.dot(pair_vectors(pairs, range, j, i).a);
   });
   return sum_of(sum);
 }

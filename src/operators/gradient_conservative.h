@@ -8,20 +8,19 @@
 
 #include <span>
 
-#include "base/lanes.h"
-#include "neighbours/pairs.h"
+#include "operators/pair_vectors.h"
 
 namespace tailwater {
 
 /// Gradient of a scalar at particle i.
 template <int Dim>
 Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
-                               std::span<const Vec<Dim>> pair_vectors, std::span<const double> field) {
+                               const PairVectorField<Dim>& pair_vectors, std::span<const double> field) {
   VecLanes<Dim> sum{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes weight = range.only(j(volume.data())) * (field[i] + j(field.data()));
-    const VecLanes<Dim> a = range.entries()(pair_vectors.data());
+    const VecLanes<Dim> a = pair_vectors(pairs, range, j, i).a;
     for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
   });
   return sum_of(sum);

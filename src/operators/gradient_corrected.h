@@ -27,8 +27,8 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   MatLanes<Dim> sums{};
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
     const VecLanes<Dim> d = differences(pairs, range, j, i);
+    const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
     const VecLanes<Dim> field_j = j(field.data());
     for (int b = 0; b < Dim; ++b) {
       for (int a = 0; a < Dim; ++a) sums.column[b].at[a] -= weight * d.at[b] * (field_j.at[a] - field[i][a]);

@@ -29,13 +29,17 @@
 //
 // The corrections are continuous in the positions and need no surface detection. Where they come from, what is exact
 // and what each is worth: docs/theory/operators.md.
+//
+// Only B and l are kept, of each particle. A pair vector is computed from those of its two ends wherever it is needed:
+// an array with an entry per pair would be the largest of all.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "neighbours/halo.h"
-#include "neighbours/pairs.h"
+#include "neighbours/pair_lanes.h"
+#include "operators/symmetric.h"
 #include "particles/particles.h"
 
 namespace tailwater {
@@ -56,15 +60,75 @@ struct CorrectionInput {
   std::span<const Mat<Dim>> first_moment;  ///< M; I at walls
 };
 
-/// The kernel's gradient at i, dW e_ij, of every pair.
+/// What a particle brings to its pair vectors, as many numbers as fill whole registers.
 template <int Dim>
-void find_kernel_gradients(const Pairs<Dim>& pairs, std::vector<Vec<Dim>>& pair_vectors);
+struct alignas(32) PairVectorEnd {
+  Vec<Dim> position;       ///< m; a copy, so that a neighbour is read in one place
+  Vec<Dim> l;              ///< m
+  Packed<Dim> correction;  ///< B
 
-/// The corrected vector of every pair, and of each owned particle what they leave open of its faces, sum_j w_j a_ij
-/// [1/m], after so many sweeps. Collective.
+  static constexpr int numbers = Dim == 2 ? 8 : 12;  ///< the last one of 2D is left over
+};
+
+/// What is known of several pairs of a particle.
+template <int Dim>
+struct PairVectorLanes {
+  VecLanes<Dim> d;  ///< m; r_i - r_j
+  Lanes F;          ///< 1/m^(Dim+2); of the kernel
+  VecLanes<Dim> a;  ///< 1/m^(Dim+1); the pair vectors
+};
+
+template <int Dim>
+struct PairVectorField {
+  std::vector<PairVectorEnd<Dim>> ends;  ///< of all particles, ghosts included
+
+  /// Of pairs of particle i and neighbours `j`.
+  template <class Range>
+  [[gnu::always_inline]] PairVectorLanes<Dim> operator()(const Pairs<Dim>& pairs, const Range& range,
+                                                         const LaneIndices& j, std::size_t i) const {
+    const auto other = j.template record<End::numbers>(reinterpret_cast<const double*>(ends.data()));
+    const End& own = ends[i];
+    PairVectorLanes<Dim> pair;
+    VecLanes<Dim> x;
+    for (int a = 0; a < Dim; ++a) x.at[a] = other[a];
+    pair.d = differences_from<Dim>(pairs, range, x, i);
+    pair.F = range.load(pairs.F.data());
+    MatLanes<Dim> corrections;
+    int n = 0;
+    for (int c = 0; c < Dim; ++c) {
+      for (int d = c; d < Dim; ++d) {
+        corrections.column[c].at[d] = corrections.column[d].at[c] = own.correction[n] + other[2 * Dim + n];
+        ++n;
+      }
+    }
+    const VecLanes<Dim> corrected = corrections.times(pair.d);
+    for (int a = 0; a < Dim; ++a) {
+      pair.a.at[a] = -pair.F * (0.5 * corrected.at[a] - (own.l[a] - other[Dim + a]));
+    }
+    return pair;
+  }
+
+  /// a_ij of pair k of particle i.
+  Vec<Dim> at(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) const {
+    const LaneRange<false> range{k, 1};
+    const VecLanes<Dim> a = (*this)(pairs, range, range.neighbours(pairs.j.data()), i).a;
+    return Vec<Dim>::NullaryExpr([&a](Eigen::Index n) { return a.at[n][0]; });
+  }
+
+ private:
+  using End = PairVectorEnd<Dim>;
+  static_assert(sizeof(End) == End::numbers * sizeof(double));
+};
+
+/// The kernel's gradient at i, dW e_ij, for every pair.
+template <int Dim>
+void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_vectors);
+
+/// The corrected vectors, and of each owned particle what they leave open of its faces, sum_j w_j a_ij [1/m], after so
+/// many sweeps; with the reach `inside` only where `interior` is not 0, elsewhere 0. Collective.
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
-                                 CorrectionReach reach, int sweeps, std::vector<Vec<Dim>>& pair_vectors,
+                                 CorrectionReach reach, int sweeps, PairVectorField<Dim>& pair_vectors,
                                  std::vector<Vec<Dim>>& open_faces);
 
 }  // namespace tailwater

@@ -55,6 +55,17 @@ Mat<Dim> unpacked(const Packed<Dim>& packed) {
   return full;
 }
 
+/// A symmetric matrix, of which the triangle on and below the diagonal is read.
+template <int Dim>
+Packed<Dim> packed(const Mat<Dim>& full) {
+  Packed<Dim> packed;
+  int n = 0;
+  for (int c = 0; c < Dim; ++c) {
+    for (int d = c; d < Dim; ++d) packed[n++] = full(d, c);
+  }
+  return packed;
+}
+
 /// Least eigenvalue of a symmetric matrix.
 template <int Dim>
 double least_eigenvalue(const Mat<Dim>& matrix) {

@@ -39,10 +39,15 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
     });
   }
   const bool has_pair_vectors = flow.setup.uses_pair_vectors();
-  return sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    const Vec<Dim> a = has_pair_vectors ? flow.here.pair_vectors[k] : pairs.gradient(i, k);
-    return Vec<Dim>((volume[j] * (pressure[i] + pressure[j])) * a);
+  VecLanes<Dim> sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes weight = of_fluid(particles, j, range.only(j(volume.data()))) * (pressure[i] + j(pressure.data()));
+    const VecLanes<Dim> a =
+        has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, j, i);
+    for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
   });
+  return sum_of(sum);
 }
 
 template <int Dim>

@@ -12,12 +12,14 @@ namespace {
 template <int Dim>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i) {
   const Pairs<Dim>& pairs = scene.pairs;
-  double sum = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (!scene.particles.is_fluid(pairs.j[k])) continue;
-    sum += pairs.W[k] / scene.here.wall_fluid_weight[i] * force.hydrostatic_difference(pairs, scene.particles, i, k);
-  }
-  return sum;
+  VecLanes<Dim> sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const VecLanes<Dim> d = differences(pairs, range, j, i);
+    const Lanes weight = of_fluid(scene.particles, j, range.only(W_at(pairs, d)));
+    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
+  });
+  return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);
 }
 
 template <int Dim>
@@ -27,8 +29,14 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
     row.finish_as_zero();
     return;
   }
-  row.set_weights([&](std::size_t k) {
-    return scene.particles.is_fluid(scene.pairs.j[k]) ? scene.pairs.W[k] / scene.here.wall_fluid_weight[i] : 0.0;
+  const Pairs<Dim>& pairs = scene.pairs;
+  const double share = 1.0 / scene.here.wall_fluid_weight[i];
+  row.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+    for_each_lanes(first, end, [&](auto range) {
+      const Lanes weight = weights_of_fluid(pairs, scene.particles, range, range.neighbours(pairs.j.data()), i);
+      range.store(share * weight, weights + (range.begin - first));
+    });
+    return 0.0;  // their sum is not asked for
   });
   row.finish(1.0, excess_over_water(scene, force, i));
 }
@@ -93,12 +101,13 @@ class Dummies final : public WallModel<Dim> {
     const Pairs<Dim>& pairs = scene.pairs;
     for_each(pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
-      double sum = 0.0;
-      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-        if (!scene.particles.is_fluid(pairs.j[k])) continue;
-        sum += pairs.W[k] * (pressure[pairs.j[k]] + force.hydrostatic_difference(pairs, scene.particles, i, k));
-      }
-      pressure[i] = std::max(0.0, sum / scene.here.wall_fluid_weight[i]);
+      Lanes sum{};
+      for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        sum += weights_of_fluid(pairs, scene.particles, range, j, i) * j(pressure.data());
+      });
+      const double mean = sum_of(sum) / scene.here.wall_fluid_weight[i];
+      pressure[i] = std::max(0.0, mean + excess_over_water(scene, force, i));
     });
     return true;
   }

@@ -69,11 +69,11 @@ struct WallForce {
   /// g - a at a row of the table.
   Vec<Dim> felt(std::int32_t row) const { return gravity - acceleration[row]; }
 
-  /// By how much the pressure at wall particle i exceeds that at its neighbour of pair k: rho (g - a) . r_ij, the
-  /// hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho (g - a) . n (F37).
-  double hydrostatic_difference(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
-                                std::size_t k) const {
-    return density * felt(particles.wall_row[i]).dot(pairs.d(i, k));
+  /// By how much the pressure at wall particle i exceeds that at a place from which the particle is d [m] away:
+  /// rho (g - a) . d, the hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho
+  /// (g - a) . n (F37).
+  double hydrostatic_difference(const Particles<Dim>& particles, std::size_t i, const Vec<Dim>& d) const {
+    return density * felt(particles.wall_row[i]).dot(d);
   }
 };
 

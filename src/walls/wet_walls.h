@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "neighbours/pairs.h"
-#include "particles/particles.h"
+#include "closures/fluid_pairs.h"
 
 namespace tailwater {
 
@@ -18,11 +17,14 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
 template <int Dim>
 Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i,
                                 double fluid_weight, std::span<const Vec<Dim>> velocity) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (particles.is_fluid(pairs.j[k])) sum += pairs.W[k] * velocity[pairs.j[k]];
-  }
-  return sum / fluid_weight;
+  VecLanes<Dim> sum{};
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+    const LaneIndices j = range.neighbours(pairs.j.data());
+    const Lanes weight = weights_of_fluid(pairs, particles, range, j, i);
+    const VecLanes<Dim> u = j(velocity.data());
+    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * u.at[a];
+  });
+  return sum_of(sum) / fluid_weight;
 }
 
 }  // namespace tailwater

@@ -142,7 +142,7 @@ TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   const std::vector<double> viscosity(set.size(), 0.03);
   const std::vector<Mat<Dim>> gradient(set.size(), Mat<Dim>::Constant(2.0));
-  const std::vector<Vec<Dim>> vectors = kernel_gradients<Dim>(set);
+  const PairVectorField<Dim> vectors = kernel_gradients<Dim>(set);
   const std::vector<Vec<Dim>> zero(set.size(), Vec<Dim>::Zero());
   std::vector<Vec<Dim>> together = zero;
   add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, vectors, viscosity, 0.1, velocity, gradient, together);

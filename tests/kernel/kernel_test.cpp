@@ -71,6 +71,33 @@ TYPED_TEST(KernelTest, DerivativeIsThatOfTheValue) {
   }
 }
 
+TYPED_TEST(KernelTest, FIsTheDerivativeOverTheDistance) {
+  constexpr int Dim = TypeParam::value;
+  for (const KernelName name : all_kernels) {
+    for (const double radius : radii) {
+      const Kernel<Dim> kernel = make_kernel<Dim>(name, radius);
+      for (int n = 1; n < 120; ++n) {
+        const double r = 0.01 * n * radius;
+        const double F = kernel_F(kernel, r);
+        EXPECT_NEAR(F, -kernel_derivative(kernel, r) / r, 16.0 * eps * F) << name_of(name) << ", r = " << r;
+      }
+    }
+  }
+}
+
+TYPED_TEST(KernelTest, IsTheSameInLanes) {
+  constexpr int Dim = TypeParam::value;
+  for (const KernelName name : all_kernels) {
+    const Kernel<Dim> kernel = make_kernel<Dim>(name, 1.0);
+    for (double r = 0.003; r < 1.2; r += 0.01) {
+      Lanes distances = in_all_lanes(0.5);
+      distances[1] = r;
+      EXPECT_NEAR(kernel_value(kernel, distances)[1], kernel_value(kernel, r), 16.0 * eps * kernel_value(kernel, 0.0));
+      EXPECT_NEAR(kernel_F(kernel, distances)[1], kernel_F(kernel, r), 64.0 * eps * kernel_F(kernel, 0.003));
+    }
+  }
+}
+
 TYPED_TEST(KernelTest, IsZeroFromTheSupportOn) {
   constexpr int Dim = TypeParam::value;
   for (const KernelName name : all_kernels) {

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <random>
 #include <vector>
 
 namespace tailwater {
 namespace {
 
+constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t count = 23;
 
 /// Particles in a unit box; the row of particle i has its i neighbours of lower index. The last two are at one place.
@@ -28,6 +31,7 @@ struct Rows {
       pairs.id.push_back(static_cast<std::int64_t>(i));
       matrix.push_back(Mat<Dim>::NullaryExpr([&] { return number(random); }));
       volume.push_back(number(random));
+      for (int m = 0; m < 4; ++m) records.push_back(number(random));
     }
     pairs.position[count - 1] = pairs.position[count - 2];
     pairs.least_distance = 1e-6;
@@ -35,6 +39,7 @@ struct Rows {
 
   std::vector<Mat<Dim>> matrix;
   std::vector<double> volume;
+  std::vector<double> records;  // four numbers of each particle
   Pairs<Dim> pairs;
 };
 
@@ -57,15 +62,23 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
       const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const MatLanes<Dim> matrix = j(rows.matrix.data());
       const Lanes volume = j(rows.volume.data());
+      const Lanes W = W_at(pairs, d);
       const Lanes F = range.load(pairs.F.data());
+      const VecLanes<Dim> gradient = gradients(pairs, range, j, i);
+      const std::array<Lanes, 4> record = j.template record<4>(rows.records.data());
+      const Lanes even = j.where([](std::ptrdiff_t of) { return of % 2 == 0; }) ? in_all_lanes(1.0) : Lanes{};
       for (int n = 0; n < range.count; ++n) {
         const std::size_t k = range.begin + n;
         ++visits[k];
         expected[k] = pairs.d(i, k);
+        EXPECT_NEAR(W[n], pairs.W(i, k), 16.0 * eps * kernel_value(pairs.kernel, 0.0));
         EXPECT_EQ(F[n], pairs.F[k]);
+        for (int m = 0; m < 4; ++m) EXPECT_EQ(record[m][n], rows.records[4 * pairs.j[k] + m]);
+        EXPECT_EQ(even[n], pairs.j[k] % 2 == 0 ? 1.0 : 0.0);
         EXPECT_EQ(volume[n], rows.volume[pairs.j[k]]);
         for (int a = 0; a < Dim; ++a) {
           EXPECT_EQ(d.at[a][n], expected[k][a]);
+          EXPECT_EQ(gradient.at[a][n], -F[n] * d.at[a][n]);
           for (int b = 0; b < Dim; ++b) EXPECT_EQ(matrix.column[b].at[a][n], rows.matrix[pairs.j[k]](a, b));
         }
       }

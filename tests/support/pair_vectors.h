@@ -11,18 +11,25 @@
 namespace tailwater {
 
 template <int Dim>
-std::vector<Vec<Dim>> kernel_gradients(const ParticleSet<Dim>& set) {
-  std::vector<Vec<Dim>> vectors;
+PairVectorField<Dim> kernel_gradients(const ParticleSet<Dim>& set) {
+  PairVectorField<Dim> vectors;
   find_kernel_gradients(set.pairs(), vectors);
   return vectors;
 }
 
+template <int Dim>
+struct CorrectedPairVectors {
+  PairVectorField<Dim> vectors;
+  std::vector<Vec<Dim>> open_faces;
+};
+
 /// After so many sweeps, as many as a run makes if none are given. `interior` has an entry per particle, ghosts
 /// included.
 template <int Dim>
-std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const std::vector<double>& interior,
-                                             CorrectionReach reach = CorrectionReach::inside,
-                                             std::optional<int> sweeps = {}) {
+CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim>& set,
+                                                           const std::vector<double>& interior,
+                                                           CorrectionReach reach = CorrectionReach::inside,
+                                                           std::optional<int> sweeps = {}) {
   const Pairs<Dim>& pairs = set.pairs();
   const Halo<Dim>& halo = set.neighbourhood.halo();
   std::vector<Mat<Dim>> moment(set.size());
@@ -30,12 +37,31 @@ std::vector<Vec<Dim>> corrected_pair_vectors(const ParticleSet<Dim>& set, const 
     moment[i] = kernel_sums<Dim>(pairs, i, set.particles.volume, 0.0).first_moment;
   }
   halo.exchange(moment);
-  std::vector<Vec<Dim>> vectors;
-  std::vector<Vec<Dim>> open_faces;
+  CorrectedPairVectors<Dim> found;
   const double radius = kernel_radius(set.neighbourhood.kernel());
   find_corrected_pair_vectors<Dim>(pairs, halo, {radius, set.particles.volume, set.particles.kind, interior, moment},
-                                   reach, sweeps.value_or(closing_sweeps(reach)), vectors, open_faces);
-  return vectors;
+                                   reach, sweeps.value_or(closing_sweeps(reach)), found.vectors, found.open_faces);
+  return found;
+}
+
+/// The vectors alone.
+template <int Dim>
+PairVectorField<Dim> corrected_pair_vectors(const ParticleSet<Dim>& set, const std::vector<double>& interior,
+                                            CorrectionReach reach = CorrectionReach::inside,
+                                            std::optional<int> sweeps = {}) {
+  return corrected_pair_vectors_and_faces<Dim>(set, interior, reach, sweeps).vectors;
+}
+
+/// Pair by pair, as loops in lanes have them.
+template <int Dim>
+std::vector<Vec<Dim>> listed(const Pairs<Dim>& pairs, const PairVectorField<Dim>& vectors) {
+  std::vector<Vec<Dim>> list(pairs.j.size());
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
+      range.store(vectors(pairs, range, range.neighbours(pairs.j.data()), i).a, list.data());
+    });
+  }
+  return list;
 }
 
 }  // namespace tailwater
