@@ -14,18 +14,18 @@ constexpr double next_to_nothing = 0.999;
 struct WholeRows {
   explicit WholeRows(const LinearSystem& system) {
     for (std::size_t i = 0; i < system.size(); ++i) {
-      add(system.before(), i);
+      add(system, system.before(), i);
       column.push_back(static_cast<int>(i));
       value.push_back(1.0);
-      add(system.behind(), i);
+      add(system, system.behind(), i);
       begin.push_back(static_cast<int>(column.size()));
     }
   }
 
-  void add(const LinearSystem::Part& part, std::size_t i) {
+  void add(const LinearSystem& system, const LinearSystem::Part& part, std::size_t i) {
     for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) {
       column.push_back(part.column[k]);
-      value.push_back(-part.weight[k]);
+      value.push_back(-system.scale(i) * part.weight[k]);
     }
   }
 

@@ -77,6 +77,9 @@ inline Lanes sqrt_of(Lanes lanes) {
 }
 inline double sqrt_of(double number) { return std::sqrt(number); }
 
+/// Numbers in single precision, as arrays that are read often may keep them.
+using SingleLanes = float __attribute__((vector_size(4 * lane_count)));
+
 using LaneTruths = decltype(Lanes{} < Lanes{});
 
 /// Bit n is set where a comparison holds in lane n.
@@ -275,6 +278,16 @@ struct LaneRange {
     } else {
       for (int n = 0; n < count; ++n) place[n] = lanes[n];
     }
+  }
+  /// The same in single precision. Returns the numbers as they are kept, with 0 in lanes left over.
+  Lanes store(Lanes lanes, float* place) const {
+    const auto kept = __builtin_convertvector(lanes, SingleLanes);
+    if constexpr (is_full) {
+      std::memcpy(place, &kept, sizeof(kept));
+    } else {
+      for (int n = 0; n < count; ++n) place[n] = kept[n];
+    }
+    return only(__builtin_convertvector(kept, Lanes));
   }
   template <int Dim>
   void store(const VecLanes<Dim>& lanes, Vec<Dim>* array) const {

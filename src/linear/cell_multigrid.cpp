@@ -156,7 +156,7 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   const auto for_each_weight = [&](int i, auto&& body) {
     for (const LinearSystem::Part* part : {&system.before(), &system.behind(), &system.ghosts()}) {
       for (std::size_t k = part->begin[i]; k < part->begin[i + 1]; ++k)
-        body(column_of(part->column[k]), part->weight[k]);
+        body(column_of(part->column[k]), system.scale(i) * part->weight[k]);
     }
   };
   std::vector<double> total(rows);  // of the weights

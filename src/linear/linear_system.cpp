@@ -50,30 +50,22 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   has_ghosts_ = ranks_.any(!ghosts().column.empty());
 }
 
-/// Calls body with every weight of row i.
-template <class Body>
-void LinearSystem::for_each_weight(std::size_t i, Body&& body) {
-  for (Part& part : parts_) {
-    for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) body(part.weight[k]);
-  }
-}
-
 void LinearSystem::Row::finish(double diagonal, double rhs) {
   TAILWATER_ASSERT(diagonal != 0.0, "a pressure row has no diagonal");
   const double scale = 1.0 / diagonal;
-  system_.for_each_weight(i_, [scale](double& weight) { weight *= scale; });
   system_.rhs_[i_] = scale * rhs;
   system_.scale_[i_] = scale;
 }
 
 void LinearSystem::Row::finish_as_zero() {
-  system_.for_each_weight(i_, [](double& weight) { weight = 0.0; });
+  for (Part& part : system_.parts_) {
+    std::fill(part.weight.data() + part.begin[i_], part.weight.data() + part.begin[i_ + 1], 0.0F);
+  }
   system_.rhs_[i_] = 0.0;
   system_.scale_[i_] = 0.0;
 }
 
 void LinearSystem::divide_diagonal(std::size_t i, double share) {
-  for_each_weight(i, [share](double& weight) { weight *= share; });  // the diagonal is scaled to 1
   rhs_[i] *= share;
   scale_[i] *= share;
 }
@@ -91,17 +83,19 @@ void LinearSystem::make_rhs_consistent() {
 void LinearSystem::sweep(std::span<double> solution) const {
   TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
   double* const x = solution.data();
-  for (std::size_t i = 0; i < size(); ++i) x[i] = rhs_[i] + before().sum(i, x);
+  for (std::size_t i = 0; i < size(); ++i) x[i] = rhs_[i] + scale_[i] * before().sum(i, x);
   // What stands before a row has not changed when the way back comes to it.
-  for (std::size_t i = size(); i-- > 0;) x[i] += behind().sum_back(i, x);
+  for (std::size_t i = size(); i-- > 0;) x[i] += scale_[i] * behind().sum_back(i, x);
 }
 
 void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {
-  for (std::size_t i = 0; i < size(); ++i) y[i] = x[i] - before().sum(i, x.data()) - behind().sum(i, x.data());
+  for (std::size_t i = 0; i < size(); ++i) {
+    y[i] = x[i] - scale_[i] * (before().sum(i, x.data()) + behind().sum(i, x.data()));
+  }
   if (!has_ghosts_) return;
   std::vector<double> with_ghosts(x.begin(), x.end());
   exchange(with_ghosts);
-  for (std::size_t i = 0; i < size(); ++i) y[i] -= ghosts().sum(i, with_ghosts.data());
+  for (std::size_t i = 0; i < size(); ++i) y[i] -= scale_[i] * ghosts().sum(i, with_ghosts.data());
 }
 
 }  // namespace tailwater

@@ -3,7 +3,9 @@
 // so that wall rows and fluid rows have equal weight. Each rank writes its own rows, and no entry is sent.
 //
 // A row is kept in three parts, each in an array of its own: the unknowns of this rank before the diagonal, those
-// behind it, and ghosts. Solvers sweep over one part at a time, and wait for memory, not for arithmetic.
+// behind it, and ghosts. Solvers sweep over one part at a time, and wait for memory, not for arithmetic. So weights are
+// kept in single precision, and all sums are made in double. The diagonal is told with the weights as they are kept:
+// sums of rows, and with them the symmetry of two-point weights, are exact.
 #pragma once
 
 #include <array>
@@ -23,7 +25,7 @@ class LinearSystem {
   struct Part {
     std::vector<std::size_t> begin;  ///< rows + 1
     std::vector<std::int32_t> column;
-    std::vector<double> weight;  ///< over the row's diagonal
+    std::vector<float> weight;
 
     /// sum_k weight_ik x_j(i,k). Two partial sums, so that an addition need not wait for the one before it.
     double sum(std::size_t i, const double* x) const {
@@ -72,21 +74,21 @@ class LinearSystem {
   /// Writes one row in place. Touches nothing but that row.
   class Row {
    public:
-    /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns their sum.
+    /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of those kept.
     template <class Weight>
     double set_weights(Weight&& weight) {
       std::size_t k = system_.pattern_begin_[i_];
       double sum = 0.0;
       for (Part& part : system_.parts_) {
         for (std::size_t n = part.begin[i_]; n < part.begin[i_ + 1]; ++n, ++k) {
-          part.weight[n] = weight(k);
+          part.weight[n] = static_cast<float>(weight(k));
           sum += part.weight[n];
         }
       }
       return sum;
     }
     /// The same part by part: write(first, end, weights) writes those of the pattern's entries first .. end and returns
-    /// their sum.
+    /// the sum of those kept.
     template <class Write>
     double write_weights(Write&& write) {
       std::size_t first = system_.pattern_begin_[i_];
@@ -135,6 +137,9 @@ class LinearSystem {
   std::int64_t size_of_all() const { return size_of_all_; }  ///< rows of all ranks
   const Communicator& ranks() const { return ranks_; }
 
+  /// What the weights of row i are multiplied by, so that the diagonal is 1.
+  double scale(std::size_t i) const { return scale_[i]; }
+
   /// For solvers: the number of the present pattern, and the rows.
   std::uint64_t pattern_number() const { return pattern_number_; }
   const Part& before() const { return parts_[0]; }  ///< unknowns of this rank, left of the diagonal
@@ -152,9 +157,6 @@ class LinearSystem {
   std::span<const double> rhs() const { return rhs_; }
 
  private:
-  template <class Body>
-  void for_each_weight(std::size_t i, Body&& body);
-
   Communicator ranks_;
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;

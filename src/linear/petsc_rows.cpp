@@ -18,7 +18,7 @@ void PetscRows::take(const LinearSystem& system) {
     entries.assign(1, {first + static_cast<std::int64_t>(i), 1.0});
     const auto add = [&](const LinearSystem::Part& part, auto&& number) {
       for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) {
-        entries.emplace_back(number(part.column[k]), -part.weight[k]);
+        entries.emplace_back(number(part.column[k]), -system.scale(i) * part.weight[k]);
       }
     };
     add(system.before(), [&](std::int32_t column) { return first + column; });

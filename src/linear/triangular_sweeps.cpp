@@ -4,17 +4,19 @@ namespace tailwater {
 
 void TriangularSweeps::forward(double omega, std::span<const double> b, std::span<double> x) const {
   const LinearSystem::Part& before = system_.before();
-  for (std::size_t i = 0; i < b.size(); ++i) x[i] = omega * (b[i] + before.sum(i, x.data()));
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] = omega * (b[i] + system_.scale(i) * before.sum(i, x.data()));
 }
 
 void TriangularSweeps::backward(double omega, std::span<const double> b, std::span<double> x) const {
   const LinearSystem::Part& behind = system_.behind();
-  for (std::size_t i = b.size(); i-- > 0;) x[i] = omega * (b[i] + behind.sum_back(i, x.data()));
+  for (std::size_t i = b.size(); i-- > 0;) {
+    x[i] = omega * (b[i] + system_.scale(i) * behind.sum_back(i, x.data()));
+  }
 }
 
 void TriangularSweeps::times_upper(double omega, std::span<const double> b, std::span<double> x) const {
   const LinearSystem::Part& behind = system_.behind();
-  for (std::size_t i = 0; i < b.size(); ++i) x[i] = b[i] / omega - behind.sum(i, b.data());
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] = b[i] / omega - system_.scale(i) * behind.sum(i, b.data());
 }
 
 void TriangularSweeps::eisenstat(double omega, std::span<const double> b, std::span<double> x) {
@@ -29,9 +31,9 @@ void TriangularSweeps::eisenstat(double omega, std::span<const double> b, std::s
   }
   scratch_.resize(b.size());
   for (std::size_t i = 0; i < b.size(); ++i) {
-    double rest = b[i] - share * x[i];
-    if (has_ghosts) rest -= ghosts.sum(i, with_ghosts_.data());
-    scratch_[i] = omega * (rest + before.sum(i, scratch_.data()));
+    double sum = before.sum(i, scratch_.data());
+    if (has_ghosts) sum -= ghosts.sum(i, with_ghosts_.data());
+    scratch_[i] = omega * (b[i] - share * x[i] + system_.scale(i) * sum);
     x[i] += scratch_[i];
   }
 }

@@ -43,15 +43,14 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volu
   const std::vector<double>& volume = flow.state.particles.volume;
   const double spacing = flow.setup.spacing;
   if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
-    return row.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+    return row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
       Lanes sums{};
       for_each_lanes(first, end, [&](auto range) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const VecLanes<Dim> d = differences(pairs, range, j, i);
         const Lanes share = share_of_morris_weight(d.dot(d), spacing);
-        const Lanes weight = range.only(2.0 * share * j(volume_taking_part.data()) * range.load(pairs.F.data()));
-        range.store(weight, weights + (range.begin - first));
-        sums += weight;
+        const Lanes weight = 2.0 * share * j(volume_taking_part.data()) * range.load(pairs.F.data());
+        sums += range.store(weight, weights + (range.begin - first));
       });
       return sum_of(sums);
     });
@@ -128,12 +127,12 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
     return;
   }
   double hydrostatic = 0.0;
-  row.set_weights([&](std::size_t k) {
+  const double sum = row.set_weights([&](std::size_t k) {
     const double share = weight(k) / total;
     hydrostatic += share * setup.density * setup.gravity.dot(pairs.d(i, k));
     return share;
   });
-  row.finish(1.0, hydrostatic);
+  row.finish(sum, hydrostatic);
 }
 
 /// Writes row i without its source. Returns whether it had to fall back to two-point weights.

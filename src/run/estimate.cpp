@@ -79,11 +79,12 @@ template <int Dim>
 double memory_estimate(const ParticleCount& count, double neighbours) {
   constexpr double number = sizeof(double);
   constexpr double index = 4.0;
+  constexpr double single = sizeof(float);
   // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
   // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
   constexpr double fields = 3.0 * (6 * Dim + 10) * number;
-  // Per pair: the neighbour's index, the kernel's slope; a weight of the matrix with its column.
-  constexpr double pair = index + number + index + number;
+  // Per pair: the neighbour's index, the kernel's slope; a weight of the matrix, in single precision, with its column.
+  constexpr double pair = index + number + index + single;
   // Rows of dummies hold the fluid's half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
   // Arrays grow by doubling, and libraries keep buffers. The peak in summary.json after some steps, less the program,

@@ -31,14 +31,15 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
   }
   const Pairs<Dim>& pairs = scene.pairs;
   const double share = 1.0 / scene.here.wall_fluid_weight[i];
-  row.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+  const double sum = row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
+    Lanes sums{};
     for_each_lanes(first, end, [&](auto range) {
       const Lanes weight = weights_of_fluid(pairs, scene.particles, range, range.neighbours(pairs.j.data()), i);
-      range.store(share * weight, weights + (range.begin - first));
+      sums += range.store(share * weight, weights + (range.begin - first));
     });
-    return 0.0;  // their sum is not asked for
+    return sum_of(sums);
   });
-  row.finish(1.0, excess_over_water(scene, force, i));
+  row.finish(sum, excess_over_water(scene, force, i));  // the sum is 1 but for rounding
 }
 
 template <int Dim>

@@ -27,7 +27,7 @@ PressureSolverTable solver_settings(double tolerance) {
 struct SmallSystem {
   std::vector<std::size_t> row_begin{0};
   std::vector<std::int32_t> columns;
-  std::vector<double> weights;
+  std::vector<double> weights;  // that single precision holds
   std::vector<double> diagonal;
   std::vector<double> rhs;
 
@@ -68,7 +68,7 @@ SmallSystem random_system(std::size_t size, std::uint64_t seed) {
     const double scale = std::pow(10.0, 4.0 * noise()) * (i % 3 == 0 ? -1.0 : 1.0);
     for (const std::size_t offset : {7, 1, 19, 4}) {
       system.columns.push_back(static_cast<std::int32_t>((i + offset) % size));
-      system.weights.push_back(0.125 * scale * noise());
+      system.weights.push_back(static_cast<float>(0.125 * scale * noise()));
     }
     system.row_begin.push_back(system.columns.size());
     system.diagonal.push_back(scale);
@@ -176,7 +176,7 @@ TEST(PressureSystem, RowsWithEqualColumnsAreSolvedLikeAnyOther) {
       const std::size_t j = i / drop * drop + k;
       if (j == i) continue;
       small.columns.push_back(static_cast<std::int32_t>(j));
-      small.weights.push_back(0.125 * noise());
+      small.weights.push_back(static_cast<float>(0.125 * noise()));
     }
     small.row_begin.push_back(small.columns.size());
     small.diagonal.push_back(1.0);

@@ -27,7 +27,7 @@ struct SparseRows {
     std::vector<double> weights;
     const auto add = [&](Eigen::MatrixXd& matrix, int i, int j, int column) {
       columns.push_back(column);
-      weights.push_back(weight(random));
+      weights.push_back(static_cast<float>(weight(random)));
       matrix(i, j) = -weights.back();
     };
     for (int i = 0; i < rows; ++i) {
@@ -117,6 +117,35 @@ TEST(LinearSystemSweep, IsGaussSeidelForwardAndBack) {
   EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 100.0 * eps);
 }
 
+TEST(LinearSystemRow, OfDifferencesIsExactAndSymmetricThoughWeightsAreRounded) {
+  constexpr int rows = 23;
+  std::vector<std::size_t> row_begin{0};
+  std::vector<std::int32_t> columns;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      if (j != i) columns.push_back(j);
+    }
+    row_begin.push_back(columns.size());
+  }
+  LinearSystem system;
+  system.set_pattern(row_begin, columns);
+  for (int i = 0; i < rows; ++i) {
+    LinearSystem::Row row = system.row(i);
+    const double sum = row.set_weights([&](std::size_t k) { return 1.0 / (3.0 + i * columns[k]); });
+    row.finish(sum, 0.0);
+  }
+  const auto product = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd y(rows);
+    system.multiply(entries(x), entries(y));
+    for (int i = 0; i < rows; ++i) y[i] /= system.scale(i);
+    return y;
+  };
+  EXPECT_LT(product(Eigen::VectorXd::Constant(rows, 7.0)).lpNorm<Eigen::Infinity>(), 1000.0 * eps);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(rows, -1.0, 2.0);
+  const Eigen::VectorXd y = x.cwiseProduct(x);
+  EXPECT_NEAR(x.dot(product(y)), y.dot(product(x)), 1000.0 * eps);
+}
+
 TEST(LinearSystemRow, IsWrittenPartByPartAsOneByOne) {
   std::vector<std::size_t> row_begin{0};
   std::vector<std::int32_t> columns;
@@ -137,9 +166,9 @@ TEST(LinearSystemRow, IsWrittenPartByPartAsOneByOne) {
     LinearSystem::Row row = one_by_one.row(i);
     LinearSystem::Row same = by_parts.row(i);
     const double sum = row.set_weights(weight);
-    const double sum_of_parts = same.write_weights([&](std::size_t first, std::size_t end, double* weights) {
+    const double sum_of_parts = same.write_weights([&](std::size_t first, std::size_t end, float* weights) {
       double part = 0.0;
-      for (std::size_t k = first; k < end; ++k) part += weights[k - first] = weight(k);
+      for (std::size_t k = first; k < end; ++k) part += weights[k - first] = static_cast<float>(weight(k));
       return part;
     });
     EXPECT_NEAR(sum_of_parts, sum, sum * rows * eps);
