@@ -88,8 +88,8 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   // Rows of dummies hold the fluid's half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
   // Arrays grow by doubling, and libraries keep buffers. The peak in summary.json after some steps, less the program,
-  // is 1.6 times the arrays for cases/zhou1999 at dx = 0.003 m (435 MB) and 0.7 times for the 3D tank of
-  // cases/robustness at 0.015 m (244 MB), both before there were checkpoints; long runs need a little more.
+  // is 1.6 times the arrays for cases/zhou1999 at dx = 0.003 m (200 MB) and 0.8 times for benchmarks/dam_break_3d.toml
+  // at 0.03 m (167 MB); long runs need a little more.
   constexpr double slack = 1.9;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }
