@@ -102,8 +102,8 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
     VecLanes<Dim> sum{};
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const auto [d_ij, kernel_F, a] = pair_vectors(pairs, range, j, i);
-      const PairLanes<Dim> pair(range, j, d_ij, kernel_F, particles, volume, spacing, i, velocity, gradient);
+      const auto [d_ij, F_ij, a] = pair_vectors(pairs, range, j, i);
+      const PairLanes<Dim> pair(range, j, d_ij, F_ij, particles, volume, spacing, i, velocity, gradient);
       // Only of pairs that nearly coincide may the corrections turn the sign.
       const Lanes F = max_of(Lanes{}, -a.dot(pair.d)) / pair.squared;
       const Lanes laplacian = 2.0 * pair.share_of_volume * F;
