@@ -27,7 +27,7 @@ namespace {
 
 /// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and sharing them out at
 /// this interval costs next to nothing.
-constexpr std::int64_t steps_between_sorts = 5;
+constexpr std::int64_t steps_between_sorts = 10;
 
 template <int Dim>
 class Run {
