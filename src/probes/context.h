@@ -48,8 +48,8 @@ struct ProbeContext {
   double time;       ///< s
   FlowTotals totals;
   Communicator ranks = {};
-  /// By row of the table of wall particles, an index into Boundary::walls. Needed where there are plates.
-  std::span<const int> wall_of_row = {};
+  /// Of each particle, the plate that it is of, as an index into Boundary::walls, or -1. Needed where there are plates.
+  std::span<const int> plate_of = {};
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
@@ -60,11 +60,9 @@ struct ProbeContext {
 template <int Dim>
 bool is_hidden_from(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
   if (context.boundary.screens.empty()) return false;
-  const Particles<Dim>& particles = context.particles;
-  const int plate = particles.is_fluid(j) ? -1 : context.boundary.plate_of(context.wall_of_row[particles.wall_row[j]]);
-  const Vec<Dim>& there = particles.position[j];
+  const Vec<Dim>& there = context.particles.position[j];
   return is_hidden<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
-                        plate);
+                        context.plate_of[j]);
 }
 
 /// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x` that no plate hides from it.

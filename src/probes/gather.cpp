@@ -18,7 +18,7 @@ struct Sample {
   double pressure;
   double volume;
   ParticleKind kind;
-  std::int32_t wall_row;
+  std::int32_t plate;
 
   /// Copies of a particle on several ranks have equal keys; periodic images differ in position.
   auto key() const { return std::tie(id, position); }
@@ -34,7 +34,7 @@ std::array<double, Dim> to_array(const Vec<Dim>& v) {
 }  // namespace
 
 template <int Dim>
-Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
+GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
   const Particles<Dim>& particles = context.particles;
   const double reach = kernel_radius(context.kernel);
   const auto is_near = [&](std::size_t i) {
@@ -44,14 +44,17 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
   std::vector<Sample<Dim>> near;
   for (const std::size_t i : indices_where(particles.size(), is_near)) {
     near.push_back({particles.id[i], to_array<Dim>(particles.position[i]), to_array<Dim>(particles.velocity[i]),
-                    particles.pressure[i], particles.volume[i], particles.kind[i], particles.wall_row[i]});
+                    particles.pressure[i], particles.volume[i], particles.kind[i],
+                    context.plate_of.empty() ? -1 : context.plate_of[i]});
   }
   near = context.ranks.gather(near);
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
   near.erase(std::unique(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() == b.key(); }),
              near.end());
 
-  Particles<Dim> gathered;
+  GatheredParticles<Dim> result;
+  result.plate_of.resize(near.size());
+  Particles<Dim>& gathered = result.particles;
   gathered.resize(near.size());
   gathered.owned = near.size();
   for_each(near.size(), [&](std::size_t i) {
@@ -60,13 +63,14 @@ Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<R
     gathered.pressure[i] = near[i].pressure;
     gathered.volume[i] = near[i].volume;
     gathered.kind[i] = near[i].kind;
-    gathered.wall_row[i] = near[i].wall_row;
+    gathered.wall_row[i] = -1;
+    result.plate_of[i] = near[i].plate;
     gathered.id[i] = near[i].id;
   });
-  return gathered;
+  return result;
 }
 
-template Particles<2> gather_near<2>(const ProbeContext<2>&, const std::vector<Region<2>>&);
-template Particles<3> gather_near<3>(const ProbeContext<3>&, const std::vector<Region<3>>&);
+template GatheredParticles<2> gather_near<2>(const ProbeContext<2>&, const std::vector<Region<2>>&);
+template GatheredParticles<3> gather_near<3>(const ProbeContext<3>&, const std::vector<Region<3>>&);
 
 }  // namespace tailwater

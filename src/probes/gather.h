@@ -7,9 +7,15 @@
 
 namespace tailwater {
 
-/// On the root: all particles, ghosts included, within the kernel's support of one of the regions, each once and in the
-/// order of ids. On other ranks: none. All count as `owned`. Collective.
 template <int Dim>
-Particles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions);
+struct GatheredParticles {
+  Particles<Dim> particles;
+  std::vector<int> plate_of;  ///< as in ProbeContext
+};
+
+/// On the root: all particles, ghosts included, within the kernel's support of one of the regions, each once and in the
+/// order of ids. On other ranks: none. All count as `owned`. Rows of walls are not given. Collective.
+template <int Dim>
+GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions);
 
 }  // namespace tailwater

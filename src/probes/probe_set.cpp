@@ -213,12 +213,19 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
     due.push_back(&instrument);
     if (instrument.probe.reading.region) regions.push_back(instrument.probe.reading.region(context.time));
   }
-  Particles<Dim> gathered;
+  GatheredParticles<Dim> gathered;
   if (!ranks.is_alone() && !regions.empty()) gathered = gather_near(context, regions);
-  const CellGrid<Dim> grid(gathered.position, kernel_radius(context.kernel));
-  const ProbeContext<Dim> near{
-      gathered,        grid,         context.kernel, context.boundary, context.density, context.gravity,
-      context.spacing, context.time, context.totals};
+  const CellGrid<Dim> grid(gathered.particles.position, kernel_radius(context.kernel));
+  const ProbeContext<Dim> near{.particles = gathered.particles,
+                               .grid = grid,
+                               .kernel = context.kernel,
+                               .boundary = context.boundary,
+                               .density = context.density,
+                               .gravity = context.gravity,
+                               .spacing = context.spacing,
+                               .time = context.time,
+                               .totals = context.totals,
+                               .plate_of = gathered.plate_of};
 
   std::vector<std::vector<Row>> rows;
   for (const Instrument* instrument : due) {

@@ -14,6 +14,7 @@
 #include "run/estimate.h"
 #include "run/field_output.h"
 #include "run/provenance.h"
+#include "walls/hidden_pairs.h"
 
 namespace tailwater {
 namespace {
@@ -209,6 +210,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
 template <int Dim>
 void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
+  const std::vector<int> plate_of = plates_of_particles(flow.walls, flow.state.particles);
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood.grid(),
                   .kernel = flow.neighbourhood.kernel(),
@@ -225,7 +227,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .volume_in = measures.arrived.volume,
                              .section_volumes = flow.state.section_volumes},
                   .ranks = ranks_,
-                  .wall_of_row = flow.walls.particles.wall,
+                  .plate_of = plate_of,
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,

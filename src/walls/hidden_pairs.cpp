@@ -1,24 +1,26 @@
 #include "walls/hidden_pairs.h"
 
-#include <vector>
+#include "base/for_each.h"
 
 namespace tailwater {
-namespace {
 
-/// The plate that a particle belongs to, as an index into Boundary::walls; -1 if none.
 template <int Dim>
-int plate_of(const Walls<Dim>& walls, const Particles<Dim>& particles, std::size_t i) {
-  if (particles.is_fluid(i)) return -1;
-  return walls.boundary.plate_of(walls.particles.wall[particles.wall_row[i]]);
+std::vector<int> plates_of_particles(const Walls<Dim>& walls, const Particles<Dim>& particles) {
+  if (walls.boundary.screens.empty()) return {};
+  std::vector<int> plates(particles.size(), -1);
+  for_each(particles.size(), [&](std::size_t i) {
+    if (particles.is_fluid(i)) return;
+    plates[i] = walls.boundary.plate_of(walls.particles.wall[particles.wall_row[i]]);
+  });
+  return plates;
 }
-
-}  // namespace
 
 template <int Dim>
 void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& particles,
                               Neighbourhood<Dim>& neighbourhood) {
   const std::vector<Screen<Dim>>& screens = walls.boundary.screens;
   if (screens.empty()) return;
+  const std::vector<int> plates = plates_of_particles(walls, particles);
   const double radius = kernel_radius(neighbourhood.kernel());
   const Pairs<Dim>& pairs = neighbourhood.pairs();
   std::vector<int> near;
@@ -32,7 +34,7 @@ void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& par
       }
     }
     const auto j = static_cast<std::size_t>(pairs.j[k]);
-    const int plate = std::max(plate_of(walls, particles, i), plate_of(walls, particles, j));
+    const int plate = std::max(plates[i], plates[j]);
     // In an order that both rows of the pair agree about.
     const bool is_forward = particles.id[i] < particles.id[j];
     const Vec<Dim>& from = particles.position[is_forward ? i : j];
@@ -41,6 +43,8 @@ void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& par
   });
 }
 
+template std::vector<int> plates_of_particles(const Walls<2>&, const Particles<2>&);
+template std::vector<int> plates_of_particles(const Walls<3>&, const Particles<3>&);
 template void hide_pairs_behind_plates(const Walls<2>&, const Particles<2>&, Neighbourhood<2>&);
 template void hide_pairs_behind_plates(const Walls<3>&, const Particles<3>&, Neighbourhood<3>&);
 

@@ -4,11 +4,17 @@
 // the support is filled once, also beside the end of a plate.
 #pragma once
 
+#include <vector>
+
 #include "neighbours/neighbourhood.h"
 #include "particles/particles.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
+
+/// Of each particle, the plate that it is of, as an index into Boundary::walls, or -1; empty if there are no plates.
+template <int Dim>
+std::vector<int> plates_of_particles(const Walls<Dim>& walls, const Particles<Dim>& particles);
 
 /// Takes out the pairs that plates hide. Call after each Neighbourhood::update.
 template <int Dim>

@@ -51,6 +51,33 @@ class RanksTest(ProgramTest):
         self.call("run", "small.toml", "--out", "two", "-n", "2", "--quiet")
         self.assertEqual(self.summary("two")["status"], "done")
 
+    def test_read_a_depth_beside_a_plate(self):
+        (self.folder / "plate.toml").write_text("""
+[particles]
+spacing = 0.05
+[[fluid]]
+min = [0.0, 0.0]
+max = [1.0, 0.5]
+[[wall]]
+points = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+[[wall]]
+shape = "plate"
+points = [[0.5, 0.0], [0.5, 0.3]]
+[[probe]]
+name = "beside"
+type = "depth"
+at = [0.45, 0.0]
+[time]
+end = 0.02
+""")
+        depths = []
+        for count in "1", "2":
+            self.call("run", "plate.toml", "--out", count, "-n", count, "--quiet")
+            depths.append([row[1] for row in self.table(f"{count}/probes/beside.csv")[1]])
+        self.assertEqual(len(depths[0]), len(depths[1]))
+        for one, two in zip(*depths):
+            self.assertAlmostEqual(one, two, delta=1e-4)  # the tolerance of the pressure solve
+
     def test_is_a_rank_of_mpirun(self):
         for count in ((), ("-n", "2")):
             self.mpirun("-n", "2", PROGRAM, "run", "small.toml", "--out", "out", "--force", "--quiet", *count, expect=0)

@@ -2,8 +2,10 @@
 // differ by rounding: some hundred terms of one sign are exact to 1e-13, and no reading magnifies this by ten.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "io/shared_folder.h"
 #include "probes/probe_set.h"
@@ -83,6 +85,32 @@ std::vector<ProbeTable> all_probes() {
   };
   for (std::size_t k = 0; k < probes.size(); ++k) probes[k].name = "p" + std::to_string(k);
   return probes;
+}
+
+/// The sloping tank with a plate across its water, and some particles of it on both of its sides; the plate that each
+/// particle is of.
+template <int Dim>
+std::pair<Tank<Dim>, std::vector<int>> tank_with_plate() {
+  Tank<Dim> tank = sloping_tank<Dim>();
+  const std::size_t others = tank.particles.size();
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points =
+      Dim == 2 ? std::vector<Coordinates>{{0.42, 0.0}, {0.42, 0.4}}
+               : std::vector<Coordinates>{
+                     {0.42, 0.0, 0.0}, {0.42, Tank<Dim>::width, 0.0}, {0.42, Tank<Dim>::width, 0.4}, {0.42, 0.0, 0.4}};
+  tank.spec.walls.push_back(plate);
+  tank.boundary = make_boundary<Dim>(tank.spec);
+  for (int k = 0; k < 40; ++k) {
+    Vec<Dim> x = Vec<Dim>::Constant(0.5);
+    x[0] = 0.42 + (k % 2 == 0 ? 1.0 : -1.0) * 0.5 * tank.dx;
+    x[Dim - 1] = 0.01 * k;
+    tank.add(x, false, 100.0 * k);
+  }
+  tank.locate();
+  std::vector<int> plate_of(tank.particles.size(), -1);
+  std::fill(plate_of.begin() + static_cast<std::ptrdiff_t>(others), plate_of.end(), 1);
+  return {std::move(tank), std::move(plate_of)};
 }
 
 /// What rank `rank` has of the tank: its own particles and all others as ghosts, or these alone.
@@ -181,6 +209,61 @@ TYPED_TEST(ProbesOnRanks, RoundRobinWithGhosts) { expect_same_readings<TypeParam
 TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanks) { expect_same_readings<TypeParam::value>(this->halves(), false); }
 TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanksWithGhosts) {
   expect_same_readings<TypeParam::value>(this->halves(), true);
+}
+
+// The root reads what particles of other ranks say, and those that are of a plate speak for what it hides.
+TYPED_TEST(ProbesOnRanks, BesideAPlate) {
+  constexpr int Dim = TypeParam::value;
+  auto made = tank_with_plate<Dim>();
+  Tank<Dim>& tank = made.first;
+  std::vector<int>& plate_of = made.second;
+  tank.spec.probes = {probe_at(ProbeType::depth, Tank<Dim>::at(0.40, 0.1)),
+                      probe_at(ProbeType::depth, Tank<Dim>::at(0.44, 0.1))};
+  tank.spec.probes[0].name = "left";
+  tank.spec.probes[1].name = "right";
+  const SharedFolder together;
+  const Communicator& ranks = together.ranks();
+  const auto is_own = [&](std::size_t i) { return static_cast<int>(i) % ranks.size() == ranks.rank(); };
+  Particles<Dim> part = part_of<Dim>(
+      tank.particles, [&](std::size_t i, const Vec<Dim>&) { return is_own(i) ? ranks.rank() : -1; }, ranks.rank(),
+      false);
+  std::vector<int> plate_of_part;
+  for (std::size_t i = 0; i < plate_of.size(); ++i) {
+    if (is_own(i)) plate_of_part.push_back(plate_of[i]);
+  }
+  const CellGrid<Dim> grid(part.position, 3.0 * tank.dx);
+  ProbeContext<Dim> whole = tank.context();
+  whole.plate_of = plate_of;
+  std::vector<std::vector<double>> expected;
+  for (const Probe<Dim>& probe : make_probes<Dim>(tank.spec, tank.boundary)) {
+    expected.push_back(probe.reading.take(whole).at(0));
+  }
+  for (int& plate : plate_of) plate = -1;
+  EXPECT_GT(std::abs(make_probes<Dim>(tank.spec, tank.boundary)[0].reading.take(whole).at(0).at(0) - expected[0][0]),
+            1e-6)
+      << "it matters who is of the plate";
+
+  ProbeSet<Dim> probes(make_probes<Dim>(tank.spec, tank.boundary), RunFolder::create(together.path(), false, ranks),
+                       ranks);
+  probes.record({.particles = part,
+                 .grid = grid,
+                 .kernel = whole.kernel,
+                 .boundary = whole.boundary,
+                 .density = whole.density,
+                 .gravity = whole.gravity,
+                 .spacing = whole.spacing,
+                 .time = 0.0,
+                 .totals = {},
+                 .ranks = ranks,
+                 .plate_of = plate_of_part});
+  if (!ranks.is_root()) return;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const std::vector<double> read = numbers_in(together.path() / "probes" / (tank.spec.probes[k].name + ".csv"));
+    ASSERT_EQ(read.size(), expected[k].size() + 1);
+    for (std::size_t n = 0; n < expected[k].size(); ++n) {
+      EXPECT_NEAR(read[n + 1], expected[k][n], 1e-12 * std::max(1.0, std::abs(expected[k][n])));
+    }
+  }
 }
 
 TYPED_TEST(ProbesOnRanks, WithoutFluidTheFrontIsZero) {
