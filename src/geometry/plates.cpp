@@ -229,7 +229,7 @@ WallParticles<3> sample_side_of_sheet(const Boundary<3>& boundary, const WallPla
   const double depth = layers.count * layers.spacing;
   WidenedSheet wide = widened(*plate.sheet, depth, [](const Vec<3>&, const Vec<3>&) { return true; });
   const MeshSurface surface(std::move(wide.mesh));
-  WallParticleCollector<3> collector(boundary, layers.spacing);
+  WallParticleCollector<3> collector(boundary, layers);
   const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
     if (place.is_on_rim || (place.signed_distance < 0.0) != is_front) return;
     std::vector<Vec<3>> normals = normals_at(surface.mesh(), place);
@@ -250,7 +250,7 @@ WallParticles<3> sample_side(const Boundary<3>& boundary, const WallPlate& plate
   for (const int axis : {0, 1}) {
     count[axis] = std::max(1, static_cast<int>(std::lround(length[axis] / layers.spacing)));
   }
-  WallParticleCollector<3> collector(boundary, layers.spacing);
+  WallParticleCollector<3> collector(boundary, layers);
   const int more = layers.count;
   for (int layer = 0; layer < layers.count; ++layer) {
     const double depth = layers.first_depth() + layer * layers.spacing;
@@ -347,7 +347,8 @@ template <int Dim>
 std::vector<WallParticles<Dim>> sample_plates(const Boundary<Dim>& boundary, const WallLayers& layers) {
   std::vector<WallParticles<Dim>> parts;
   for (const WallPlate& plate : boundary.plates) {
-    for (const bool is_front : {true, false}) parts.push_back(sample_side(boundary, plate, is_front, layers));
+    const WallLayers wanted = layers.of_wall(boundary.walls[plate.wall].moves());
+    for (const bool is_front : {true, false}) parts.push_back(sample_side(boundary, plate, is_front, wanted));
   }
   return parts;
 }

@@ -211,7 +211,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
   const Joints joints = join_faces(body, tolerance);
   const std::vector<std::vector<int>> chains = faces_by_chain(joints);
   const std::vector<Run> runs = make_runs(body, joints);
-  WallParticleCollector<2> collector(body, layers.spacing);
+  WallParticleCollector<2> collector(body, layers);
   if (!layers.starts_on_wall) fill_tips(body, joints, layers, collector);
   for (int layer = 0; layer < layers.count; ++layer) {
     const double depth = layers.first_depth() + layer * layers.spacing;

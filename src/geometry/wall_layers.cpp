@@ -7,7 +7,8 @@
 namespace tailwater {
 namespace {
 
-constexpr double least_distance = 0.5;  // dx, between wall particles
+constexpr double least_distance = 0.5;     // dx, between wall particles
+constexpr double seam_over_spacing = 2.0;  // four places may be in the way of each other
 
 /// Projector onto the directions that walls with these normals block: the sum of n n^T, eigenvalues clipped at 1.
 template <int Dim>
@@ -22,8 +23,12 @@ Mat<Dim> blocked_by(const std::vector<Vec<Dim>>& normals) {
 }  // namespace
 
 template <int Dim>
-WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, double spacing)
-    : body_(body), tolerance_(corner_tolerance * spacing), taken_((least_distance - corner_tolerance) * spacing) {}
+WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, const WallLayers& layers)
+    : body_(body),
+      tolerance_(corner_tolerance * layers.spacing),
+      share_(layers.share),
+      seam_(seam_over_spacing * layers.spacing),
+      taken_((least_distance - corner_tolerance) * layers.spacing) {}
 
 template <int Dim>
 bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const {
@@ -37,8 +42,9 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
 }
 
 template <int Dim>
-void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place) {
+void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place, std::int64_t number) {
   taken_.add(place.position);
+  if (!share_.holds(place.position)) return;
   Vec<Dim> mean = Vec<Dim>::Zero();
   for (const Vec<Dim>& n : place.normals) mean += n;
   particles_.position.push_back(place.stands_at());
@@ -46,6 +52,7 @@ void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place) {
   particles_.blocked.push_back(blocked_by<Dim>(place.normals));
   particles_.share.push_back(place.share);
   particles_.wall.push_back(place.wall);
+  particles_.number.push_back(number);
 }
 
 template class WallParticleCollector<2>;

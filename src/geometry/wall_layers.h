@@ -16,8 +16,11 @@ namespace tailwater {
 struct WallLayers {
   double spacing;
   int count;
-  bool starts_on_wall;  ///< whether the first layer stands on the wall; else it is spacing/2 behind it
+  bool starts_on_wall;    ///< whether the first layer stands on the wall; else it is spacing/2 behind it
+  SpaceShare share = {};  ///< the part of space whose particles are wanted
 
+  /// The same of a wall that moves, all of whose particles are wanted, or of one at rest.
+  WallLayers of_wall(bool moves) const { return {spacing, count, starts_on_wall, moves ? SpaceShare{} : share}; }
   double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
 };
 
@@ -34,41 +37,61 @@ struct WallPlace {
   Vec<Dim> stands_at() const { return position + offset; }
 };
 
-/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept.
+/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept. Every place
+/// proposed has a number; those outside the share that is wanted are not looked at, but for a seam, which decides who
+/// has room at its border: particles beyond it could matter only through a chain of places, each in the way of the
+/// next.
 template <int Dim>
 class WallParticleCollector {
  public:
-  WallParticleCollector(const Boundary<Dim>& body, double spacing);
+  WallParticleCollector(const Boundary<Dim>& body, const WallLayers& layers);
+
+  /// The number of a place to be proposed.
+  std::int64_t take_number() { return particles_.numbers++; }
+
+  /// Whether a place is in the share that is wanted, or in its seam.
+  bool wants(const Vec<Dim>& x) const { return share_.is_near(x, seam_); }
 
   /// Keeps the place if no other particle is near.
   void add(const WallPlace<Dim>& place) {
-    if (!taken_.has_near(place.position)) keep(place);
+    const std::int64_t number = take_number();
+    if (wants(place.position) && !taken_.has_near(place.position)) keep(place, number);
   }
 
   /// The same, unless a face that is not the place's own lies between the place and its foot; the place is then behind
   /// another wall. is_own(f) says whether Boundary::faces[f], which is of no mesh, is the place's own.
   template <class IsOwn>
-  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own, const WallMesh* own_mesh = nullptr) {
+  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
+    const std::int64_t number = take_number();
+    if (wants(place.position)) add_unless_behind_another(place, number, is_own);
+  }
+
+  /// The same for a place that is wanted and has its number.
+  template <class IsOwn>
+  void add_unless_behind_another(const WallPlace<Dim>& place, std::int64_t number, IsOwn&& is_own,
+                                 const WallMesh* own_mesh = nullptr) {
     if (taken_.has_near(place.position)) return;
     bool is_behind = is_behind_mesh(place, own_mesh);
     body_.visit_plain_faces([&](int f) {
       is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_));
     });
-    if (!is_behind) keep(place);
+    if (!is_behind) keep(place, number);
   }
 
   /// Call after all places on the wall itself have been proposed, before those behind it.
-  void end_of_places_on_wall() { particles_.on_wall = particles_.size(); }
+  void end_of_places_on_wall() { particles_.numbers_on_wall = particles_.numbers; }
 
   WallParticles<Dim> particles() && { return std::move(particles_); }
 
  private:
   /// Whether a mesh other than its own lies between a place and its foot.
   bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
-  void keep(const WallPlace<Dim>& place);
+  void keep(const WallPlace<Dim>& place, std::int64_t number);
 
   const Boundary<Dim>& body_;
   double tolerance_;  ///< m
+  SpaceShare share_;
+  double seam_;  ///< m
   PointGrid<Dim> taken_;
   WallParticles<Dim> particles_;
 };

@@ -57,12 +57,15 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, WallPartic
   }
   struct Proposal {
     WallPlace<3> place;
+    std::int64_t number;
     const WallMesh* mesh;
   };
   std::vector<Proposal> proposals;
   for (const WallMesh& mesh : body.meshes) {
     const MeshSurface& surface = *mesh.surface;
     const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
+      const std::int64_t number = collector.take_number();
+      if (!collector.wants(x)) return;
       Vec<3> edge;
       for (int axis = 0; axis < 3; ++axis) edge[axis] = body.lattice[axis].width(body.lattice[axis].cell_at(x[axis]));
       const double half_diagonal = 0.5 * edge.norm();
@@ -77,6 +80,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, WallPartic
                             .wall = mesh.wall,
                             .offset = behind.offset,
                             .share = behind.share * edge.prod() / power<3>(layers.spacing)},
+                           number,
                            &mesh});
     };
     NodesNear(surface, body.lattice, layers.count * layers.spacing, propose).find();
@@ -86,7 +90,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, WallPartic
                            [](const Proposal& a, const Proposal& b) { return a.place.share > b.place.share; });
   for (const Proposal& proposal : proposals) {
     collector.add_unless_behind_another(
-        proposal.place, [](int) { return false; }, proposal.mesh);
+        proposal.place, proposal.number, [](int) { return false; }, proposal.mesh);
   }
 }
 

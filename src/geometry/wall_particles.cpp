@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "geometry/wall_layers.h"
 
@@ -13,23 +14,28 @@ namespace {
 // Which function samples the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers) { return sample_chains(body, layers); }
 WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers) {
-  WallParticleCollector<3> collector(body, layers.spacing);
+  WallParticleCollector<3> collector(body, layers);
   sample_boxes(body, layers, collector);
   sample_meshes(body, layers, collector);
   return std::move(collector).particles();
 }
 
-/// Appends the entries `from` to `to` of `part` to `all`.
+/// Appends `part` to `all`, where `on_wall` numbers of particles on the wall, and `behind` of those behind it, are
+/// taken.
 template <int Dim>
-void append_range(WallParticles<Dim>& all, const WallParticles<Dim>& part, std::size_t from, std::size_t to) {
-  const auto put = [&](auto& into, const auto& entries) {
-    into.insert(into.end(), entries.begin() + from, entries.begin() + to);
-  };
-  put(all.position, part.position);
-  put(all.normal, part.normal);
-  put(all.blocked, part.blocked);
-  put(all.share, part.share);
-  put(all.wall, part.wall);
+void append(WallParticles<Dim>& all, WallParticles<Dim> part, std::int64_t on_wall, std::int64_t behind) {
+  for (std::int64_t& number : part.number) {
+    number += number < part.numbers_on_wall ? on_wall : all.numbers_on_wall + behind - part.numbers_on_wall;
+  }
+  if (all.size() == 0) {
+    part.numbers = all.numbers;
+    part.numbers_on_wall = all.numbers_on_wall;
+    all = std::move(part);
+    return;
+  }
+  const auto put = [](auto& into, const auto& entries) { into.insert(into.end(), entries.begin(), entries.end()); };
+  all.apply_to_fields(
+      [&](auto&... into) { part.apply_to_fields([&](const auto&... entries) { (put(into, entries), ...); }); });
 }
 
 /// A body with its own faces only, without plates.
@@ -54,20 +60,29 @@ Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
   return alone;
 }
 
-/// Samples each body as if it were alone, because bodies separate. Particles on a wall come first.
+/// Samples each body as if it were alone, because bodies separate.
 template <int Dim>
 WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers& layers) {
   std::set<int> bodies;
   for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
   std::vector<WallParticles<Dim>> parts;
-  for (const int body : bodies) {
-    parts.push_back(sample(body_alone(boundary, body), layers));
-  }
+  for (const int body : bodies)
+    parts.push_back(sample(body_alone(boundary, body), layers.of_wall(body != resting_body)));
   for (WallParticles<Dim>& side : sample_plates(boundary, layers)) parts.push_back(std::move(side));
   WallParticles<Dim> all;
-  for (const WallParticles<Dim>& part : parts) append_range(all, part, 0, part.on_wall);
-  all.on_wall = all.size();
-  for (const WallParticles<Dim>& part : parts) append_range(all, part, part.on_wall, part.size());
+  for (const WallParticles<Dim>& part : parts) {
+    all.numbers += part.numbers;
+    all.numbers_on_wall += part.numbers_on_wall;
+  }
+  std::int64_t on_wall = 0;
+  std::int64_t behind = 0;
+  for (WallParticles<Dim>& part : parts) {
+    const std::int64_t more_on_wall = part.numbers_on_wall;
+    const std::int64_t more_behind = part.numbers - part.numbers_on_wall;
+    append(all, std::move(part), on_wall, behind);
+    on_wall += more_on_wall;
+    behind += more_behind;
+  }
   return all;
 }
 
@@ -88,25 +103,27 @@ WallPlacement placement_of(WallTreatment treatment) {
 int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
 
 template <int Dim>
-WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers) {
-  return sample_bodies(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = false});
+WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                        const SpaceShare& share) {
+  return sample_bodies(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = false, .share = share});
 }
 
 template <int Dim>
-WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing) {
-  return make_row_and_dummy_particles(boundary, spacing, 1);
+WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing, const SpaceShare& share) {
+  return make_row_and_dummy_particles(boundary, spacing, 1, share);
 }
 
 template <int Dim>
-WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers) {
-  return sample_bodies(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = true});
+WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                                const SpaceShare& share) {
+  return sample_bodies(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = true, .share = share});
 }
 
-template WallParticles<2> make_dummy_particles(const Boundary<2>&, double, int);
-template WallParticles<3> make_dummy_particles(const Boundary<3>&, double, int);
-template WallParticles<2> make_surface_particles(const Boundary<2>&, double);
-template WallParticles<3> make_surface_particles(const Boundary<3>&, double);
-template WallParticles<2> make_row_and_dummy_particles(const Boundary<2>&, double, int);
-template WallParticles<3> make_row_and_dummy_particles(const Boundary<3>&, double, int);
+template WallParticles<2> make_dummy_particles(const Boundary<2>&, double, int, const SpaceShare&);
+template WallParticles<3> make_dummy_particles(const Boundary<3>&, double, int, const SpaceShare&);
+template WallParticles<2> make_surface_particles(const Boundary<2>&, double, const SpaceShare&);
+template WallParticles<3> make_surface_particles(const Boundary<3>&, double, const SpaceShare&);
+template WallParticles<2> make_row_and_dummy_particles(const Boundary<2>&, double, int, const SpaceShare&);
+template WallParticles<3> make_row_and_dummy_particles(const Boundary<3>&, double, int, const SpaceShare&);
 
 }  // namespace tailwater

@@ -1,11 +1,13 @@
 // The particles that represent the walls.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/space_share.h"
 
 namespace tailwater {
 
@@ -21,10 +23,20 @@ struct WallParticles {
   std::vector<Mat<Dim>> blocked;
   std::vector<double> share;  ///< its volume, over dx^Dim
   std::vector<int> wall;      ///< index into Boundary::walls
-  std::size_t on_wall = 0;    ///< number of particles on the wall itself; they come first, those behind it after them
+  /// Unique, whichever share of the walls was made: of its place among all that were looked at. Those of particles on
+  /// the wall itself come first.
+  std::vector<std::int64_t> number;
+  std::int64_t numbers = 0;          ///< all numbers are below
+  std::int64_t numbers_on_wall = 0;  ///< and below this those of particles on the wall itself
 
   std::size_t size() const { return position.size(); }
-  bool is_on_wall(std::int32_t row) const { return static_cast<std::size_t>(row) < on_wall; }
+  bool is_on_wall(std::int32_t row) const { return number[row] < numbers_on_wall; }
+
+  /// Calls body with references to the entries of the particles.
+  template <class Body>
+  void apply_to_fields(Body&& body) {
+    body(position, normal, blocked, share, wall, number);
+  }
 };
 
 /// Where the particles of a wall treatment stand. Where some stand on the wall, the water's lattice has nodes there
@@ -45,16 +57,21 @@ int dummy_layers(const CaseSpec& spec);
 /// nearer than dx/2 to another, behind a second wall, or farther than 1.5 layers dx from its wall. In 3D: box walls
 /// only; nothing stands above an open face. Each body is sampled as if it were alone: when bodies separate nothing is
 /// missing, and their particles overlap only if the bodies do.
+///
+/// Of walls at rest only the particles in `share` are made; those of the other shares are the rest. All of walls that
+/// move are.
 template <int Dim>
-WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers);
+WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                        const SpaceShare& share = {});
 
 /// One row of particles on the wall itself (F36-F39), spaced dx, with its ends and all corners sharper than 30 degrees.
 template <int Dim>
-WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing);
+WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing, const SpaceShare& share = {});
 
 /// The same row on the wall and `layers` - 1 rows of dummies behind it, dx apart. On axis-parallel walls of a whole
 /// number of dx they are one lattice.
 template <int Dim>
-WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers);
+WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                                const SpaceShare& share = {});
 
 }  // namespace tailwater

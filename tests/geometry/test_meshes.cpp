@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <random>
 
 #include "base/error.h"
@@ -276,6 +277,34 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
     const double least = side == FluidSide::outside ? 1.0 : 0.9;
     EXPECT_GE(static_cast<double>(shared), least * static_cast<double>(box.size()));
   }
+}
+
+// Of two spheres that overlap, whose particles compete for cells.
+TEST(MeshWall, HasTheSameParticlesInShares) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.fluid = {box_fluid({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0})};
+  spec.walls = {folder.wall(sphere_mesh({0.03, 0.02, 0.01}, 0.55, 16), FluidSide::outside),
+                folder.wall(sphere_mesh({0.33, 0.22, 0.11}, 0.45, 16), FluidSide::outside)};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  const WallParticles<3> all = make_dummy_particles(boundary, 0.1, 3);
+  std::map<std::int64_t, std::size_t> row_of_number;
+  for (std::size_t row = 0; row < all.size(); ++row) row_of_number[all.number[row]] = row;
+  ASSERT_EQ(row_of_number.size(), all.size());
+  std::size_t made = 0;
+  for (int share = 0; share < 3; ++share) {
+    const WallParticles<3> part = make_dummy_particles(boundary, 0.1, 3, {.edge = 0.8, .share = share, .shares = 3});
+    EXPECT_LT(part.size(), all.size() * 3 / 4) << "no share has most";
+    made += part.size();
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      ASSERT_TRUE(row_of_number.contains(part.number[k])) << part.position[k].transpose();
+      const std::size_t row = row_of_number[part.number[k]];
+      EXPECT_EQ(part.position[k], all.position[row]);
+      EXPECT_EQ(part.share[k], all.share[row]);
+      EXPECT_EQ(part.wall[k], all.wall[row]);
+    }
+  }
+  EXPECT_EQ(made, all.size());
 }
 
 TEST(MeshWall, FillsTheSpaceBehindIt) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <vector>
 
 #include "cases.h"
 #include "geometry/sampling.h"
@@ -34,6 +36,14 @@ double least_distance(const WallParticles<Dim>& particles) {
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, (particles.position[i] - particles.position[j]).norm());
   }
   return least;
+}
+
+template <int Dim>
+int count_on_wall(const WallParticles<Dim>& particles) {
+  int count = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    count += particles.is_on_wall(static_cast<std::int32_t>(i)) ? 1 : 0;
+  return count;
 }
 
 template <int Dim>
@@ -218,13 +228,13 @@ TEST(SurfaceParticles, StandOnTheWallWithItsEndsAndCorners) {
 TEST(RowAndDummies, AreOneLatticeBehindTheWall) {
   const CaseSpec spec = tank();
   const WallParticles<2> rows = make_row_and_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
-  EXPECT_EQ(rows.on_wall, 6u + 11u + 6u);
+  EXPECT_EQ(count_on_wall(rows), 6 + 11 + 6);
   EXPECT_EQ(rows.size(), 3u * 7 * 2 + 9 * 3 + 2 * 3 * 2)
       << "sides from the rim to the floor, floor between, corners below";
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Vec<2>& x = rows.position[k];
     const double depth = std::max({-x[0], x[0] - 1.0, -x[1]});
-    EXPECT_EQ(k < rows.on_wall, depth < 0.05);
+    EXPECT_EQ(rows.is_on_wall(static_cast<std::int32_t>(k)), depth < 0.05);
     for (int d = 0; d < 2; ++d) EXPECT_NEAR(x[d] / 0.1, std::round(x[d] / 0.1), 1e-9) << x.transpose();
   }
 }
@@ -233,7 +243,7 @@ TEST(RowAndDummies, SurroundABoxIn3D) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};
   const WallParticles<3> nodes = make_row_and_dummy_particles<3>(make_boundary<3>(spec), 0.1, 3);
-  EXPECT_EQ(nodes.on_wall, 6u * 5 * 7 - 4 * 3 * 6);
+  EXPECT_EQ(count_on_wall(nodes), 6 * 5 * 7 - 4 * 3 * 6);
   EXPECT_EQ(nodes.size(), 10u * 9 * 9 - 4 * 3 * 6) << "two nodes more on each closed side";
   const int behind = find_at<3>(nodes, {-0.2, 0.2, -0.1});
   ASSERT_GE(behind, 0);
@@ -273,6 +283,69 @@ TEST(Dummies, FillTheTipOfASharpCrest) {
 
   spec.walls = {box_wall({0.0, 0.0}, {1.0, 1.0}, {}, FluidSide::outside)};
   EXPECT_EQ(make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3).size(), 100u - 16u);
+}
+
+/// Shares of space, in cubes of 8 dx, together have the particles of all space, each once and as it is there; but those
+/// of walls that move are in each.
+template <int Dim>
+void expect_shares_to_be_all(const Boundary<Dim>& boundary, double dx, bool starts_on_wall, int shares) {
+  const auto make = [&](const SpaceShare& share) {
+    return starts_on_wall ? make_row_and_dummy_particles(boundary, dx, 3, share)
+                          : make_dummy_particles(boundary, dx, 3, share);
+  };
+  const WallParticles<Dim> all = make({});
+  std::map<std::int64_t, std::size_t> row_of_number;
+  for (std::size_t row = 0; row < all.size(); ++row) row_of_number[all.number[row]] = row;
+  ASSERT_EQ(row_of_number.size(), all.size()) << "numbers are unique";
+  EXPECT_LT(row_of_number.rbegin()->first, all.numbers);
+  std::vector<int> made(all.size(), 0);
+  std::size_t most = 0;
+  for (int share = 0; share < shares; ++share) {
+    const WallParticles<Dim> part = make({.edge = 8.0 * dx, .share = share, .shares = shares});
+    EXPECT_EQ(part.numbers, all.numbers);
+    EXPECT_EQ(part.numbers_on_wall, all.numbers_on_wall);
+    most = std::max(most, part.size());
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      ASSERT_TRUE(row_of_number.contains(part.number[k])) << part.position[k].transpose();
+      const std::size_t row = row_of_number[part.number[k]];
+      ++made[row];
+      EXPECT_EQ(part.position[k], all.position[row]);
+      EXPECT_EQ(part.normal[k], all.normal[row]);
+      EXPECT_EQ(part.blocked[k], all.blocked[row]);
+      EXPECT_EQ(part.share[k], all.share[row]);
+      EXPECT_EQ(part.wall[k], all.wall[row]);
+    }
+  }
+  EXPECT_LT(most, all.size() * 3 / 4) << "no share has most";
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    EXPECT_EQ(made[row], boundary.walls[all.wall[row]].moves() ? shares : 1) << all.position[row].transpose();
+  }
+}
+
+TEST(SharesOfSpace, HaveAllParticlesOfATankWithAPlateAndABodyIn2D) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 2.0}, {0.0, 0.0}, {1.3, 0.21}, {2.6, 0.0}, {3.0, 0.0}, {3.0, 2.0}})};
+  spec.walls.push_back(box_wall({1.03, 0.9}, {1.52, 1.2}, {}, FluidSide::outside));
+  spec.walls.push_back(box_wall({2.0, 1.0}, {2.2, 1.4}, {}, FluidSide::outside));
+  spec.walls.back().displacement = {"0.1*t", 0.0};
+  for (const int shares : {2, 5}) {
+    expect_shares_to_be_all(make_boundary<2>(spec), 0.05, true, shares);
+    WallTable plate = polyline({{0.5, 0.0}, {0.5, 1.7}});
+    plate.shape = WallShape::plate;
+    spec.walls.push_back(plate);
+    expect_shares_to_be_all(make_boundary<2>(spec), 0.05, false, shares);
+    spec.walls.pop_back();
+  }
+}
+
+TEST(SharesOfSpace, HaveAllParticlesOfBoxesThatTouchIn3D) {
+  CaseSpec spec = empty_case(0.05, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.6, 1.0, 0.8}, {"+z"}),
+                box_wall({0.41, 0.43, 0}, {0.93, 0.81, 0.42}, {"-z"}, FluidSide::outside)};
+  for (const int shares : {2, 5}) {
+    expect_shares_to_be_all(make_boundary<3>(spec), 0.05, false, shares);
+    expect_shares_to_be_all(make_boundary<3>(spec), 0.05, true, shares);
+  }
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ struct WettedWall {
       walls.particles.normal.push_back(Vec<Dim>::UnitY());
       walls.particles.blocked.push_back(blocked);
       walls.particles.wall.push_back(0);
+      walls.particles.number.push_back(static_cast<std::int64_t>(walls.particles.number.size()));
       walls.friction.push_back(friction);
       walls.roughness.push_back(0.0);
       walls.depth.push_back(-set.position(i)[1]);
