@@ -1,5 +1,7 @@
 #include "probes/probe_set.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -133,12 +135,13 @@ std::vector<double> ProbeSet<Dim>::memory() const {
 }
 
 template <int Dim>
-void ProbeSet<Dim>::restore(std::span<const double> memory) {
-  const auto require = [](bool fits) {
+void ProbeSet<Dim>::restore(std::span<const double> memory, const std::filesystem::path& checkpoints) {
+  const auto require = [&](bool fits) {
     if (fits) return;
     throw IoError(
-        "what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the newest "
-        "checkpoint, to go on from the one before");
+        fmt::format("what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the "
+                    "newest file in '{}', to go on from the one before",
+                    checkpoints.string()));
   };
   for (const Instrument& instrument : instruments_) {
     const Reading<Dim>& reading = instrument.probe.reading;

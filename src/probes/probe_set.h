@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,8 +49,9 @@ class ProbeSet {
 
   /// What the probes remember, one after the other; that of the root counts.
   std::vector<double> memory() const;
-  /// Takes it up again. Throws IoError if it is not of these probes.
-  void restore(std::span<const double> memory);
+  /// Takes it up again. Throws IoError, which names the folder that the newest checkpoint is in, if it is not of these
+  /// probes.
+  void restore(std::span<const double> memory, const std::filesystem::path& checkpoints);
 
   /// The lines of a probe in the summary of the run.
   struct Summary {

@@ -43,7 +43,7 @@ class RunOutput {
   nlohmann::json saved() const;
   /// What the probes remember, and taking it up again (probe_set.h).
   std::vector<double> probe_memory() const { return probes_.memory(); }
-  void restore_probe_memory(std::span<const double> memory) { probes_.restore(memory); }
+  void restore_probe_memory(std::span<const double> memory) { probes_.restore(memory, folder_.checkpoints()); }
   /// Adds to it what the run has cost so far. Collective.
   void add_costs(nlohmann::json& saved) const;
 
