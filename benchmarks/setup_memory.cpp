@@ -48,7 +48,8 @@ void set_up(const CaseSpec& spec, const Communicator& ranks) {
   const Flow<Dim> flow(spec, ranks);
   tell(ranks, "flow", start);
   const std::size_t all = ranks.sum(flow.state.particles.owned);
-  if (ranks.is_root()) fmt::print("{} particles, {} rows of walls\n", all, flow.walls.particles.size());
+  const std::size_t rows = ranks.largest(flow.walls.particles.size());
+  if (ranks.is_root()) fmt::print("{} particles, {} rows of walls, at most {} on a rank\n", all, flow.walls.all, rows);
 }
 
 int run(int argc, char** argv) {

@@ -24,16 +24,13 @@ double reach_of_walls(const Setup<Dim>& setup) {
 }
 
 /// An equal share of all particles for each rank, wherever they stand: first its part of the fluid, then of the walls
-/// that are near. Ids are in the order of fluid and table.
+/// that move; the others come later. Ids are in the order of the fluid and of the walls' numbers.
 template <int Dim>
-Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls,
-                              const NearWalls<Dim>& near_walls) {
+Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls) {
   const auto fluid_count = static_cast<std::size_t>(fluid.all);
-  const std::vector<std::size_t> rows = indices_where(
-      walls.particles.size(), [&](std::size_t row) { return near_walls.is_near(static_cast<std::int32_t>(row)); });
   const auto ranks = static_cast<std::size_t>(setup.ranks.size());
   const auto rank = static_cast<std::size_t>(setup.ranks.rank());
-  const std::size_t all = fluid_count + rows.size();
+  const std::size_t all = fluid_count + walls.moving;
   const std::size_t first = all * rank / ranks;
   Particles<Dim> particles;
   particles.resize(all * (rank + 1) / ranks - first);
@@ -43,7 +40,7 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   for_each(particles.owned, [&](std::size_t i) {
     const std::size_t n = first + i;
     const bool is_fluid = n < fluid_count;
-    const std::size_t row = is_fluid ? 0 : rows[n - fluid_count];
+    const std::size_t row = is_fluid ? 0 : n - fluid_count;
     particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
     particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
@@ -52,7 +49,7 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
     particles.layer_viscosity[i] = 0.0;
     particles.wall_distance[i] = far_from_walls;
-    particles.id[i] = static_cast<std::int64_t>(is_fluid ? n : fluid_count + row);
+    particles.id[i] = is_fluid ? static_cast<std::int64_t>(n) : setup.first_wall_id + walls.particles.number[row];
   });
   return particles;
 }
@@ -71,13 +68,14 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
       pressure_rows(ranks),
       pressure_solver(spec.pressure_solver, setup.rows_deep),
       walls(std::move(drawing.walls)),
-      near_walls(walls, setup.domain, reach_of_walls(setup)) {
+      shared_rows(std::move(drawing.shared_rows)),
+      near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {
   Particles<Dim>& particles = state.particles;
-  particles = make_particles(setup, drawing.fluid, walls, near_walls);
+  particles = make_particles(setup, drawing.fluid, walls);
   drawing.fluid = {};
   decomposition.share_out(particles, neighbourhood.work(particles));
   end_of.assign(particles.owned, -1);
-  state.wall_velocity.assign(walls.particles.size(), Vec<Dim>::Zero());
+  state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion.wave_makers.resize(setup.wave_plates.size());
   for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
@@ -93,7 +91,11 @@ void Flow<Dim>::restore(State<Dim> saved) {
   neighbourhood.forget(state.particles);
   end_of.assign(state.particles.owned, -1);
   here = {};
-  near_walls.restore(setup.ranks, state.particles);
+  [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
+  TAILWATER_ASSERT(are_found, "the state is of this case");
+  // As after sharing out, so that a run that goes on asks for the same rows as one that never stopped.
+  shared_rows.drop_guests(walls, state.particles);
+  near_walls.restore(walls, state.particles);
   place_walls(*this, state.time);
 }
 

@@ -20,8 +20,8 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles and walls of a case. Each rank keeps its share of the particles; all ranks have the faces of
-  /// all walls. Collective. Throws InputError for an impossible geometry.
+  /// Builds the particles and walls of a case. Each rank keeps its share of the particles and of the rows of walls; all
+  /// ranks have the faces of all walls. Collective. Throws InputError for an impossible geometry.
   explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
 
   Setup<Dim> setup;
@@ -35,7 +35,8 @@ struct Flow {
 
   // Now.
   Walls<Dim> walls;                  ///< at their present positions
-  NearWalls<Dim> near_walls;         ///< which of their rows are among the particles
+  SharedRows<Dim> shared_rows;       ///< where other rows are, if there are other ranks
+  NearWalls<Dim> near_walls;         ///< which rows are among the particles
   Surroundings<Dim> here;            ///< as `locate` found them
   bool is_located = false;           ///< whether no particle has moved since
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
@@ -45,7 +46,7 @@ struct Flow {
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
 
-  /// Continues from `saved`, a state of the same case on the same number of ranks.
+  /// Continues from `saved`, a state of the same case. Collective.
   void restore(State<Dim> saved);
 
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }

@@ -4,31 +4,44 @@
 namespace tailwater {
 namespace {
 
-/// Makes particles of those of the rows that stand in this rank's part of space. Ghosts and lists are forgotten.
+/// Where the particle of a row of the table stands.
 template <int Dim>
-void add_walls(Flow<Dim>& flow, std::span<const std::int32_t> rows) {
+Vec<Dim> place_of_row(const Flow<Dim>& flow, std::int32_t row) {
+  return flow.neighbourhood.wrapped(flow.walls.particles.position[row]);
+}
+
+/// Hands rows to the ranks in whose parts of space they stand; returns those that came, or were here.
+template <int Dim>
+std::vector<std::int32_t> hand_to_owners(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
   const Communicator& ranks = flow.setup.ranks;
+  if (ranks.is_alone()) return rows;
+  std::vector<std::vector<std::int32_t>> sent(static_cast<std::size_t>(ranks.size()));
+  for (const std::int32_t row : rows) sent[flow.decomposition.cuts().part_of(place_of_row(flow, row))].push_back(row);
+  std::vector<std::int32_t> own = std::move(sent[ranks.rank()]);
+  sent[ranks.rank()].clear();
+  const std::size_t first = flow.shared_rows.hand_out(flow.walls, sent);
+  for (std::size_t row = first; row < flow.walls.particles.size(); ++row) own.push_back(static_cast<std::int32_t>(row));
+  return own;
+}
+
+/// Makes particles of those of all ranks' rows that stand in this rank's part of space. Ghosts and lists are forgotten.
+template <int Dim>
+void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
   Particles<Dim>& particles = flow.state.particles;
-  const auto place_of = [&](std::int32_t row) {
-    return flow.neighbourhood.wrapped(flow.walls.particles.position[row]);
-  };
-  std::vector<std::int32_t> own;
-  for (const std::int32_t row : rows) {
-    if (ranks.is_alone() || flow.decomposition.cuts().part_of(place_of(row)) == ranks.rank()) own.push_back(row);
-  }
+  const std::vector<std::int32_t> own = hand_to_owners(flow, std::move(rows));
   flow.neighbourhood.forget(particles);
   const std::size_t before = particles.owned;
   particles.owned += own.size();
   particles.resize(particles.owned);
   for_each(own.size(), [&](std::size_t n) {
     const std::size_t i = before + n;
-    particles.position[i] = place_of(own[n]);
+    particles.position[i] = place_of_row(flow, own[n]);
     particles.velocity[i].setZero();
     particles.pressure[i] = 0.0;
     particles.volume[i] = flow.walls.particles.share[own[n]] * power<Dim>(flow.setup.spacing);
     particles.kind[i] = ParticleKind::wall;
     particles.wall_row[i] = own[n];
-    particles.id[i] = flow.setup.first_wall_id + own[n];
+    particles.id[i] = flow.setup.first_wall_id + flow.walls.particles.number[own[n]];
   });
   flow.end_of.resize(particles.owned, -1);
 }
@@ -38,20 +51,21 @@ void add_walls(Flow<Dim>& flow, std::span<const std::int32_t> rows) {
 template <int Dim>
 void gather_walls(Flow<Dim>& flow) {
   if (!flow.setup.ranks.any(flow.near_walls.misses_some(flow.state.particles))) return;
-  add_walls<Dim>(flow, flow.near_walls.update(flow.setup.ranks, flow.state.particles, false));
+  add_walls<Dim>(flow, flow.near_walls.update(flow.walls, flow.state.particles, false));
 }
 
 template <int Dim>
 void regather_walls(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
-  const std::vector<std::int32_t> arrived = flow.near_walls.update(flow.setup.ranks, particles, true);
+  std::vector<std::int32_t> arrived = flow.near_walls.update(flow.walls, particles, true);
   const std::vector<std::size_t> kept = indices_where(particles.owned, [&](std::size_t i) {
-    return particles.is_fluid(i) || flow.near_walls.is_near(particles.wall_row[i]);
+    return particles.is_fluid(i) || flow.near_walls.is_near(flow.walls, particles.wall_row[i]);
   });
   if (kept.size() < particles.owned) {
     flow.neighbourhood.keep(particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
   }
-  add_walls<Dim>(flow, arrived);
+  flow.shared_rows.drop_guests(flow.walls, particles);
+  add_walls<Dim>(flow, std::move(arrived));
 }
 
 #define TAILWATER_INSTANTIATE(Dim)             \

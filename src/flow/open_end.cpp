@@ -362,7 +362,7 @@ bool let_in(Flow<Dim>& flow) {
         end.circuit < 0 ? find_entrants(end, state, flow, std::nullopt) : find_returning(end, state, flow);
     if (entrants.empty()) continue;
     some_came = true;
-    std::int64_t first_id = setup.first_wall_id + static_cast<std::int64_t>(flow.walls.particles.size());
+    std::int64_t first_id = setup.first_wall_id + flow.walls.particles.numbers;
     for (const OpenEndState& any : flow.state.open_ends) first_id += any.arrived.particles;
     add_water(flow, entrants, first_id);
     for (const Entrant<Dim>& entrant : entrants) {

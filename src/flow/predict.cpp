@@ -49,7 +49,8 @@ void add_friction(Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const bool is_in_laplacian = setup.scheme.laplacian == LaplacianKind::consistent && setup.wall_traits.shows_friction;
-  const bool is_slippery = std::ranges::all_of(flow.walls.friction, [](double lambda) { return lambda == 0.0; });
+  const bool is_slippery =
+      std::ranges::all_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction == 0.0; });
   if (!is_in_laplacian && !is_slippery) {
     const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
     std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());

@@ -23,13 +23,23 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   return periodic;
 }
 
+/// [dx]; edge of the cubes of space of which each rank makes the walls. Around a cube rows are made, and thrown away,
+/// to find out which have room at its border.
+constexpr double cube_over_spacing = 32.0;
+
+/// The walls with the rows in this rank's share of space.
 template <int Dim>
-Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model) {
+Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks) {
   Walls<Dim> walls;
   walls.boundary = make_boundary<Dim>(spec);
   walls.boundary.file_faces(search_distance * spec.particles.spacing);
-  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec));
+  const SpaceShare share{
+      .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
+  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share);
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
+  for (std::vector<double>* field : {&walls.friction, &walls.roughness, &walls.depth}) {
+    field->reserve(walls.particles.size());
+  }
   for (std::size_t row = 0; row < walls.particles.size(); ++row) {
     const WallProperties& wall = walls.boundary.walls[walls.particles.wall[row]];
     walls.friction.push_back(wall.friction);
@@ -47,12 +57,6 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   if (fluid.all == 0) return 0.0;
   if (gravity.norm() == 0.0) return fluid.box().sizes().maxCoeff() + spacing;
   return fluid.extent_along(gravity.normalized()) + spacing;
-}
-
-/// Wall particles that are among the particles from the start: those that move.
-template <int Dim>
-std::int64_t moving_rows(const Walls<Dim>& walls) {
-  return std::ranges::count_if(walls.particles.wall, [&](int wall) { return walls.boundary.walls[wall].moves(); });
 }
 
 bool asks_for_wall_forces(const ProbeTable& probe) { return probe.type == ProbeType::force; }
@@ -95,9 +99,10 @@ std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const Communicator& ranks)
     : wall_model(make_wall_model<Dim>(spec.scheme.walls)),
-      walls(make_walls(spec, *wall_model)),
+      walls(make_walls(spec, *wall_model, ranks)),
+      shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
-      fluid(make_fluid_particles(spec, walls.boundary, ranks, moving_rows(walls))) {}
+      fluid(make_fluid_particles(spec, walls.boundary, ranks, static_cast<std::int64_t>(walls.moving))) {}
 
 template <int Dim>
 Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<Dim>& drawing)

@@ -16,12 +16,14 @@
 #include "neighbours/halo.h"
 #include "operators/lattice.h"
 #include "parallel/communicator.h"
+#include "walls/shared_rows.h"
 #include "walls/wall_friction.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
 
-/// The walls of a case, and this rank's part of its water at the start.
+/// The walls of a case, of which all ranks have the faces, and this rank's part of their rows and of the water at the
+/// start.
 template <int Dim>
 struct Drawing {
   /// Throws InputError for an impossible geometry. Collective.
@@ -29,6 +31,7 @@ struct Drawing {
 
   std::shared_ptr<const WallModel<Dim>> wall_model;
   Walls<Dim> walls;
+  SharedRows<Dim> shared_rows;
   WallMotion<Dim> wall_motion;
   FluidParticles<Dim> fluid;
 };
@@ -42,7 +45,7 @@ struct Setup {
   SchemeTable scheme;
   double density;              ///< kg/m^3
   double spacing;              ///< m
-  std::int64_t first_wall_id;  ///< of the first row of the table of wall particles
+  std::int64_t first_wall_id;  ///< of a wall particle of number 0
   Vec<Dim> gravity;            ///< m/s^2
   double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   double rows_deep;  ///< the fluid's height along gravity at the start, in particles

@@ -17,8 +17,7 @@ struct State {
   std::int64_t step = 0;
   /// The owned ones with their order; ghosts are recomputed. Walls that move are where `time` says.
   Particles<Dim> particles;
-  std::vector<Vec<Dim>>
-      wall_velocity;  ///< m/s; of each row of the table of wall particles, at the end of the last step
+  std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of walls that move, at the end of the last step
   std::vector<OpenEndState> open_ends;  ///< one per inlet, then one per outlet
   std::vector<double> section_volumes;  ///< m^Dim; one per discharge probe: what has passed its section, with sign
   MotionState<Dim> motion;              ///< of wave makers and floating bodies

@@ -15,12 +15,12 @@ template <int Dim>
 struct StepStart {
   std::vector<Vec<Dim>> position;       ///< m; r^n
   std::vector<Vec<Dim>> velocity;       ///< m/s; u^n
-  std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of the table of wall particles
+  std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of walls that move
   double energy = 0.0;                  ///< J; of this rank's fluid
   std::vector<Twist<Dim>> body_velocity = {};
 };
 
-/// Where the walls are driven in a step, by row of the table of wall particles.
+/// Where the walls are driven in a step, by row of walls that move.
 template <int Dim>
 struct WallDrive {
   std::vector<Vec<Dim>> velocity;      ///< m/s; that the projection gives the fluid beside them

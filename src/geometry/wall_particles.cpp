@@ -83,6 +83,7 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
     on_wall += more_on_wall;
     behind += more_behind;
   }
+  all.apply_to_fields([](auto&... field) { (field.shrink_to_fit(), ...); });
   return all;
 }
 

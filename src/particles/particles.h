@@ -21,7 +21,8 @@ struct Particles {
   std::vector<double> pressure;    ///< Pa
   std::vector<double> volume;      ///< m^Dim
   std::vector<ParticleKind> kind;
-  /// For a wall particle its row in the table of WallParticles; -1 for fluid.
+  /// For a wall particle its row in this rank's table of walls; -1 for fluid. Found anew from the id wherever particles
+  /// or ghosts arrive.
   std::vector<std::int32_t> wall_row;
   /// m^2/s; nu~ of Spalart & Allmaras, 0 where there is no boundary layer (closures/spalart_allmaras.h).
   std::vector<double> layer_viscosity;

@@ -22,8 +22,8 @@ constexpr double fading_rate = 1.4;
 template <int Dim>
 double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
-  return dt * particles.volume[i] *
-         push_of_wall_particle(flow, i, particles.pressure).dot(flow.state.wall_velocity[particles.wall_row[i]]);
+  const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
+  return dt * particles.volume[i] * push_of_wall_particle(flow, i, particles.pressure).dot(V);
 }
 
 /// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done

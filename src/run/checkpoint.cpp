@@ -18,8 +18,10 @@
 namespace tailwater {
 namespace {
 
+/// Rows in a rank's table of walls are found anew, from ids.
+constexpr const char* not_saved = nullptr;
 constexpr std::array particle_fields{"position", "velocity",        "pressure",      "volume", "kind",
-                                     "wall_row", "layer_viscosity", "wall_distance", "id"};
+                                     not_saved,  "layer_viscosity", "wall_distance", "id"};
 
 /// How an HDF5 file holds a value: as `columns` numbers.
 template <class Value>
@@ -57,13 +59,17 @@ std::vector<Value> get(const Hdf5Reader& file, const std::string& name) {
   return values;
 }
 
-/// Calls body with each field of particles and its name.
+/// Calls body with each field of particles that is saved, and its name.
 template <int Dim, class Body>
 void for_each_field(Particles<Dim>& particles, Body&& body) {
   particles.apply_to_fields([&](auto&... field) {
     static_assert(sizeof...(field) == particle_fields.size(), "every field has a name");
     std::size_t k = 0;
-    (body(particle_fields[k++], field), ...);
+    const auto visit = [&](auto& each) {
+      const char* name = particle_fields[k++];
+      if (name != not_saved) body(name, each);
+    };
+    (visit(field), ...);
   });
 }
 
@@ -358,6 +364,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
     field = ranks.scatter(all, shares);
   });
   state.particles.owned = state.particles.size();
+  state.particles.resize(state.particles.owned);
   const auto give_to_all = [&]<class Value>(const char* name, std::vector<Value>& values) {
     do_on_root(ranks, [&] {
       expecting_a_checkpoint(file.path, [&] {

@@ -156,7 +156,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   RunEstimate estimate;
   const std::size_t fluid =
       count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
-  estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.walls.particles.size())};
+  estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.walls.all)};
   const double neighbours = neighbours_in_support<Dim>(spec.scheme.support);
   estimate.memory = memory_estimate<Dim>(estimate.particles, neighbours);
   const double particles = estimate.particles.fluid + estimate.particles.wall;

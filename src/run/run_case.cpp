@@ -61,10 +61,9 @@ class Run {
  private:
   /// Whether walls, what drives them, and open ends of the state are those of the case.
   bool fits(const State<Dim>& state) const {
-    const std::size_t rows = flow_.walls.particles.size();
     const std::size_t misplaced = count_each(state.particles.owned, [&](std::size_t i) {
-      const std::int32_t row = state.particles.wall_row[i];
-      return state.particles.is_fluid(i) ? row != -1 : row < 0 || static_cast<std::size_t>(row) >= rows;
+      const std::int64_t number = state.particles.id[i] - flow_.setup.first_wall_id;
+      return !state.particles.is_fluid(i) && (number < 0 || number >= flow_.walls.particles.numbers);
     });
     std::size_t ways = 0;
     for (const FloatingBody<Dim>& body : flow_.setup.bodies) ways += body.free.size();
@@ -78,7 +77,8 @@ class Run {
   }
 
   void go_on_from(Checkpoint<Dim>& checkpoint) {
-    if (flow_.setup.ranks.any(!fits(checkpoint.state))) {
+    if (flow_.setup.ranks.any(!fits(checkpoint.state)) ||
+        !flow_.shared_rows.find_rows(flow_.walls, checkpoint.state.particles, 0, flow_.setup.first_wall_id)) {
       throw IoError(fmt::format(
           "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
           "file in '{}', to go on from the one before",

@@ -310,7 +310,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"warnings", warnings()},
                                     {"spacing_m", spec_.particles.spacing},
                                     {"seed", spec_.particles.seed},
-                                    {"particles", {{"fluid", fluid}, {"wall", flow.walls.particles.size()}}},
+                                    {"particles", {{"fluid", fluid}, {"wall", flow.walls.all}}},
                                     {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
                                     {"cost",
                                      {{"runs", runs_before_ + 1},

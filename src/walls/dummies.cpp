@@ -49,8 +49,9 @@ class Dummies final : public WallModel<Dim> {
     return {.pairs = WallRows::fluid_only, .shows_friction = false, .pulls = false};
   }
 
-  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const override {
-    return make_dummy_particles(boundary, spacing, layers);
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                    const SpaceShare& share) const override {
+    return make_dummy_particles(boundary, spacing, layers, share);
   }
 
   void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
@@ -62,10 +63,11 @@ class Dummies final : public WallModel<Dim> {
       const Vec<Dim> mean =
           fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
       const auto row = scene.particles.wall_row[i];
-      const Vec<Dim> relative = mean - V[row];
+      const Vec<Dim> own = entry_of<Dim>(V, row);
+      const Vec<Dim> relative = mean - own;
       const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
       const Vec<Dim> tangential_part = relative - normal_part;
-      velocity[i] = V[row] + tangential_part - normal_part;
+      velocity[i] = own + tangential_part - normal_part;
     });
   }
 
@@ -78,7 +80,7 @@ class Dummies final : public WallModel<Dim> {
       if (scene.here.is_wet[i]) {
         mean = fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
       }
-      const Vec<Dim>& wall_velocity = V[scene.particles.wall_row[i]];
+      const Vec<Dim> wall_velocity = entry_of<Dim>(V, scene.particles.wall_row[i]);
       no_slip[i] = (wall_velocity - mean) + wall_velocity;
     });
   }

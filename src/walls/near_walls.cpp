@@ -9,23 +9,27 @@ namespace {
 
 constexpr std::int32_t nowhere = -1;
 
+/// Around the wall particles of all ranks that do not move; at the origin if there are none.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_of_resting(const Communicator& ranks, const Walls<Dim>& walls) {
+  Eigen::AlignedBox<double, Dim> own;
+  for (std::size_t row = walls.moving; row < walls.kept; ++row) own.extend(walls.particles.position[row]);
+  Eigen::AlignedBox<double, Dim> box;
+  for (const Eigen::AlignedBox<double, Dim>& part : ranks.all_gather(own)) box.extend(part);
+  if (box.isEmpty()) box.extend(Vec<Dim>::Zero());
+  return box;
+}
+
 }  // namespace
 
 template <int Dim>
-NearWalls<Dim>::NearWalls(const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach)
-    : images_(image_shifts<Dim>(domain)), edge_(reach) {
+NearWalls<Dim>::NearWalls(const Communicator& ranks, const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain,
+                          double reach)
+    : ranks_(ranks), images_(image_shifts<Dim>(domain)), edge_(reach) {
   const std::vector<Vec<Dim>>& position = walls.particles.position;
-  always_near_.resize(position.size());
-  for_each(position.size(),
-           [&](std::size_t row) { always_near_[row] = walls.boundary.walls[walls.particles.wall[row]].moves(); });
-
-  Eigen::AlignedBox<double, Dim> box;
-  for (std::size_t row = 0; row < position.size(); ++row) {
-    if (!always_near_[row]) box.extend(position[row]);
-  }
-  if (box.isEmpty()) box.extend(Vec<Dim>::Zero());
+  const Eigen::AlignedBox<double, Dim> box = box_of_resting(ranks, walls);
   // A few distant walls must not make the grid huge. Coarser cells only bring more walls near.
-  const double most_cells = 64.0 * static_cast<double>(position.size()) + 1e5;
+  const double most_cells = 64.0 * static_cast<double>(walls.all) + 1e5;
   while ((box.sizes() / edge_).array().ceil().cwiseMax(1.0).prod() > most_cells) edge_ *= 2.0;
   origin_ = box.min() - Vec<Dim>::Constant(edge_);
   std::size_t cells = 1;
@@ -35,24 +39,15 @@ NearWalls<Dim>::NearWalls(const Walls<Dim>& walls, const PeriodicDomain<Dim>& do
   }
   is_near_.assign(cells, 0);
 
-  cell_of_row_.assign(position.size(), 0);
-  row_begin_.assign(cells + 1, 0);
-  for (std::size_t row = 0; row < position.size(); ++row) {
-    if (always_near_[row]) continue;
-    cell_of_row_[row] = cell_of(position[row]);
-    ++row_begin_[cell_of_row_[row] + 1];
-  }
-  for (std::size_t cell = 0; cell < cells; ++cell) row_begin_[cell + 1] += row_begin_[cell];
-  rows_.resize(row_begin_.back());
-  std::vector<std::int32_t> next(row_begin_.begin(), row_begin_.end() - 1);
-  for (std::size_t row = 0; row < position.size(); ++row) {
-    if (!always_near_[row]) rows_[next[cell_of_row_[row]]++] = static_cast<std::int32_t>(row);
-  }
+  std::vector<int> has_rows(cells, 0);
+  for (std::size_t row = walls.moving; row < walls.kept; ++row) has_rows[cell_of(position[row])] = 1;
+  ranks.largest_of_each(has_rows);
+  has_rows_.assign(has_rows.begin(), has_rows.end());
   find_covered();
 }
 
 template <int Dim>
-std::vector<std::int32_t> NearWalls<Dim>::update(const Communicator& ranks, const Particles<Dim>& particles,
+std::vector<std::int32_t> NearWalls<Dim>::update(const Walls<Dim>& walls, const Particles<Dim>& particles,
                                                  bool drops_far) {
   std::vector<int> is_wet(is_near_.size(), 0);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: many particles mark one cell
@@ -62,7 +57,7 @@ std::vector<std::int32_t> NearWalls<Dim>::update(const Communicator& ranks, cons
       if (cell != nowhere) is_wet[cell] = 1;
     }
   }
-  ranks.largest_of_each(is_wet);
+  ranks_.largest_of_each(is_wet);
 
   const std::vector<std::uint8_t> was_near = is_near_;
   if (drops_far) std::fill(is_near_.begin(), is_near_.end(), 0);
@@ -71,9 +66,9 @@ std::vector<std::int32_t> NearWalls<Dim>::update(const Communicator& ranks, cons
   }
   find_covered();
   std::vector<std::int32_t> arrived;
-  for (std::size_t cell = 0; cell < is_near_.size(); ++cell) {
-    if (!is_near_[cell] || was_near[cell]) continue;
-    arrived.insert(arrived.end(), rows_.begin() + row_begin_[cell], rows_.begin() + row_begin_[cell + 1]);
+  for (std::size_t row = walls.moving; row < walls.kept; ++row) {
+    const std::int32_t cell = cell_of(walls.particles.position[row]);
+    if (is_near_[cell] && !was_near[cell]) arrived.push_back(static_cast<std::int32_t>(row));
   }
   return arrived;
 }
@@ -89,13 +84,13 @@ bool NearWalls<Dim>::misses_some(const Particles<Dim>& particles) const {
 }
 
 template <int Dim>
-void NearWalls<Dim>::restore(const Communicator& ranks, const Particles<Dim>& particles) {
+void NearWalls<Dim>::restore(const Walls<Dim>& walls, const Particles<Dim>& particles) {
   std::vector<int> is_near(is_near_.size(), 0);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: many particles mark one cell
-    if (!particles.is_fluid(i) && !always_near_[particles.wall_row[i]])
-      is_near[cell_of_row_[particles.wall_row[i]]] = 1;
+    if (particles.is_fluid(i) || static_cast<std::size_t>(particles.wall_row[i]) < walls.moving) continue;
+    is_near[cell_of(walls.particles.position[particles.wall_row[i]])] = 1;
   }
-  ranks.largest_of_each(is_near);
+  ranks_.largest_of_each(is_near);
   is_near_.assign(is_near.begin(), is_near.end());
   find_covered();
 }
@@ -137,7 +132,7 @@ template <int Dim>
 void NearWalls<Dim>::find_covered() {
   is_covered_.assign(is_near_.size(), 1);
   for (std::size_t cell = 0; cell < is_near_.size(); ++cell) {
-    if (is_near_[cell] || row_begin_[cell] == row_begin_[cell + 1]) continue;
+    if (is_near_[cell] || !has_rows_[cell]) continue;
     for_each_beside(static_cast<std::int32_t>(cell), [&](std::int32_t c) { is_covered_[c] = 0; });
   }
 }

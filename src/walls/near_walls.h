@@ -16,20 +16,22 @@ template <int Dim>
 class NearWalls {
  public:
   /// No wall is near yet, but for those that move, which always are. `reach` [m] is how far water feels walls, and how
-  /// far it moves in a step.
-  NearWalls(const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach);
+  /// far it moves in a step. Collective.
+  NearWalls(const Communicator& ranks, const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach);
 
-  /// Finds which walls are near, and returns the rows of the table that were not before. Those that no longer are stay
-  /// near unless `drops_far`. All ranks get the same rows. Collective.
-  std::vector<std::int32_t> update(const Communicator& ranks, const Particles<Dim>& particles, bool drops_far);
+  /// Finds which walls are near, and returns those of the rows kept here that were not before. Those that no longer are
+  /// stay near unless `drops_far`. Collective.
+  std::vector<std::int32_t> update(const Walls<Dim>& walls, const Particles<Dim>& particles, bool drops_far);
 
-  bool is_near(std::int32_t row) const { return always_near_[row] || is_near_[cell_of_row_[row]]; }
+  bool is_near(const Walls<Dim>& walls, std::int32_t row) const {
+    return static_cast<std::size_t>(row) < walls.moving || is_near_[cell_of(walls.particles.position[row])] != 0;
+  }
 
   /// Whether water of this rank is where walls that it may reach are not near.
   bool misses_some(const Particles<Dim>& particles) const;
 
   /// Takes the walls that are among the particles of all ranks as those that are near. Collective.
-  void restore(const Communicator& ranks, const Particles<Dim>& particles);
+  void restore(const Walls<Dim>& walls, const Particles<Dim>& particles);
 
  private:
   std::int32_t cell_of(const Vec<Dim>& place) const;
@@ -37,16 +39,14 @@ class NearWalls {
   void for_each_beside(std::int32_t cell, Visit&& visit) const;
   void find_covered();
 
+  Communicator ranks_;
   std::vector<Vec<Dim>> images_;  ///< m; shifts of the water to its periodic images and to itself
   Vec<Dim> origin_ = Vec<Dim>::Zero();
   double edge_;                            ///< m
   std::array<std::int32_t, Dim> count_{};  ///< cells per direction: those that hold rows, and one more on each side
-  std::vector<std::uint8_t> always_near_;  ///< by row: on a moving wall
-  std::vector<std::int32_t> cell_of_row_;
-  std::vector<std::int32_t> row_begin_;   ///< by cell, of rows_
-  std::vector<std::int32_t> rows_;        ///< of resting walls, cell by cell
-  std::vector<std::uint8_t> is_near_;     ///< by cell
-  std::vector<std::uint8_t> is_covered_;  ///< by cell: whether all rows in it and beside it are near
+  std::vector<std::uint8_t> has_rows_;     ///< by cell: of walls at rest, on any rank
+  std::vector<std::uint8_t> is_near_;      ///< by cell
+  std::vector<std::uint8_t> is_covered_;   ///< by cell: whether all rows in it and beside it are near
 };
 
 }  // namespace tailwater

@@ -15,10 +15,11 @@ void OnWall<Dim>::show_velocity(const WallScene<Dim>& scene, std::span<const Vec
     const Vec<Dim> mean =
         fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
     const auto row = scene.particles.wall_row[i];
-    const Vec<Dim> relative = mean - V[row];
+    const Vec<Dim> own = entry_of<Dim>(V, row);
+    const Vec<Dim> relative = mean - own;
     const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
     const Vec<Dim> tangential_part = relative - normal_part;
-    velocity[i] = V[row] + (1.0 - scene.walls.friction[row]) * tangential_part;
+    velocity[i] = own + (1.0 - scene.walls.friction[row]) * tangential_part;
   });
 }
 
@@ -26,7 +27,7 @@ template <int Dim>
 void OnWall<Dim>::find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                                         std::span<const Vec<Dim>> /*velocity*/, std::span<Vec<Dim>> no_slip) const {
   for_each(scene.pairs.owned(), [&](std::size_t i) {
-    if (!scene.particles.is_fluid(i)) no_slip[i] = V[scene.particles.wall_row[i]];
+    if (!scene.particles.is_fluid(i)) no_slip[i] = entry_of<Dim>(V, scene.particles.wall_row[i]);
   });
 }
 

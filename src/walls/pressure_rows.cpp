@@ -35,8 +35,9 @@ class PressureRows final : public OnWall<Dim> {
  public:
   WallTraits traits() const override { return {.needs_tensors = true}; }
 
-  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int /*layers*/) const override {
-    return make_surface_particles(boundary, spacing);
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int /*layers*/,
+                                    const SpaceShare& share) const override {
+    return make_surface_particles(boundary, spacing, share);
   }
 
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {

@@ -27,8 +27,9 @@ class RowAndDummies final : public OnWall<Dim> {
  public:
   WallTraits traits() const override { return {.solves_on_wall = true, .gravity_in_prediction = true}; }
 
-  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const override {
-    return make_row_and_dummy_particles(boundary, spacing, layers);
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                    const SpaceShare& share) const override {
+    return make_row_and_dummy_particles(boundary, spacing, layers, share);
   }
 
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>&, LinearSystem& system) const override {

@@ -63,7 +63,7 @@ RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLa
   RubbingWall<Dim> wall;
   visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
     wall.weight += weight;
-    wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - V[row]);
+    wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - entry_of<Dim>(V, row));
     wall.distance += weight * (scene.pairs.d(i, k).dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
     wall.roughness += weight * scene.walls.roughness[row];
   });
@@ -106,9 +106,10 @@ void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
   for_each(scene.pairs.owned(), [&](std::size_t w) {
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
+    const Vec<Dim> own = entry_of<Dim>(V, row);
     const Vec<Dim> sum = sum_over_fluid(scene.pairs, particles, w, [&](std::int32_t i, std::size_t k) -> Vec<Dim> {
       const double weight = friction_weight(scene, row, particles.volume[i], w, k, law.spacing);
-      return weight * (law.viscosity * (velocity[i] - no_slip[w]) + excess_viscosity[i] * (velocity[i] - V[row]));
+      return weight * (law.viscosity * (velocity[i] - no_slip[w]) + excess_viscosity[i] * (velocity[i] - own));
     });
     force[w] = particles.volume[w] * along_wall<Dim>(scene, row, sum);
   });

@@ -18,7 +18,8 @@
 
 namespace tailwater {
 
-/// The walls of a case at their present positions.
+/// The walls of a case at their present positions. The table has first the rows of walls that move, on all ranks, then
+/// those that this rank keeps of walls at rest, each of these two by number, then guests (shared_rows.h).
 template <int Dim>
 struct Walls {
   Boundary<Dim> boundary;         ///< faces
@@ -26,7 +27,22 @@ struct Walls {
   std::vector<double> friction;   ///< lambda of each row of the table: 0 free slip, 1 no slip
   std::vector<double> roughness;  ///< m; k_s of each row
   std::vector<double> depth;      ///< m; of each row behind its wall, where it has friction
+  std::size_t moving = 0;         ///< rows of walls that move
+  std::size_t kept = 0;           ///< rows without guests
+  std::int64_t all = 0;           ///< rows of the case, of all ranks
+
+  /// Calls body with references to all that rows have.
+  template <class Body>
+  void apply_to_rows(Body&& body) {
+    particles.apply_to_fields([&](auto&... field) { body(field..., friction, roughness, depth); });
+  }
 };
+
+/// Of a row of the table, in a field that has entries for the rows of moving walls: of the others it is 0.
+template <int Dim>
+Vec<Dim> entry_of(std::span<const Vec<Dim>> field, std::int32_t row) {
+  return static_cast<std::size_t>(row) < field.size() ? field[row] : Vec<Dim>(Vec<Dim>::Zero());
+}
 
 /// What the rest of the step needs to know about a model.
 struct WallTraits {
@@ -64,10 +80,10 @@ template <int Dim>
 struct WallForce {
   double density;                          ///< kg/m^3
   Vec<Dim> gravity;                        ///< m/s^2
-  std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each row of the table, along the directions the wall blocks
+  std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each moving row, along the directions the wall blocks
 
   /// g - a at a row of the table.
-  Vec<Dim> felt(std::int32_t row) const { return gravity - acceleration[row]; }
+  Vec<Dim> felt(std::int32_t row) const { return gravity - entry_of<Dim>(acceleration, row); }
 
   /// By how much the pressure at wall particle i exceeds that at a place from which the particle is d [m] away:
   /// rho (g - a) . d, the hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho
@@ -84,12 +100,14 @@ class WallModel {
 
   virtual WallTraits traits() const = 0;
 
-  /// The particles that represent the walls. A model with rows behind the wall makes `layers` of them.
-  virtual WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers) const = 0;
+  /// The particles that represent the walls, in a share of space (wall_particles.h). A model with rows behind the wall
+  /// makes `layers` of them.
+  virtual WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                            const SpaceShare& share) const = 0;
 
   /// Sets the entries of owned wall particles in `velocity`. They follow from its fluid entries, which must be up to
-  /// date on ghosts, and from the walls' own velocity `V` [m/s], one entry per row of the table. Dry wall particles
-  /// get 0.
+  /// date on ghosts, and from the walls' own velocity `V` [m/s], one entry per moving row of the table. Dry wall
+  /// particles get 0.
   virtual void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<Vec<Dim>> velocity) const = 0;
 

@@ -337,6 +337,29 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
   }
 }
 
+// In a tank most of which is dry a rank has the rows whose home it is, and those of its particles and ghosts.
+TYPED_TEST(RanksTest, HaveAShareOfTheWallsAndThoseTheyNeed) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  spec.walls[0].max[Dim - 1] = 2.4;  // eight times as high as the water
+  const Communicator world = Communicator::world();
+  const Flow<Dim> alone(spec);
+  Flow<Dim> flow(spec, world);
+  run(flow, 6);
+  const auto all = static_cast<double>(alone.walls.particles.size());
+  EXPECT_EQ(flow.walls.all, alone.walls.all);
+  EXPECT_LE(static_cast<double>(flow.walls.kept), 1.1 * all / world.size());
+  if (!world.is_alone()) EXPECT_LT(static_cast<double>(flow.walls.particles.size()), 0.9 * all);
+  locate(flow);
+  const Particles<Dim>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (particles.is_fluid(i)) continue;
+    ASSERT_GE(particles.wall_row[i], 0);
+    EXPECT_EQ(flow.walls.particles.position[particles.wall_row[i]], particles.position[i]);
+    EXPECT_EQ(flow.walls.particles.number[particles.wall_row[i]], particles.id[i] - flow.setup.first_wall_id);
+  }
+}
+
 TYPED_TEST(RanksTest, BodyFloats) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, 0.8, 0.3);

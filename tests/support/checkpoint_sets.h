@@ -15,12 +15,11 @@ struct Dataset {
 };
 
 /// Of a run in 2D.
-inline constexpr std::array<Dataset, 17> datasets{{{"position", Type::real, 2},
+inline constexpr std::array<Dataset, 16> datasets{{{"position", Type::real, 2},
                                                    {"velocity", Type::real, 2},
                                                    {"pressure", Type::real, 1},
                                                    {"volume", Type::real, 1},
                                                    {"kind", Type::byte, 1},
-                                                   {"wall_row", Type::whole32, 1},
                                                    {"id", Type::whole64, 1},
                                                    {"wall_velocity", Type::real, 2},
                                                    {"probe_memory", Type::real, 1},

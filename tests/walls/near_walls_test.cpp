@@ -20,15 +20,18 @@ template <class D>
 class NearWallsTest : public testing::Test {};
 TYPED_TEST_SUITE(NearWallsTest, Dimensions);
 
-/// A row of wall particles along x, from -5 to 5 m, and one particle on a wall that moves, last.
+/// One particle on a wall that moves, then a row of wall particles along x, from -5 to 5 m.
 template <int Dim>
 Walls<Dim> long_wall() {
   Walls<Dim> walls;
   walls.boundary.walls = {{.name = "bed"}, {.name = "gate", .body = 1}};
-  for (int n = -50; n <= 50; ++n) walls.particles.position.push_back(n * dx * Vec<Dim>::UnitX());
-  walls.particles.wall.assign(101, 0);
   walls.particles.position.push_back(Vec<Dim>::Constant(7.0));
-  walls.particles.wall.push_back(1);
+  for (int n = -50; n <= 50; ++n) walls.particles.position.push_back(n * dx * Vec<Dim>::UnitX());
+  walls.particles.wall.assign(102, 0);
+  walls.particles.wall[0] = 1;
+  walls.moving = 1;
+  walls.kept = 102;
+  walls.all = 102;
   return walls;
 }
 
@@ -43,9 +46,9 @@ Particles<Dim> water_at(double x) {
 template <int Dim>
 void expect_all_in_reach_are_near(const NearWalls<Dim>& near, const Walls<Dim>& walls, const Particles<Dim>& water) {
   int far = 0;
-  for (std::size_t row = 0; row < 101; ++row) {
+  for (std::size_t row = 1; row < 102; ++row) {
     const double distance = (walls.particles.position[row] - water.position[0]).norm();
-    const bool is_near = near.is_near(static_cast<std::int32_t>(row));
+    const bool is_near = near.is_near(walls, static_cast<std::int32_t>(row));
     if (distance < reach) {
       EXPECT_TRUE(is_near) << row;
     }
@@ -61,12 +64,12 @@ void expect_all_in_reach_are_near(const NearWalls<Dim>& near, const Walls<Dim>& 
 TYPED_TEST(NearWallsTest, AreThoseInReach) {
   constexpr int Dim = TypeParam::value;
   const Walls<Dim> walls = long_wall<Dim>();
-  NearWalls<Dim> near(walls, {}, reach);
-  EXPECT_FALSE(near.is_near(50));
-  EXPECT_TRUE(near.is_near(101));  // it moves
+  NearWalls<Dim> near({}, walls, {}, reach);
+  EXPECT_FALSE(near.is_near(walls, 51));
+  EXPECT_TRUE(near.is_near(walls, 0));  // it moves
   for (double x = -6.0; x < 6.0; x += 0.07) {
     const Particles<Dim> water = water_at<Dim>(x);
-    near.update({}, water, true);
+    near.update(walls, water, true);
     expect_all_in_reach_are_near(near, walls, water);
     EXPECT_FALSE(near.misses_some(water));
   }
@@ -75,19 +78,19 @@ TYPED_TEST(NearWallsTest, AreThoseInReach) {
 TYPED_TEST(NearWallsTest, ArriveOnceAndStayUntilTheFarOnesAreDropped) {
   constexpr int Dim = TypeParam::value;
   const Walls<Dim> walls = long_wall<Dim>();
-  NearWalls<Dim> near(walls, {}, reach);
-  const std::vector<std::int32_t> first = near.update({}, water_at<Dim>(-3.0), true);
+  NearWalls<Dim> near({}, walls, {}, reach);
+  const std::vector<std::int32_t> first = near.update(walls, water_at<Dim>(-3.0), true);
   EXPECT_FALSE(first.empty());
   const Particles<Dim> gone = water_at<Dim>(2.0);
   EXPECT_TRUE(near.misses_some(gone));
-  const std::vector<std::int32_t> second = near.update({}, gone, false);
+  const std::vector<std::int32_t> second = near.update(walls, gone, false);
   EXPECT_FALSE(near.misses_some(gone));
   const std::set<std::int32_t> rows(first.begin(), first.end());
   EXPECT_TRUE(std::ranges::none_of(second, [&](std::int32_t row) { return rows.contains(row); }));
-  EXPECT_TRUE(std::ranges::all_of(first, [&](std::int32_t row) { return near.is_near(row); }));
-  EXPECT_TRUE(near.update({}, gone, true).empty());
-  EXPECT_TRUE(std::ranges::none_of(first, [&](std::int32_t row) { return near.is_near(row); }));
-  EXPECT_TRUE(std::ranges::all_of(second, [&](std::int32_t row) { return near.is_near(row); }));
+  EXPECT_TRUE(std::ranges::all_of(first, [&](std::int32_t row) { return near.is_near(walls, row); }));
+  EXPECT_TRUE(near.update(walls, gone, true).empty());
+  EXPECT_TRUE(std::ranges::none_of(first, [&](std::int32_t row) { return near.is_near(walls, row); }));
+  EXPECT_TRUE(std::ranges::all_of(second, [&](std::int32_t row) { return near.is_near(walls, row); }));
 }
 
 TYPED_TEST(NearWallsTest, AreSeenAcrossAPeriodicEdge) {
@@ -95,32 +98,32 @@ TYPED_TEST(NearWallsTest, AreSeenAcrossAPeriodicEdge) {
   const Walls<Dim> walls = long_wall<Dim>();
   PeriodicDomain<Dim> domain;
   domain[0] = std::pair{-5.0, 5.0};
-  NearWalls<Dim> near(walls, domain, reach);
+  NearWalls<Dim> near({}, walls, domain, reach);
   EXPECT_TRUE(near.misses_some(water_at<Dim>(4.95)));
-  near.update({}, water_at<Dim>(4.95), true);
-  EXPECT_TRUE(near.is_near(0));
-  EXPECT_TRUE(near.is_near(100));
-  EXPECT_FALSE(near.is_near(50));
+  near.update(walls, water_at<Dim>(4.95), true);
+  EXPECT_TRUE(near.is_near(walls, 1));
+  EXPECT_TRUE(near.is_near(walls, 101));
+  EXPECT_FALSE(near.is_near(walls, 51));
 }
 
 TYPED_TEST(NearWallsTest, AreRestoredFromTheParticles) {
   constexpr int Dim = TypeParam::value;
   const Walls<Dim> walls = long_wall<Dim>();
-  NearWalls<Dim> near(walls, {}, reach);
+  NearWalls<Dim> near({}, walls, {}, reach);
   const Particles<Dim> water = water_at<Dim>(1.0);
   std::vector<Vec<Dim>> points{water.position[0]};
-  const std::vector<std::int32_t> rows = near.update({}, water, true);
+  const std::vector<std::int32_t> rows = near.update(walls, water, true);
   for (const std::int32_t row : rows) points.push_back(walls.particles.position[row]);
   Particles<Dim> all = fluid_at<Dim>(points, dx);
   for (std::size_t n = 0; n < rows.size(); ++n) {
     all.kind[n + 1] = ParticleKind::wall;
     all.wall_row[n + 1] = rows[n];
   }
-  NearWalls<Dim> restored(walls, {}, reach);
-  restored.restore({}, all);
-  for (std::int32_t row = 0; row < 102; ++row) EXPECT_EQ(restored.is_near(row), near.is_near(row)) << row;
+  NearWalls<Dim> restored({}, walls, {}, reach);
+  restored.restore(walls, all);
+  for (std::int32_t row = 0; row < 102; ++row) EXPECT_EQ(restored.is_near(walls, row), near.is_near(walls, row)) << row;
   EXPECT_EQ(restored.misses_some(all), near.misses_some(all));
-  EXPECT_TRUE(restored.update({}, all, true).empty());
+  EXPECT_TRUE(restored.update(walls, all, true).empty());
 }
 
 }  // namespace
