@@ -21,8 +21,9 @@ SETUP_ITERATIONS = 10  # of messages in the set-up of multigrid
 COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG prints, 3D assumed
 NEIGHBOURS = {2: 8, 3: 26}
 COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
-# While a run starts (docs/scaling.md): per particle of a rank, and per row of the walls, which all ranks list.
-START_BYTES, ROW_BYTES = 420, 220
+# While a run starts (docs/scaling.md): per particle and row of the walls of a rank, and per cell of the box around the
+# walls, which is on all ranks.
+START_BYTES, ROW_BYTES, CELL_BYTES = 420, 530, 8
 ROWS = {2: lambda n: 33 * n ** (1 / 2), 3: lambda n: 27 * n ** (2 / 3)}  # of a tank as there
 
 
@@ -70,9 +71,12 @@ def main():
         for particles, ranks in ((1e7, 1e2), (1e8, 1e3), (1e8, 1e4), (1e9, 1e4)):
             own, lost, halo, sums, multigrid = model.parts(particles, ranks)
             total = own + lost + halo + sums + multigrid
+            rows = ROWS[dimension](particles)
+            cells = min(2 * particles / 4**dimension, 64 * rows)  # of 4 dx, in a tank half full; src/walls/near_walls.cpp
+            start = (START_BYTES * particles + ROW_BYTES * rows) / ranks + CELL_BYTES * cells
             print(f"| {dimension}D | {particles:.0e} | {ranks:.0e} | {particles / ranks:.0e} | {own:.2f} | {lost:.2f} | "
                   f"{1e3 * halo:.1f} | {1e3 * sums:.1f} | {1e3 * multigrid:.0f} | {total:.2f} | {own / total:.0%} | "
-                  f"{1e-9 * (START_BYTES * particles / ranks + ROW_BYTES * ROWS[dimension](particles)):.1f} |")
+                  f"{1e-9 * start:.1f} |")
 
 
 if __name__ == "__main__":
