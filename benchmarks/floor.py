@@ -39,13 +39,13 @@ def candidates(d):
     return (7 / 3) ** d / {2: math.pi, 3: 4 / 3 * math.pi}[d]
 
 
-def vector(d):
-    return DOUBLE * d
+def pair_vector(d):
+    """Operations: the mean of two matrices times a difference, less a difference of vectors, times F."""
+    return 3 * d**2 + 3 * d
 
 
-# At best a pass reads the neighbour's index and computes the rest from positions in the cache; only corrected pair
-# vectors, which depend on sums over neighbours, are kept, in single precision. A pass is joined to the one before it
-# unless it needs a result of that one at the neighbours.
+# At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
+# to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
     Pass("search", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + 13),
     Pass("kernel sums", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3),
@@ -54,16 +54,17 @@ PASSES = (
     Pass("closing: pose", lambda d: INDEX + DOUBLE, lambda d: INDEX,
          lambda d: 3 * d**2 + 2 * d + 3),
     Pass("closing: two sweeps", lambda d: 2 * (INDEX + DOUBLE), lambda d: 2 * INDEX, lambda d: 2 * (2 * d + 1)),
-    Pass("closing: close", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d,
-         lambda d: 5 * d),
+    Pass("closing: close", lambda d: INDEX + DOUBLE, lambda d: INDEX,
+         lambda d: 5 * d + pair_vector(d)),
     Pass("velocity gradient", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
-    Pass("viscosity and noise", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d,
-         lambda d: 5 * d**2 + 18 * d + 11),
+    Pass("viscosity and noise", lambda d: INDEX + DOUBLE, lambda d: INDEX,
+         lambda d: 5 * d**2 + 18 * d + 11 + pair_vector(d)),
     Pass("pattern", lambda d: 2 * INDEX, lambda d: 2 * INDEX, lambda d: 0),
     Pass("weights; divergence, source", lambda d: 2 * (INDEX + DOUBLE) + SINGLE,
-         lambda d: INDEX + DOUBLE + SINGLE * d, lambda d: 5 * d + 4),
-    Pass("gradient", lambda d: INDEX + DOUBLE, lambda d: INDEX + SINGLE * d, lambda d: 2 * d + 2),
-    Pass("divergence, reported", lambda d: (INDEX + DOUBLE) / 8, lambda d: 0, lambda d: (3 * d + 1) / 8, 2),
+         lambda d: INDEX + SINGLE, lambda d: 5 * d + 4 + pair_vector(d)),
+    Pass("gradient", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
+    Pass("divergence, reported", lambda d: (INDEX + DOUBLE) / 8, lambda d: 0,
+         lambda d: (3 * d + 1 + pair_vector(d)) / 8, 2),
     Pass("shift", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d + 12),
 )
 AT_BEST_NEVER = {"divergence, reported"}
@@ -101,18 +102,18 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
             one.times * operations, best_times(one) * operations)
     # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; both solves check their residual at
     # their start and end.
-    entries, best_entries, vectors = pairs * (SINGLE + INDEX), pairs * (DOUBLE + INDEX) / 2, 2 * DOUBLE
+    entries, vectors = pairs * (SINGLE + INDEX), 2 * DOUBLE
     products = 2 * iterations + 4
     best_products = min(products, FLOOR_PRODUCTS)
-    add("pressure solves", products * (entries + vectors), best_products * (best_entries + vectors),
+    add("pressure solves", products * (entries + vectors), best_products * (entries / 2 + vectors),
         products * 2 * pairs, best_products * 2 * pairs)
     return found
 
 
 def memory(d, pairs, numbers, label):
     """A sentence on bytes per fluid particle: what is held now, and what the arrangement at best would hold."""
-    parts = (("rows", INDEX * pairs), ("pair vectors", SINGLE * d * pairs),
-             ("half a matrix", (DOUBLE + INDEX) * pairs / 2), ("fields", DOUBLE * FIELDS_HELD))
+    parts = (("rows", INDEX * pairs), ("half a matrix", (SINGLE + INDEX) * pairs / 2),
+             ("fields", DOUBLE * FIELDS_HELD))
     now = {name: numbers[f"{label}.bytes.{name}"] for name in ("all", "pairs", "pair_vectors", "matrix")}
     return (f"Memory, bytes per fluid particle: now {now['all']:.0f} (pairs {now['pairs']:.0f}, pair vectors "
             f"{now['pair_vectors']:.0f}, matrix {now['matrix']:.0f}); at best {sum(part for _, part in parts):.0f} ("
