@@ -18,7 +18,7 @@ double plane_weight(const Kernel<Dim>& kernel, double z) {
   for (int k = 0; k < points; ++k) {
     const double s = (k + 0.5) * step;
     const double r = std::hypot(s, z);
-    sum += (Dim == 2 ? 2.0 : 2.0 * std::numbers::pi * s) * kernel_F(kernel, r) * step;
+    sum += (Dim == 2 ? 2.0 : 2.0 * std::numbers::pi * s) * kernel_steepness(kernel, r) * step;
   }
   return sum;
 }

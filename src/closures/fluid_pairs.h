@@ -29,7 +29,7 @@ template <int Dim>
 template <int Dim, class Range>
 [[gnu::always_inline]] inline Lanes weights_of_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
                                                      const Range& range, const LaneIndices& j, std::size_t i) {
-  return of_fluid(particles, j, range.only(W_at(pairs, differences(pairs, range, j, i))));
+  return of_fluid(particles, j, range.only(kernel_at(pairs, differences(pairs, range, j, i))));
 }
 
 /// Kernel-weighted mean of `field` over the fluid neighbours of particle i and the particle itself, which has weight

@@ -37,7 +37,7 @@ constexpr int fewest_neighbours_inside = Dim == 2 ? 10 : 28;
 template <int Dim>
 int count_neighbours(const Pairs<Dim>& pairs, std::size_t i) {
   int neighbours = 0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) neighbours += pairs.W(i, k) > 0.0 ? 1 : 0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) neighbours += pairs.value(i, k) > 0.0 ? 1 : 0;
   return neighbours;
 }
 
@@ -63,7 +63,7 @@ bool f35_holds(const SurfaceInput<Dim>& input, std::size_t i) {
   const Pairs<Dim>& pairs = input.pairs;
   Vec<Dim> asymmetry = Vec<Dim>::Zero();
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    asymmetry += input.particles.volume[pairs.j[k]] * pairs.W(i, k) * pairs.e(i, k);
+    asymmetry += input.particles.volume[pairs.j[k]] * pairs.value(i, k) * pairs.e(i, k);
   }
   const double kernel_sum = input.concentration[i] * input.lattice_concentration;
   return kernel_sum <= f35_kernel_sum && asymmetry.norm() > f35_asymmetry<Dim> &&

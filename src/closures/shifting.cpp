@@ -30,7 +30,7 @@ LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, const
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes volume = range.only(j(particles.volume.data()));
     const VecLanes<Dim> d = differences(pairs, range, j, i);
-    const Lanes W = W_at(pairs, d);
+    const Lanes W = kernel_at(pairs, d);
     const Lanes ratio = W * inverse_W;
     const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
     for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];

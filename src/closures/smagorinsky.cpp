@@ -19,7 +19,7 @@ void sub_particle_stress(const Pairs<Dim>& pairs, const Particles<Dim>& particle
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!particles.is_fluid(j)) continue;
-      const double wW = particles.volume[j] * pairs.W(i, k);
+      const double wW = particles.volume[j] * pairs.value(i, k);
       A += wW * pairs.e(i, k) * pairs.e(i, k).transpose();
       sum -= wW / pairs.r(i, k) * (velocity[j] - velocity[i]) * pairs.e(i, k).transpose();
     }

@@ -174,7 +174,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!takes_part[j]) continue;
-      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.W(i, k), spacing) *
+      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.value(i, k), spacing) *
              (velocity[j] - velocity[i]);
     }
     acceleration[i] += viscosity[i] * sum;

@@ -33,7 +33,7 @@ struct CubicSpline {
   }
 
   template <class Number>
-  Number F(Number r) const {
+  Number steepness(Number r) const {
     return -derivative(r) / r;
   }
 

@@ -26,7 +26,7 @@ struct FarzinKernel {
   }
 
   template <class Number>
-  Number F(Number r) const {
+  Number steepness(Number r) const {
     return -derivative(r) / r;
   }
 

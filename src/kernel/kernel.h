@@ -11,7 +11,7 @@
 namespace tailwater {
 
 /// One of the kernels, chosen by name. Every alternative has `radius` [m], `value(r)` [1/m^Dim], `derivative(r)` =
-/// dW/dr [1/m^(Dim+1)] and `F(r)` = -(dW/dr)/r [1/m^(Dim+2)].
+/// dW/dr [1/m^(Dim+1)] and `steepness(r)`, F = -(dW/dr)/r [1/m^(Dim+2)].
 template <int Dim>
 using Kernel = std::variant<WendlandC2<Dim>, CubicSpline<Dim>, FarzinKernel<Dim>>;
 
@@ -50,8 +50,8 @@ inline Number kernel_value(const Kernel<Dim>& kernel, Number r) {
 
 /// -(dW/dr)/r, never negative; r is not 0.
 template <int Dim, class Number>
-inline Number kernel_F(const Kernel<Dim>& kernel, Number r) {
-  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.F(r); });
+inline Number kernel_steepness(const Kernel<Dim>& kernel, Number r) {
+  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.steepness(r); });
 }
 
 template <int Dim>

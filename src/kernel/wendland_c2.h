@@ -25,7 +25,7 @@ struct WendlandC2 {
   }
 
   template <class Number>
-  Number F(Number r) const {
+  Number steepness(Number r) const {
     const Number a = max_of(Number{}, radius - r) * inverse_radius;
     return (20.0 * scale * inverse_radius * inverse_radius) * a * a * a;
   }

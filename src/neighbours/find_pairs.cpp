@@ -162,7 +162,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
             VecLanes<Dim> d = range.neighbours(row.data())(position);
             for (int a = 0; a < Dim; ++a) d.at[a] = r_i[a] - d.at[a];
             const Lanes square = max_of(d.dot(d), in_all_lanes(least_squared));
-            range.store(chosen.F(sqrt_of(square)), row_F.data() + range.begin);
+            range.store(chosen.steepness(sqrt_of(square)), row_F.data() + range.begin);
           });
           const auto count = static_cast<std::ptrdiff_t>(n);
           pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + count);

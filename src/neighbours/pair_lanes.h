@@ -29,9 +29,9 @@ template <int Dim, class Range>
   return differences_from<Dim>(pairs, range, j(pairs.position.data()), i);
 }
 
-/// pairs.W of pairs with these differences.
+/// pairs.value of pairs with these differences.
 template <int Dim>
-[[gnu::always_inline]] inline Lanes W_at(const Pairs<Dim>& pairs, const VecLanes<Dim>& d) {
+[[gnu::always_inline]] inline Lanes kernel_at(const Pairs<Dim>& pairs, const VecLanes<Dim>& d) {
   return kernel_value(pairs.kernel, sqrt_of(d.dot(d)));
 }
 

@@ -30,11 +30,11 @@ struct Pairs {
     if (r_ij.squaredNorm() > least_distance * least_distance) return r_ij;
     return (id[j[k]] > id[i] ? least_distance : -least_distance) * Vec<Dim>::UnitX();
   }
-  double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }                 ///< m; |r_ij|
-  Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }         ///< unit vector along r_ij
-  double W(std::size_t i, std::size_t k) const { return kernel_value(kernel, r(i, k)); }  ///< 1/m^Dim
-  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }            ///< 1/m^(Dim+1); dW/dr
-  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }       ///< 1/m^(Dim+1); grad_i W_ij
+  double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }          ///< m; |r_ij|
+  Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }  ///< unit vector along r_ij
+  double value(std::size_t i, std::size_t k) const { return kernel_value(kernel, r(i, k)); }  ///< 1/m^Dim
+  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }                ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }

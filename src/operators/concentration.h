@@ -29,7 +29,7 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<co
     const LaneIndices j = range.neighbours(pairs.j.data());
     const Lanes volume_j = range.only(j(volume.data()));
     const VecLanes<Dim> d = differences(pairs, range, j, i);
-    concentration += volume_j * W_at(pairs, d);
+    concentration += volume_j * kernel_at(pairs, d);
     const Lanes volume_F = volume_j * range.load(pairs.F.data());
     for (int b = 0; b < Dim; ++b) {
       const Lanes weight = volume_F * d.at[b];

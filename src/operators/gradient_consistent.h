@@ -24,7 +24,7 @@ Vec<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<D
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
     if (!takes_part[j]) continue;
-    sum -= (volume[j] * pairs.W(i, k) / pairs.r(i, k) * (field[j] - field[i])) * pairs.e(i, k);
+    sum -= (volume[j] * pairs.value(i, k) / pairs.r(i, k) * (field[j] - field[i])) * pairs.e(i, k);
   }
   return B1 * sum;
 }
@@ -37,7 +37,7 @@ Mat<Dim> consistent_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<D
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
     if (!takes_part[j]) continue;
-    sum -= (volume[j] * pairs.W(i, k) / pairs.r(i, k)) * (field[j] - field[i]) * pairs.e(i, k).transpose();
+    sum -= (volume[j] * pairs.value(i, k) / pairs.r(i, k)) * (field[j] - field[i]) * pairs.e(i, k).transpose();
   }
   return sum * B1;  // B1 is symmetric
 }

@@ -37,8 +37,8 @@ Value consistent_laplacian(const Pairs<Dim>& pairs, std::size_t i, const Renorma
   Value sum = zero;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    if (!takes_part[j] || pairs.W(i, k) == 0.0) continue;
-    sum += consistent_laplacian_weight<Dim>(tensors, volume[j], pairs.e(i, k), pairs.r(i, k), pairs.W(i, k)) *
+    if (!takes_part[j] || pairs.value(i, k) == 0.0) continue;
+    sum += consistent_laplacian_weight<Dim>(tensors, volume[j], pairs.e(i, k), pairs.r(i, k), pairs.value(i, k)) *
            (field[j] - field[i]);
   }
   return sum;

@@ -26,7 +26,7 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
         const double wW = volume * kernel_value(kernel, r);
         sums.concentration += wW;
         if (r == 0.0) continue;
-        const double morris = morris_laplacian_weight(volume, kernel_F(kernel, r), r * r, spacing);
+        const double morris = morris_laplacian_weight(volume, kernel_steepness(kernel, r), r * r, spacing);
         sums.morris += morris;
         sums.across_plane += spacing * std::max(0, y) * morris;  // y pairs of rows are y apart
         sums.shao_lo += shao_lo_laplacian_weight(volume, 1.0, 1.0, r, kernel_derivative(kernel, r), eta_squared);

@@ -61,8 +61,8 @@ void compute_renormalisation(const Pairs<Dim>& pairs, std::span<const double> vo
     Moments<Dim> moments;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      if (!takes_part[j] || pairs.W(i, k) == 0.0) continue;
-      moments.add(pairs.e(i, k), pairs.r(i, k), volume[j] * pairs.W(i, k));
+      if (!takes_part[j] || pairs.value(i, k) == 0.0) continue;
+      moments.add(pairs.e(i, k), pairs.r(i, k), volume[j] * pairs.value(i, k));
     }
     result[i] = renormalisation_of(moments);
   });

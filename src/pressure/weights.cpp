@@ -68,7 +68,7 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volu
   if (tensors.laplacian_is_sound()) {
     const double sum = row.set_weights([&](std::size_t k) {
       return here.takes_part[pairs.j[k]] ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e(i, k),
-                                                                            pairs.r(i, k), pairs.W(i, k))
+                                                                            pairs.r(i, k), pairs.value(i, k))
                                          : 0.0;
     });
     if (sum > 0.0) return sum;
@@ -76,7 +76,7 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volu
   fell_back = true;
   return row.set_weights([&](std::size_t k) {
     return here.takes_part[pairs.j[k]]
-               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k), pairs.W(i, k), spacing)
+               ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k), pairs.value(i, k), spacing)
                : 0.0;
   });
 }
@@ -116,7 +116,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
   const OpenEnd<Dim>& end = setup.open_ends[flow.end_of[i]];
   const auto weight = [&](std::size_t k) {
     const auto j = pairs.j[k];
-    return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.W(i, k) : 0.0;
+    return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.value(i, k) : 0.0;
   };
   double total = 0.0;
   for (std::size_t k = pairs.begin(i); flow.is_fed(i) && k < pairs.end(i); ++k) total += weight(k);

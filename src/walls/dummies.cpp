@@ -16,7 +16,7 @@ double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& forc
   for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
     const LaneIndices j = range.neighbours(pairs.j.data());
     const VecLanes<Dim> d = differences(pairs, range, j, i);
-    const Lanes weight = of_fluid(scene.particles, j, range.only(W_at(pairs, d)));
+    const Lanes weight = of_fluid(scene.particles, j, range.only(kernel_at(pairs, d)));
     for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
   });
   return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);

@@ -20,7 +20,7 @@ void assemble_wall_row(const WallScene<Dim>& scene, const WallForce<Dim>& force,
   const double sum = row.set_weights([&](std::size_t k) {
     if (!scene.here.takes_part[pairs.j[k]]) return 0.0;
     return consistent_gradient_weight<Dim>(tensors.B1, scene.particles.volume[pairs.j[k]], pairs.e(i, k), pairs.r(i, k),
-                                           pairs.W(i, k))
+                                           pairs.value(i, k))
         .dot(normal);
   });
   if (sum <= 0.0) {

@@ -13,7 +13,7 @@ void assemble_copy_of_row(const WallScene<Dim>& scene, std::size_t i, LinearSyst
     const auto j = scene.pairs.j[k];
     const bool is_row = !scene.particles.is_fluid(j) && scene.here.is_wet[j] &&
                         scene.walls.particles.is_on_wall(scene.particles.wall_row[j]);
-    return is_row ? scene.pairs.W(i, k) : 0.0;
+    return is_row ? scene.pairs.value(i, k) : 0.0;
   });
   if (!scene.here.is_wet[i] || sum <= 0.0) {
     row.finish_as_zero();

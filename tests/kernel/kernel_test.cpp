@@ -78,7 +78,7 @@ TYPED_TEST(KernelTest, FIsTheDerivativeOverTheDistance) {
       const Kernel<Dim> kernel = make_kernel<Dim>(name, radius);
       for (int n = 1; n < 120; ++n) {
         const double r = 0.01 * n * radius;
-        const double F = kernel_F(kernel, r);
+        const double F = kernel_steepness(kernel, r);
         EXPECT_NEAR(F, -kernel_derivative(kernel, r) / r, 16.0 * eps * F) << name_of(name) << ", r = " << r;
       }
     }
@@ -93,7 +93,8 @@ TYPED_TEST(KernelTest, IsTheSameInLanes) {
       Lanes distances = in_all_lanes(0.5);
       distances[1] = r;
       EXPECT_NEAR(kernel_value(kernel, distances)[1], kernel_value(kernel, r), 16.0 * eps * kernel_value(kernel, 0.0));
-      EXPECT_NEAR(kernel_F(kernel, distances)[1], kernel_F(kernel, r), 64.0 * eps * kernel_F(kernel, 0.003));
+      EXPECT_NEAR(kernel_steepness(kernel, distances)[1], kernel_steepness(kernel, r),
+                  64.0 * eps * kernel_steepness(kernel, 0.003));
     }
   }
 }

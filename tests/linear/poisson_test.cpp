@@ -101,7 +101,7 @@ double solution_error(const Problem<Dim>& problem, int n, double jitter) {
       case Place::neumann: {
         const double sum = set_row([&](std::size_t k) {
           return consistent_gradient_weight<Dim>(operators.tensors[i].B1, set.particles.volume[pairs.j[k]],
-                                                 pairs.e(i, k), pairs.r(i, k), pairs.W(i, k))[1];
+                                                 pairs.e(i, k), pairs.r(i, k), pairs.value(i, k))[1];
         });
         row.finish(sum, -problem.normal_derivative(x));
         break;

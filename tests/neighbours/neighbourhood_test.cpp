@@ -83,7 +83,7 @@ void expect_rows_hold_the_support(const Particles<Dim>& particles, const Neighbo
       // A few roundings of the distance, times the steepest slopes of W and F: some 3 W(0)/R and 60 W(0)/R^3.
       const double r = pairs.r(i, k);
       const double rounding = 16.0 * eps * kernel_value(neighbourhood.kernel(), 0.0);
-      ASSERT_NEAR(pairs.W(i, k), kernel_value(neighbourhood.kernel(), r), rounding);
+      ASSERT_NEAR(pairs.value(i, k), kernel_value(neighbourhood.kernel(), r), rounding);
       ASSERT_NEAR(pairs.F[k], -kernel_derivative(neighbourhood.kernel(), r) / r, 20.0 * rounding / (radius * radius));
     }
     for (std::size_t j = 0; j < particles.owned; ++j) {
@@ -201,7 +201,7 @@ TYPED_TEST(NeighbourhoodTest, CoincidentParticlesGetOppositeDirections) {
   EXPECT_GT(pairs.r(0, 0), 0.0);
   EXPECT_EQ(pairs.r(0, 0), pairs.r(1, 1));
   EXPECT_LT(pairs.r(0, 0), 1e-3 * spacing);
-  EXPECT_EQ(pairs.W(0, 0), pairs.W(1, 1));
+  EXPECT_EQ(pairs.value(0, 0), pairs.value(1, 1));
   EXPECT_TRUE(std::isfinite(pairs.F[0]));
 }
 

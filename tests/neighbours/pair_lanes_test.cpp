@@ -62,7 +62,7 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
       const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
       const MatLanes<Dim> matrix = j(rows.matrix.data());
       const Lanes volume = j(rows.volume.data());
-      const Lanes W = W_at(pairs, d);
+      const Lanes W = kernel_at(pairs, d);
       const Lanes F = range.load(pairs.F.data());
       const VecLanes<Dim> gradient = gradients(pairs, range, j, i);
       const std::array<Lanes, 4> record = j.template record<4>(rows.records.data());
@@ -71,7 +71,7 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
         const std::size_t k = range.begin + n;
         ++visits[k];
         expected[k] = pairs.d(i, k);
-        EXPECT_NEAR(W[n], pairs.W(i, k), 16.0 * eps * kernel_value(pairs.kernel, 0.0));
+        EXPECT_NEAR(W[n], pairs.value(i, k), 16.0 * eps * kernel_value(pairs.kernel, 0.0));
         EXPECT_EQ(F[n], pairs.F[k]);
         for (int m = 0; m < 4; ++m) EXPECT_EQ(record[m][n], rows.records[4 * pairs.j[k] + m]);
         EXPECT_EQ(even[n], pairs.j[k] % 2 == 0 ? 1.0 : 0.0);

@@ -79,7 +79,7 @@ TYPED_TEST(ExactnessTest, GradientOfLinearFieldsInteriorAndEdges) {
         double weights = 0.0;
         for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
           weights += consistent_gradient_weight<Dim>(tensors.B1, set.particles.volume[i], set.pairs().e(i, k),
-                                                     set.pairs().r(i, k), set.pairs().W(i, k))
+                                                     set.pairs().r(i, k), set.pairs().value(i, k))
                          .norm();
         }
         const double condition = tensors.trace_A / tensors.least_eigenvalue_A;
@@ -169,9 +169,9 @@ TYPED_TEST(ExactnessTest, SignOfTheSecondTermOfF23) {
     double weights = 0.0;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
-      A += set.particles.volume[j] * pairs.W(i, k) * pairs.e(i, k) * pairs.e(i, k).transpose();
+      A += set.particles.volume[j] * pairs.value(i, k) * pairs.e(i, k) * pairs.e(i, k).transpose();
       const double weight = consistent_laplacian_weight<Dim>(printed, set.particles.volume[j], pairs.e(i, k),
-                                                             pairs.r(i, k), pairs.W(i, k));
+                                                             pairs.r(i, k), pairs.value(i, k));
       with_plus += weight * (linear[j] - linear[i]);
       weights += std::abs(weight) + std::abs(operators.laplacian_weight(i, k));
     }
@@ -220,7 +220,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         morris += morris_laplacian_weight(set.particles.volume[i], pairs.F[k], pairs.d(i, k).squaredNorm(), dx);
         consistent += consistent_laplacian_weight<Dim>(operators.tensors[i], set.particles.volume[i], pairs.e(i, k),
-                                                       pairs.r(i, k), pairs.W(i, k));
+                                                       pairs.r(i, k), pairs.value(i, k));
         first_moment -= set.particles.volume[i] * pairs.slope(i, k) * pairs.r(i, k) / Dim;
       }
       // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.

@@ -35,7 +35,7 @@ struct ConsistentOperators {
   double laplacian_weight(std::size_t i, std::size_t k) const {
     const Pairs<Dim>& pairs = set.pairs();
     return consistent_laplacian_weight<Dim>(tensors[i], set.particles.volume[pairs.j[k]], pairs.e(i, k), pairs.r(i, k),
-                                            pairs.W(i, k));
+                                            pairs.value(i, k));
   }
 
   const ParticleSet<Dim>& set;
