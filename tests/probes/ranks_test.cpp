@@ -192,14 +192,16 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
 template <class Dimension>
 class ProbesOnRanks : public testing::Test {
  protected:
-  static constexpr int Dim = Dimension::value;
-
-  static Deal<Dim> round_robin() {
-    return [n = Communicator::world().size()](std::size_t i, const Vec<Dim>&) { return static_cast<int>(i % n); };
+  static Deal<Dimension::value> round_robin() {
+    return [n = Communicator::world().size()](std::size_t i, const Vec<Dimension::value>&) {
+      return static_cast<int>(i % n);
+    };
   }
   /// Ranks 2 and on have none.
-  static Deal<Dim> halves() {
-    return [n = Communicator::world().size()](std::size_t, const Vec<Dim>& x) { return n > 1 && x[0] < 0.4 ? 1 : 0; };
+  static Deal<Dimension::value> halves() {
+    return [n = Communicator::world().size()](std::size_t, const Vec<Dimension::value>& x) {
+      return n > 1 && x[0] < 0.4 ? 1 : 0;
+    };
   }
 };
 TYPED_TEST_SUITE(ProbesOnRanks, Dimensions);

@@ -349,7 +349,9 @@ TYPED_TEST(RanksTest, HaveAShareOfTheWallsAndThoseTheyNeed) {
   const auto all = static_cast<double>(alone.walls.particles.size());
   EXPECT_EQ(flow.walls.all, alone.walls.all);
   EXPECT_LE(static_cast<double>(flow.walls.kept), 1.1 * all / world.size());
-  if (!world.is_alone()) EXPECT_LT(static_cast<double>(flow.walls.particles.size()), 0.9 * all);
+  if (!world.is_alone()) {
+    EXPECT_LT(static_cast<double>(flow.walls.particles.size()), 0.9 * all);
+  }
   locate(flow);
   const Particles<Dim>& particles = flow.state.particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {

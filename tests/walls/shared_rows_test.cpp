@@ -83,10 +83,9 @@ std::vector<std::int64_t> numbers_on(int rank) {
 template <class D>
 class SharedRowsTest : public testing::Test {
  protected:
-  static constexpr int Dim = D::value;
   Communicator ranks = Communicator::world();
-  Walls<Dim> walls = made_by<Dim>(ranks);
-  SharedRows<Dim> rows{ranks, walls};
+  Walls<D::value> walls = made_by<D::value>(ranks);
+  SharedRows<D::value> rows{ranks, walls};
 };
 TYPED_TEST_SUITE(SharedRowsTest, Dimensions);
 
@@ -150,7 +149,9 @@ TYPED_TEST(SharedRowsTest, ComeWhereAParticleNeedsThemAndGoWhenNoneDoes) {
   particles.owned = particles.size();
   this->rows.drop_guests(this->walls, particles);
   expect_all();
-  if (!this->ranks.is_alone()) EXPECT_LT(this->ranks.sum(this->walls.particles.size()), this->ranks.sum(most));
+  if (!this->ranks.is_alone()) {
+    EXPECT_LT(this->ranks.sum(this->walls.particles.size()), this->ranks.sum(most));
+  }
   particles.resize(1);
   particles.owned = 1;
   this->rows.drop_guests(this->walls, particles);
