@@ -54,6 +54,19 @@ struct ProbeContext {
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
   std::span<const BodyState<Dim>> bodies = {};   ///< that float
+
+  /// The same moment of other particles. What belongs to particles or ranks is left out.
+  ProbeContext of(const Particles<Dim>& others, const CellGrid<Dim>& their_grid) const {
+    return {.particles = others,
+            .grid = their_grid,
+            .kernel = kernel,
+            .boundary = boundary,
+            .density = density,
+            .gravity = gravity,
+            .spacing = spacing,
+            .time = time,
+            .totals = totals};
+  }
 };
 
 /// Whether a plate hides a particle from a place.

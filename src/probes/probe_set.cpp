@@ -219,16 +219,8 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   GatheredParticles<Dim> gathered;
   if (!ranks.is_alone() && !regions.empty()) gathered = gather_near(context, regions);
   const CellGrid<Dim> grid(gathered.particles.position, kernel_radius(context.kernel));
-  const ProbeContext<Dim> near{.particles = gathered.particles,
-                               .grid = grid,
-                               .kernel = context.kernel,
-                               .boundary = context.boundary,
-                               .density = context.density,
-                               .gravity = context.gravity,
-                               .spacing = context.spacing,
-                               .time = context.time,
-                               .totals = context.totals,
-                               .plate_of = gathered.plate_of};
+  ProbeContext<Dim> near = context.of(gathered.particles, grid);
+  near.plate_of = gathered.plate_of;
 
   std::vector<std::vector<Row>> rows;
   for (const Instrument* instrument : due) {

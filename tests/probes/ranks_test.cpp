@@ -158,17 +158,11 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   const CellGrid<Dim> grid(part.position, 3.0 * tank.dx);
   const ProbeContext<Dim> whole = tank.context();
   const WallForces<Dim> own_forces = made_forces(part);
-  probes.record({.particles = part,
-                 .grid = grid,
-                 .kernel = whole.kernel,
-                 .boundary = whole.boundary,
-                 .density = whole.density,
-                 .gravity = whole.gravity,
-                 .spacing = whole.spacing,
-                 .time = 0.0,
-                 .totals = totals,
-                 .ranks = ranks,
-                 .wall_forces = &own_forces});
+  ProbeContext<Dim> own = whole.of(part, grid);
+  own.totals = totals;
+  own.ranks = ranks;
+  own.wall_forces = &own_forces;
+  probes.record(own);
 
   if (!ranks.is_root()) return;
   const TemporaryFolder alone;
@@ -247,17 +241,10 @@ TYPED_TEST(ProbesOnRanks, BesideAPlate) {
 
   ProbeSet<Dim> probes(make_probes<Dim>(tank.spec, tank.boundary), RunFolder::create(together.path(), false, ranks),
                        ranks);
-  probes.record({.particles = part,
-                 .grid = grid,
-                 .kernel = whole.kernel,
-                 .boundary = whole.boundary,
-                 .density = whole.density,
-                 .gravity = whole.gravity,
-                 .spacing = whole.spacing,
-                 .time = 0.0,
-                 .totals = {},
-                 .ranks = ranks,
-                 .plate_of = plate_of_part});
+  ProbeContext<Dim> own = whole.of(part, grid);
+  own.ranks = ranks;
+  own.plate_of = plate_of_part;
+  probes.record(own);
   if (!ranks.is_root()) return;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const std::vector<double> read = numbers_in(together.path() / "probes" / (tank.spec.probes[k].name + ".csv"));
