@@ -54,6 +54,9 @@ bool let_go(Flow<Dim>& flow) {
       way[i] = falls;
     }
   });
+  const std::vector<std::size_t> kept = indices_where(particles.owned, [&](std::size_t i) { return way[i] == stays; });
+  const bool some_left = kept.size() != particles.owned;
+  if (!flow.setup.ranks.any(some_left)) return false;
   for (std::size_t w = 0; w <= falls; ++w) {
     Passed passed = sum_over(particles.owned, Passed{}, [&](std::size_t i) -> Passed {
       if (way[i] != w) return {};
@@ -62,10 +65,8 @@ bool let_go(Flow<Dim>& flow) {
     flow.setup.ranks.sum_each(passed.particles, passed.volume, passed.energy);
     (w == falls ? flow.state.fallen : flow.state.open_ends[w].departed) += passed;
   }
-  const std::vector<std::size_t> kept = indices_where(particles.owned, [&](std::size_t i) { return way[i] == stays; });
-  if (kept.size() == particles.owned) return false;
-  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
-  return true;
+  if (some_left) flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
+  return some_left;
 }
 
 template bool let_go<2>(Flow<2>&);
