@@ -2,8 +2,6 @@
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
-#include "operators/gradient_corrected.h"
-#include "walls/wall_friction.h"
 
 namespace tailwater {
 namespace {
@@ -11,8 +9,8 @@ namespace {
 /// Less than this share of the molecular viscosity is no layer; so that water which none has reached stays free of it.
 constexpr double least_layer_over_molecular = 1e-3;
 
-/// Distance from the nearest wall with friction [m], measured from neighbour to neighbour. Grows or falls by a reach in
-/// a step at most, which a layer does not.
+/// Distance from the nearest wall with friction [m], measured from neighbour to neighbour. A layer comes to a particle
+/// from neighbours that know theirs.
 template <int Dim>
 double distance_by_neighbours(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
   double least = far_from_walls;
@@ -34,7 +32,8 @@ bool is_reached(const Pairs<Dim>& pairs, const std::vector<double>& layer_viscos
 
 /// nu~ [m^2/s] of fluid particle i after a step of dt. `d` is its distance from `wall`, or from the nearest one.
 template <int Dim>
-double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall, double d, double dt, std::size_t i) {
+double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall, const Mat<Dim>& velocity_gradient,
+                            double d, double dt, std::size_t i) {
   namespace sa = spalart_allmaras;
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
@@ -42,8 +41,6 @@ double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall,
   const double nu = particles.layer_viscosity[i];
   const bool is_beside_wall = wall.is_turbulent() && d < setup.spacing;
   const double seed = is_beside_wall ? sa::seed({molecular, wall.roughness}, wall.friction_velocity) : 0.0;
-  if (!is_reached(flow.pairs(), particles.layer_viscosity, i)) return seed;
-
   double rate = 0.0;
   double destruction = 0.0;
   if (nu > 0.0) {
@@ -51,9 +48,7 @@ double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall,
       const double height = is_beside_wall ? std::min(d, sa::thickness(nu, wall.friction_velocity)) : d;
       rate = wall.friction_velocity / (von_karman * height);
     } else {
-      const Mat<Dim> gradient = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], particles.volume,
-                                                        std::span<const Vec<Dim>>(particles.velocity));
-      rate = sa::modified_rate(shear_rate<Dim>(gradient), nu, molecular, d);
+      rate = sa::modified_rate(shear_rate<Dim>(velocity_gradient), nu, molecular, d);
     }
     destruction = sa::destruction_rate(rate, nu, d);
   }
@@ -65,27 +60,40 @@ double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall,
 }  // namespace
 
 template <int Dim>
-void grow_boundary_layers(Flow<Dim>& flow, double dt) {
-  if (!flow.setup.has_boundary_layers) return;
-  Particles<Dim>& particles = flow.state.particles;
-  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
-  std::vector<double> layer_viscosity(particles.size(), 0.0);
-  std::vector<double> wall_distance(particles.size(), far_from_walls);
+BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const RubbingWall<Dim>> walls,
+                                    std::span<const Mat<Dim>> velocity_gradient, double dt) {
+  const Particles<Dim>& particles = flow.state.particles;
+  BoundaryLayers next;
+  next.viscosity.assign(particles.size(), 0.0);
+  next.wall_distance.assign(particles.size(), far_from_walls);
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    const RubbingWall<Dim> wall = find_rubbing_wall<Dim>(flow.wall_scene(), flow.setup.friction_law,
-                                                         flow.state.wall_velocity, particles.velocity, i);
+    const RubbingWall<Dim>& wall = walls[i];
+    const bool is_beside_wall = wall.weight > 0.0;
+    if (!is_beside_wall && !is_reached(flow.pairs(), particles.layer_viscosity, i)) return;
     // As if a rough wall stood 0.03 k_s farther back (Aupoix & Spalart 2003).
-    wall_distance[i] =
-        wall.weight > 0.0 ? wall.distance + 0.03 * wall.roughness : distance_by_neighbours(flow.pairs(), particles, i);
-    layer_viscosity[i] = next_layer_viscosity(flow, wall, wall_distance[i], dt, i);
+    next.wall_distance[i] =
+        is_beside_wall ? wall.distance + 0.03 * wall.roughness : distance_by_neighbours(flow.pairs(), particles, i);
+    next.viscosity[i] = next_layer_viscosity(flow, wall, velocity_gradient[i], next.wall_distance[i], dt, i);
   });
-  particles.layer_viscosity = std::move(layer_viscosity);
-  particles.wall_distance = std::move(wall_distance);
+  return next;
+}
+
+template <int Dim>
+void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted) {
+  if (!flow.setup.has_boundary_layers) return;
+  Particles<Dim>& particles = flow.state.particles;
+  particles.layer_viscosity = std::move(predicted.layers.viscosity);
+  particles.wall_distance = std::move(predicted.layers.wall_distance);
   flow.halo().exchange(particles.layer_viscosity, particles.wall_distance);
 }
 
-template void grow_boundary_layers<2>(Flow<2>&, double);
-template void grow_boundary_layers<3>(Flow<3>&, double);
+#define TAILWATER_INSTANTIATE(Dim)                                                                       \
+  template BoundaryLayers next_boundary_layers<Dim>(const Flow<Dim>&, std::span<const RubbingWall<Dim>>, \
+                                                    std::span<const Mat<Dim>>, double);                  \
+  template void grow_boundary_layers<Dim>(Flow<Dim>&, Prediction<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -4,7 +4,6 @@
 #include "closures/smagorinsky.h"
 #include "flow/verbs.h"
 #include "operators/gradient_corrected.h"
-#include "walls/wall_friction.h"
 
 namespace tailwater {
 namespace {
@@ -43,31 +42,37 @@ void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gra
   }
 }
 
-/// Adds the friction of the case's walls and of a channel's side walls.
+/// Adds the friction of the case's walls, and finds the layers that it makes.
 template <int Dim>
-void add_friction(Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
+void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const bool is_in_laplacian = setup.scheme.laplacian == LaplacianKind::consistent && setup.wall_traits.shows_friction;
   const bool is_slippery =
       std::ranges::all_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction == 0.0; });
-  if (!is_in_laplacian && !is_slippery) {
-    const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
-    std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
-    setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
-    flow.halo().exchange(no_slip);
-    std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
-    add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, acceleration,
-                           viscosity);
-    if (setup.finds_wall_forces) {
-      flow.halo().exchange(viscosity);
-      std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
-      find_friction_on_walls<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, viscosity,
-                                  force);
-      for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
-    }
+  const bool adds_friction = !is_in_laplacian && !is_slippery;
+  if (!adds_friction && !setup.has_boundary_layers) return;
+
+  const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
+  const std::vector<RubbingWall<Dim>> walls =
+      find_rubbing_walls<Dim>(flow.wall_scene(), setup.friction_law, V, particles.velocity);
+  if (setup.has_boundary_layers) {
+    predicted.layers = next_boundary_layers<Dim>(flow, walls, predicted.velocity_gradient, dt);
   }
-  add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
+  if (!adds_friction) return;
+  std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
+  setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
+  flow.halo().exchange(no_slip);
+  std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
+  add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, walls, no_slip, particles.velocity,
+                         predicted.acceleration, viscosity);
+  if (setup.finds_wall_forces) {
+    flow.halo().exchange(viscosity);
+    std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
+    find_friction_on_walls<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, viscosity,
+                                force);
+    for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
+  }
 }
 
 /// Takes velocity out of the water in damping zones: with the rate s the step ends with (u + dt a)/(1 + s dt), which is
@@ -123,7 +128,8 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   acceleration.assign(particles.owned, Vec<Dim>::Zero());
   if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
   add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
-  add_friction(flow, acceleration);
+  add_friction(flow, dt, predicted);
+  add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
   if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
 
   damp(flow, start, dt, acceleration);

@@ -180,7 +180,7 @@ bool Setup<Dim>::uses_pair_vectors() const {
 
 template <int Dim>
 bool Setup<Dim>::uses_velocity_gradient() const {
-  return scheme.noise_viscosity > 0.0 || scheme.laplacian == LaplacianKind::morris ||
+  return scheme.noise_viscosity > 0.0 || scheme.laplacian == LaplacianKind::morris || has_boundary_layers ||
          (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
 }
 

@@ -8,6 +8,7 @@
 #include "flow/measure.h"
 #include "flow/step.h"
 #include "walls/wall_contact.h"
+#include "walls/wall_friction.h"
 
 namespace tailwater {
 
@@ -102,10 +103,15 @@ void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& 
 template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// Lets the eddy viscosity of boundary layers and the distance from walls go on by dt (closures/spalart_allmaras.h).
-/// Call once per step, located at the positions where it ends.
+/// The boundary layers after dt (closures/spalart_allmaras.h), of owned particles; that of ghosts is 0. `walls` are
+/// those that rub on each particle.
 template <int Dim>
-void grow_boundary_layers(Flow<Dim>& flow, double dt);
+BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const RubbingWall<Dim>> walls,
+                                    std::span<const Mat<Dim>> velocity_gradient, double dt);
+
+/// Takes over the boundary layers that `predict` has found. Call once per step, before particles move.
+template <int Dim>
+void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted);
 
 /// (F28)-(F32), or after Lind et al. (2012). Needs `locate` at the present positions.
 template <int Dim>

@@ -27,7 +27,6 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   const StepStart<Dim> start = remember(flow);
   steer_bodies(flow, start, dt);
   StepReport report = take_step(flow, start, dt);
-  grow_boundary_layers(flow, dt);
   report.dt = dt;
   count_passing(flow, start);
   Interventions& counts = report.interventions;

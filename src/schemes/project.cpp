@@ -11,7 +11,8 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
   WallDrive<Dim> drive = drive_walls(flow, start, dt);
   locate(flow);
-  const Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
+  Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
+  grow_boundary_layers(flow, predicted);
   const std::vector<double> target = aim(flow, predicted, dt);
   const PosedEquation equation = assemble(flow, predicted, target, drive, dt);  // (F15)
   report.add(solve(flow, start, equation, dt, drive));

@@ -55,8 +55,7 @@ void apply_wall_law(const FrictionLaw& law, double layer_viscosity, RubbingWall<
   wall.friction_velocity = std::sqrt(laminar + wall.excess);
 }
 
-}  // namespace
-
+/// A layer thinner than dx (spalart_allmaras.h) lowers the distance at which the wall law applies.
 template <int Dim>
 RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
                                    std::span<const Vec<Dim>> velocity, std::size_t i) {
@@ -75,13 +74,24 @@ RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLa
   return wall;
 }
 
+}  // namespace
+
 template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+std::vector<RubbingWall<Dim>> find_rubbing_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
+                                                 std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity) {
+  std::vector<RubbingWall<Dim>> walls(scene.pairs.owned());
+  for_each(walls.size(), [&](std::size_t i) {
+    if (scene.particles.is_fluid(i)) walls[i] = find_rubbing_wall(scene, law, V, velocity, i);
+  });
+  return walls;
+}
+
+template <int Dim>
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const RubbingWall<Dim>> walls,
                        std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
                        std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity) {
-  for_each(scene.pairs.owned(), [&](std::size_t i) {
-    if (!scene.particles.is_fluid(i)) return;
-    const RubbingWall<Dim> wall = find_rubbing_wall(scene, law, V, velocity, i);
+  for_each(walls.size(), [&](std::size_t i) {
+    const RubbingWall<Dim>& wall = walls[i];
     double k_i = 0.0;
     if (wall.weight > 0.0) {
       if (wall.is_turbulent()) {
@@ -115,14 +125,14 @@ void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
-  template RubbingWall<Dim> find_rubbing_wall<Dim>(const WallScene<Dim>&, const FrictionLaw&,                          \
-                                                   std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::size_t); \
-  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,           \
-                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,      \
-                                       std::span<double>);                                                             \
-  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,      \
-                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                      \
+#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
+  template std::vector<RubbingWall<Dim>> find_rubbing_walls<Dim>(                                                    \
+      const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>, std::span<const Vec<Dim>>);              \
+  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const RubbingWall<Dim>>, \
+                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,    \
+                                       std::span<double>);                                                           \
+  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,    \
+                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                    \
                                             std::span<const double>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

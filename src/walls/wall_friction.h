@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "closures/spalart_allmaras.h"
 #include "walls/wall_model.h"
@@ -28,19 +29,19 @@ struct RubbingWall {
   bool is_turbulent() const { return excess > 0.0; }
 };
 
-/// Finds it for fluid particle i. `V` is the wall's velocity for each row of its table; `velocity` is the water's. A
-/// layer thinner than dx (spalart_allmaras.h) lowers the distance at which the wall law applies.
+/// Finds it for each owned particle; the weight of wall particles is 0. `V` is the wall's velocity for each row of its
+/// table; `velocity` is the water's.
 template <int Dim>
-RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
-                                   std::span<const Vec<Dim>> velocity, std::size_t i);
+std::vector<RubbingWall<Dim>> find_rubbing_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
+                                                 std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity);
 
-/// Adds lambda times the stress of walls to the acceleration [m/s^2] of fluid particles: the tangential part of
+/// Adds lambda times the stress of `walls` to the acceleration [m/s^2] of fluid particles: the tangential part of
 /// sum_w lambda c_iw [nu (u_noslip - u_i) - k_i (u_i - V)]. Here c_iw is the Morris weight, `no_slip` the wall model's
-/// velocity for each wall particle (up to date on ghosts), and `V` the wall's velocity for each row of its table.
+/// velocity for each wall particle (up to date on ghosts), and V the wall's velocity, which the wall's glide knows.
 /// k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
 /// receives it for owned particles. Relative to the wall, friction only slows the water.
 template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const RubbingWall<Dim>> walls,
                        std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
                        std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity = {});
 

@@ -78,8 +78,12 @@ struct WettedWall {
     std::vector<Vec<Dim>> no_slip(set.size(), Vec<Dim>::Zero());
     std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
     model->find_no_slip_velocity(scene(), V, velocity, no_slip);
-    add_wall_friction<Dim>(scene(), law, V, no_slip, velocity, acceleration);
+    add_wall_friction<Dim>(scene(), law, rubbing_walls(law, velocity), no_slip, velocity, acceleration);
     return acceleration;
+  }
+
+  std::vector<RubbingWall<Dim>> rubbing_walls(const FrictionLaw& law, const std::vector<Vec<Dim>>& velocity) const {
+    return find_rubbing_walls<Dim>(scene(), law, V, velocity);
   }
 
   WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, here}; }
@@ -273,7 +277,8 @@ TYPED_TEST(WallTest, WallsFeelTheOppositeOfTheirFriction) {
     std::vector<Vec<Dim>> force(wall.set.size(), Vec<Dim>::Zero());
     std::vector<double> excess_viscosity(wall.set.size());
     wall.model->find_no_slip_velocity(wall.scene(), wall.V, velocity, no_slip);
-    add_wall_friction<Dim>(wall.scene(), law, wall.V, no_slip, velocity, acceleration, excess_viscosity);
+    add_wall_friction<Dim>(wall.scene(), law, wall.rubbing_walls(law, velocity), no_slip, velocity, acceleration,
+                           excess_viscosity);
     find_friction_on_walls<Dim>(wall.scene(), law, wall.V, no_slip, velocity, excess_viscosity, force);
     Vec<Dim> sum = Vec<Dim>::Zero();
     double size = 0.0;
