@@ -588,7 +588,7 @@ struct SchemeTable {
   DivergenceFree divergence_free = DivergenceFree::midway;
   Displacement displacement = Displacement::new_velocity;
 
-  double courant = 0.25;
+  double courant = 0.4;
   double length = 0.0;
 
   double artificial_viscosity = 0.0;

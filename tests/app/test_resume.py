@@ -13,7 +13,7 @@ from fields import read_points, read_series
 from program import PATIENCE, ProgramTest
 from resumed import assert_same_results
 
-HALF, WHOLE = "time.end=0.12", "time.end=0.25"
+HALF, WHOLE = "time.end=0.2", "time.end=0.4"
 FIELDS = ("--set", "output.fields_interval=0.02")
 OFTEN = ("--set", "output.checkpoint_interval=0.001")
 GATE = ("--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
@@ -65,7 +65,7 @@ class Resumed(ProgramTest):
         super().setUp()
         case = self.folder / "small.toml"
         (self.folder / "roll.csv").write_text("t [s], x [mm], angle [deg]\n" + "".join(
-            f"{0.02 * k}, {0.1 * k * k}, {0.05 * k * k}\n" for k in range(20)))
+            f"{0.02 * k}, {0.1 * k * k}, {0.05 * k * k}\n" for k in range(25)))
         # Probes with an interval of their own and with times, beside those of every step.
         case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n'
                         '[[probe]]\nname = "force"\ntype = "force"\nmoment_about = [0, 0]\n'
@@ -139,7 +139,7 @@ class BitForBit(Resumed):
 
 class Checkpoints(Resumed):
     def test_two_are_kept(self):
-        self.run_case("run", *OFTEN)
+        self.run_case("run", "--set", HALF, *OFTEN)
         self.assertEqual(len(self.checkpoints()), 2)
         for path in self.checkpoints():
             self.assertTrue(path.read_bytes()[512:].startswith(b"\x89HDF"))
@@ -234,7 +234,7 @@ class Refused(Resumed):
             path.unlink()
         shutil.copy(self.checkpoints("other")[0], self.folder / "run/checkpoints")
         self.before = self.listing()
-        self.refuse("run", parts=("other case", "courant = 0.25", "courant = 0.2", self.checkpoints("run")[0].name))
+        self.refuse("run", parts=("other case", "courant = 0.4", "courant = 0.2", self.checkpoints("run")[0].name))
 
     def test_an_older_format(self):
         path = self.checkpoints("run")[0]

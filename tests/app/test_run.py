@@ -288,7 +288,7 @@ class Messages(ProgramTest):
         self.assertEqual(result.stdout, "")
         *progress, last = result.stderr.splitlines()
         self.assertEqual(last, "done: results in run")
-        self.assertRegex(progress[0], r"^ +\d+\.\d %  t = 0\.00\d+ s  ETA ")
+        self.assertRegex(progress[0], r"^ +\d+\.\d %  t = 0\.0\d+ s  ETA ")
         self.assertRegex(progress[-1], r"^100\.0 %")
         self.assertNotIn("\r", result.stderr)
 

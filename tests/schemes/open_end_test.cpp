@@ -19,6 +19,10 @@ template <class D>
 class OpenEndTest : public testing::Test {};
 TYPED_TEST_SUITE(OpenEndTest, Dimensions);
 
+/// A wall particle counts as wet from a kernel sum of 1e-6 W(0) on (wet_walls.cpp). A plug that glides past feels such
+/// particles come and go, to that degree.
+constexpr double unfelt = 1e-6;
+
 /// The tank of tank_case with its end at high x open.
 template <int Dim>
 CaseSpec open_tank(double width, double depth) {
@@ -72,7 +76,7 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
       ASSERT_NEAR(departed.volume, static_cast<double>(departed.particles) * power<Dim>(dx), 1e-12);
     }
     EXPECT_EQ(fluid_ids(flow.state.particles).size(), 0u);
-    EXPECT_NEAR(flow.state.open_ends[0].departed.energy / energy_at_start, 1.0, 1e-9);
+    EXPECT_NEAR(flow.state.open_ends[0].departed.energy / energy_at_start, 1.0, unfelt);
     const FlowMeasures measures = measure(flow);
     EXPECT_EQ(measures.kinetic_energy, 0.0);
     EXPECT_EQ(measures.departed.particles, static_cast<std::int64_t>(ids_at_start.size()));
@@ -229,16 +233,17 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
   const std::multiset<std::int64_t> ids = fluid_ids(flow.state.particles);
   EXPECT_EQ(std::set<std::int64_t>(ids.begin(), ids.end()).size(), before) << "ids are unique";
   const Particles<Dim>& particles = flow.state.particles;
+  const double way = speed * flow.state.time / dx;
   std::optional<double> first;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     const Vec<Dim>& x = particles.position[i];
     if (!first) first = x[0];
     const double columns = (x[0] - *first) / dx;
-    ASSERT_NEAR(columns, std::round(columns), 1e-9);
+    ASSERT_NEAR(columns, std::round(columns), way * unfelt);
     const double rows = x[Dim - 1] / dx + 0.5;
-    ASSERT_NEAR(rows, std::round(rows), 1e-9);
-    ASSERT_NEAR(particles.velocity[i][0], speed, 1e-9);
+    ASSERT_NEAR(rows, std::round(rows), way * unfelt);
+    ASSERT_NEAR(particles.velocity[i][0], speed, unfelt);
   }
 }
 
