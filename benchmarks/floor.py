@@ -100,10 +100,10 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
         operations, floor = pairs * one.operations(d), one.floor(d)
         add(one.name, one.times * (pairs * one.now(d) + own), best_times(one) * (pairs * floor + (own if floor else 0)),
             one.times * operations, best_times(one) * operations)
-    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; both solves check their residual at
-    # their start and end.
+    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; the residual at the start, a sweep
+    # before, one after and the residual at the end make two and a half more for each of two solves.
     entries, vectors = pairs * (SINGLE + INDEX), 2 * DOUBLE
-    products = 2 * iterations + 4
+    products = 2 * iterations + 5
     best_products = min(products, FLOOR_PRODUCTS)
     add("pressure solves", products * (entries + vectors), best_products * (entries / 2 + vectors),
         products * 2 * pairs, best_products * 2 * pairs)

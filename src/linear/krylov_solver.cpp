@@ -13,7 +13,7 @@
 #include "linear/cell_multigrid.h"
 #include "linear/petsc_rows.h"
 #include "linear/petsc_solver.h"
-#include "linear/triangular_sweeps.h"
+#include "linear/swept_bicgstab.h"
 
 namespace tailwater {
 namespace {
@@ -57,50 +57,16 @@ class VectorAccess {
   PetscScalar* written_ = nullptr;
 };
 
-/// What PETSc's shell of a matrix calls. An exception in one of these functions has no way out through PETSc and ends
-/// the program.
-struct Operations {
-  const LinearSystem* system;
-  TriangularSweeps sweeps;
+/// y = A x, for PETSc. An exception here has no way out through PETSc and ends the program.
+PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
+  const LinearSystem* system = nullptr;
+  check_petsc(MatShellGetContext(shell, &system));
+  const VectorAccess vectors(x, y);
+  system->multiply(vectors.from(), vectors.to());
+  return 0;
+}
 
-  static Operations& of(Mat shell) {
-    Operations* operations = nullptr;
-    check_petsc(MatShellGetContext(shell, &operations));
-    return *operations;
-  }
-
-  /// y = A x
-  static PetscErrorCode multiply(Mat shell, Vec x, Vec y) noexcept {
-    const VectorAccess vectors(x, y);
-    of(shell).system->multiply(vectors.from(), vectors.to());
-    return 0;
-  }
-
-  static PetscErrorCode get_diagonal(Mat, Vec diagonal) noexcept { return VecSet(diagonal, 1.0); }
-
-  /// What SSOR in Eisenstat's form asks for.
-  static PetscErrorCode sweep(Mat shell, Vec b, PetscReal omega, MatSORType kind, PetscReal shift, PetscInt iterations,
-                              PetscInt local_iterations, Vec x) noexcept {
-    constexpr int from_zero = SOR_ZERO_INITIAL_GUESS;
-    if (shift != 0.0 || iterations * local_iterations != 1) return PETSC_ERR_SUP;
-    const VectorAccess vectors(b, x);
-    TriangularSweeps& sweeps = of(shell).sweeps;
-    if (kind == SOR_EISENSTAT) {
-      sweeps.eisenstat(omega, vectors.from(), vectors.to());
-    } else if (kind == (from_zero | SOR_LOCAL_FORWARD_SWEEP)) {
-      sweeps.forward(omega, vectors.from(), vectors.to());
-    } else if (kind == (from_zero | SOR_LOCAL_BACKWARD_SWEEP)) {
-      sweeps.backward(omega, vectors.from(), vectors.to());
-    } else if (kind == SOR_APPLY_UPPER) {
-      sweeps.times_upper(omega, vectors.from(), vectors.to());
-    } else {
-      return PETSC_ERR_SUP;
-    }
-    return 0;
-  }
-};
-
-/// correction = multigrid(residual), for PETSc. An exception here has no way out through PETSc and ends the program.
+/// correction = multigrid(residual), the same.
 PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
   CellMultigrid* multigrid = nullptr;
   check_petsc(PCShellGetContext(preconditioner, &multigrid));
@@ -117,15 +83,61 @@ void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vect
                   : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
 }
 
+/// Below this tolerance rounding may show in the residual that our BiCGStab keeps, and it is computed from x.
+constexpr double least_sure_tolerance = 1e-7;
+
+SystemTraits traits_of(const LinearSystem& system, double rows_deep) {
+  return {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free(), .has_cells = system.has_cells()};
+}
+
+/// Whether our own BiCGStab is asked for. Options go to PETSc's, and so do systems with a free constant.
+bool can_be_swept(const PressureSolverTable& settings, double rows_deep, const LinearSystem& system) {
+  const SolverChoice choice = choose_solver(settings, traits_of(system, rows_deep));
+  return choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor &&
+         settings.petsc_options.empty() && !system.constant_is_free();
+}
+
+/// One run of a Krylov method.
+struct Attempt {
+  KSPConvergedReason reason = KSP_CONVERGED_RTOL;
+  int iterations = 0;
+  std::optional<double> residual = {};  ///< norm of b - A x, if the method knows it
+  std::vector<double> history;          ///< of residuals, in any unit
+};
+
 /// About twelve residuals of the history, scaled so that the first is `first`.
-std::vector<double> shown_residuals(KSP solver, double first) {
-  const PetscReal* history = nullptr;
-  PetscInt length = 0;
-  check_petsc(KSPGetResidualHistory(solver, &history, &length));
+std::vector<double> shown_residuals(const std::vector<double>& history, double first) {
   std::vector<double> shown;
-  const PetscInt stride = std::max<PetscInt>(1, length / 12);
-  for (PetscInt k = 0; k < length; k += stride) shown.push_back(first * history[k] / history[0]);
+  const std::size_t stride = std::max<std::size_t>(1, history.size() / 12);
+  for (std::size_t k = 0; k < history.size(); k += stride) shown.push_back(first * history[k] / history[0]);
   return shown;
+}
+
+/// b - A x. Collective.
+std::vector<double> residual_of(const LinearSystem& system, std::span<const double> x) {
+  std::vector<double> residual(x.size());
+  system.multiply(x, residual);
+  for (std::size_t i = 0; i < x.size(); ++i) residual[i] = system.rhs()[i] - residual[i];
+  return residual;
+}
+
+double norm_of(const Communicator& ranks, std::span<const double> x) {
+  return std::sqrt(ranks.sum(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)));
+}
+
+/// Our own BiCGStab with SSOR.
+Attempt attempt_by_sweeps(const LinearSystem& system, std::span<const double> residual, double target,
+                          int most_iterations, std::span<double> x) {
+  SweptBicgstab method(system);
+  const SweptBicgstab::Outcome outcome = method.solve(residual, target, most_iterations, x);
+  Attempt attempt{.iterations = outcome.iterations, .history = method.history()};
+  if (outcome.broke_down) {
+    attempt.reason = KSP_DIVERGED_BREAKDOWN;
+  } else {
+    attempt.residual = outcome.residual;
+    if (outcome.residual > target) attempt.reason = KSP_DIVERGED_ITS;
+  }
+  return attempt;
 }
 
 }  // namespace
@@ -133,11 +145,9 @@ std::vector<double> shown_residuals(KSP solver, double first) {
 /// PETSc's objects, and the system they belong to.
 struct KrylovSolver::Petsc {
   PetscMatrix matrix;  ///< a shell around the system
-  std::optional<Operations> operations;
-  PetscRows rows;  ///< only for preconditioners that need them
+  PetscRows rows;      ///< only for preconditioners that need them
   PetscVector rhs;
   PetscVector solution;
-  PetscVector residual;
   PetscKrylovSolver solver;
   PetscNullSpace constants;
   std::optional<CellMultigrid> multigrid;
@@ -148,16 +158,10 @@ struct KrylovSolver::Petsc {
   bool take_matrix(const LinearSystem& system) {
     if (pattern_number == system.pattern_number()) return false;
     pattern_number = system.pattern_number();
-    operations.emplace(Operations{&system, TriangularSweeps(system)});
     const auto size = static_cast<PetscInt>(system.size());
-    check_petsc(MatCreateShell(system.ranks().handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE, &*operations,
-                               matrix.create()));
-    using Function = void (*)();
-    check_petsc(MatShellSetOperation(matrix.get(), MATOP_MULT, reinterpret_cast<Function>(Operations::multiply)));
-    check_petsc(
-        MatShellSetOperation(matrix.get(), MATOP_GET_DIAGONAL, reinterpret_cast<Function>(Operations::get_diagonal)));
-    check_petsc(MatShellSetOperation(matrix.get(), MATOP_SOR, reinterpret_cast<Function>(Operations::sweep)));
-    check_petsc(MatCreateVecs(matrix.get(), nullptr, residual.create()));
+    check_petsc(MatCreateShell(system.ranks().handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE,
+                               const_cast<LinearSystem*>(&system), matrix.create()));
+    check_petsc(MatShellSetOperation(matrix.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_system)));
     if (system.constant_is_free()) {
       check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants.create()));
       check_petsc(MatSetNullSpace(matrix.get(), constants.get()));
@@ -165,18 +169,19 @@ struct KrylovSolver::Petsc {
     return true;
   }
 
-  /// A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over from the old one, and a
-  /// run that goes on from a checkpoint has no old one.
-  void take_solver(LinearSystem& system, const PressureSolverTable& settings, double rows_deep, bool pattern_is_new) {
+  /// Prepares for attempts. A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over
+  /// from the old one, and a run that goes on from a checkpoint has no old one.
+  void take(LinearSystem& system, const PressureSolverTable& settings, double rows_deep) {
+    const bool pattern_is_new = take_matrix(system);
     const Communicator& ranks = system.ranks();
     if (ranks.any(pattern_is_new || solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
-      const SystemTraits traits{
-          .rows_deep = rows_deep, .constant_is_free = system.constant_is_free(), .has_cells = system.has_cells()};
-      configure(solver.get(), settings, traits, ranks.is_alone());
+      configure(solver.get(), settings, traits_of(system, rows_deep), ranks.is_alone());
       take_multigrid(system);
     }
+    // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
+    check_petsc(KSPSetReusePreconditioner(solver.get(), pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
     if (is_ours()) {
       check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
       return;
@@ -191,8 +196,7 @@ struct KrylovSolver::Petsc {
     PC preconditioner = nullptr;
     PetscBool is_one = PETSC_FALSE;
     check_petsc(KSPGetPC(solver.get(), &preconditioner));
-    check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_one, PCEISENSTAT, PCSHELL,
-                                          PCNONE, ""));
+    check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_one, PCSHELL, PCNONE, ""));
     return is_one;
   }
 
@@ -208,19 +212,28 @@ struct KrylovSolver::Petsc {
     check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
   }
 
-  /// Restarts from 0 with GMRES. The next solve uses the method of the settings again.
-  void begin_again() {
-    check_petsc(VecZeroEntries(solution.get()));
+  /// The next attempts of this solve are by GMRES; the next solve uses the method of the settings again.
+  void change_method() {
     check_petsc(KSPSetType(solver.get(), KSPGMRES));
     solver_size.reset();
   }
 
-  double residual_norm() const {
-    PetscReal norm = 0.0;
-    check_petsc(MatMult(matrix.get(), solution.get(), residual.get()));
-    check_petsc(VecAYPX(residual.get(), -1.0, rhs.get()));
-    check_petsc(VecNorm(residual.get(), NORM_2, &norm));
-    return norm;
+  /// Goes on from x until the preconditioned residual is `tolerance` of the right-hand side.
+  Attempt attempt(LinearSystem& system, double tolerance, std::span<double> x) {
+    wrap(system.ranks(), system.rhs(), rhs);
+    wrap(system.ranks(), x, solution);
+    check_petsc(KSPSetTolerances(solver.get(), tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    check_petsc(KSPSolve(solver.get(), rhs.get(), solution.get()));
+    Attempt attempt;
+    PetscInt iterations = 0;
+    check_petsc(KSPGetIterationNumber(solver.get(), &iterations));
+    check_petsc(KSPGetConvergedReason(solver.get(), &attempt.reason));
+    attempt.iterations = static_cast<int>(iterations);
+    const PetscReal* history = nullptr;
+    PetscInt length = 0;
+    check_petsc(KSPGetResidualHistory(solver.get(), &history, &length));
+    attempt.history.assign(history, history + length);
+    return attempt;
   }
 };
 
@@ -244,7 +257,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   TAILWATER_ASSERT(solution.size() == system.size(), "the solution must have one entry per row");
   if (system.constant_is_free()) system.make_rhs_consistent();
   const std::span<double> rhs = system.rhs();
-  const double rhs_norm = std::sqrt(ranks.sum(std::inner_product(rhs.begin(), rhs.end(), rhs.begin(), 0.0)));
+  const double rhs_norm = norm_of(ranks, rhs);
   if (!std::isfinite(rhs_norm)) {
     throw SolverError("the source of the pressure equation is not finite");
   }
@@ -253,51 +266,49 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
     return {};
   }
 
-  Petsc& petsc = *petsc_;
-  const bool pattern_is_new = petsc.take_matrix(system);
-  wrap(ranks, rhs, petsc.rhs);
-  wrap(ranks, solution, petsc.solution);
-
   SolveReport report;
-  report.residual = petsc.residual_norm() / rhs_norm;
-  if (report.residual > hopeless_guess) {
-    check_petsc(VecZeroEntries(petsc.solution.get()));
+  std::vector<double> residual = residual_of(system, solution);
+  report.residual = norm_of(ranks, residual) / rhs_norm;
+  const auto begin_at_zero = [&] {
+    std::fill(solution.begin(), solution.end(), 0.0);
+    residual.assign(rhs.begin(), rhs.end());
     report.residual = 1.0;
-  }
+  };
+  if (report.residual > hopeless_guess) begin_at_zero();
   if (report.residual <= tolerance_wanted) return report;
 
-  petsc.take_solver(system, settings_, rows_deep_, pattern_is_new);
-  KSP solver = petsc.solver.get();
-  // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
-  check_petsc(KSPSetReusePreconditioner(solver, pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
+  bool is_swept = can_be_swept(settings_, rows_deep_, system);
+  if (!is_swept) petsc_->take(system, settings_, rows_deep_);
   double tolerance = tolerance_wanted;
   while (report.residual > tolerance_wanted) {
     const double residual_before = report.residual;
-    check_petsc(KSPSetTolerances(solver, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-    check_petsc(KSPSolve(solver, petsc.rhs.get(), petsc.solution.get()));
-    PetscInt iterations = 0;
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check_petsc(KSPGetIterationNumber(solver, &iterations));
-    check_petsc(KSPGetConvergedReason(solver, &reason));
-    report.iterations += static_cast<int>(iterations);
-    report.residual = petsc.residual_norm() / rhs_norm;
-    if (reason > 0) {
-      // The solver measures the preconditioned residual. If that made it stop too early, it continues from there.
+    const Attempt attempt = is_swept ? attempt_by_sweeps(system, residual, tolerance * rhs_norm,
+                                                         settings_.max_iterations - report.iterations, solution)
+                                     : petsc_->attempt(system, tolerance, solution);
+    report.iterations += attempt.iterations;
+    if (attempt.residual && tolerance_wanted >= least_sure_tolerance) {
+      report.residual = *attempt.residual / rhs_norm;
+    } else {
+      residual = residual_of(system, solution);
+      report.residual = norm_of(ranks, residual) / rhs_norm;
+    }
+    if (attempt.reason > 0) {
+      // PETSc measures the preconditioned residual. If that made it stop too early, it continues from there.
       tolerance *= 0.5 * tolerance_wanted / report.residual;
-      continue;
-    }
-    if (is_breakdown(reason) && report.restarts == 0) {
-      petsc.begin_again();
+    } else if (is_breakdown(attempt.reason) && report.restarts == 0) {
       ++report.restarts;
-      report.residual = 1.0;
-      continue;
+      if (is_swept) petsc_->take(system, settings_, rows_deep_);
+      is_swept = false;
+      petsc_->change_method();
+      begin_at_zero();
+    } else {
+      throw SolverError(fmt::format(
+          "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
+          "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
+          "another pressure_solver.method or preconditioner",
+          KSPConvergedReasons[attempt.reason], report.iterations, report.residual, tolerance_wanted,
+          system.size_of_all(), fmt::join(shown_residuals(attempt.history, residual_before), ", ")));
     }
-    throw SolverError(fmt::format(
-        "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
-        "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
-        "another pressure_solver.method or preconditioner",
-        KSPConvergedReasons[reason], report.iterations, report.residual, tolerance_wanted, system.size_of_all(),
-        fmt::join(shown_residuals(solver, residual_before), ", ")));
   }
   if (system.constant_is_free()) {
     const double mean =

@@ -1,4 +1,5 @@
-// Solves a LinearSystem with PETSc, whose matrix and vectors share the system's arrays.
+// Solves a LinearSystem, by BiCGStab with SSOR of our own or by methods of PETSc, whose vectors share the system's
+// arrays.
 #pragma once
 
 #include <memory>

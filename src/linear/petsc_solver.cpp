@@ -12,12 +12,10 @@
 
 #include "base/error.h"
 #include "base/fp_traps.h"
+#include "linear/triangular_sweeps.h"
 
 namespace tailwater {
 namespace {
-
-/// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
-constexpr double ssor_factor = 1.35;
 
 /// With PETSc's default absolute tolerance any residual below it would count as converged, however large relative to
 /// the source.
@@ -38,7 +36,7 @@ KSPType krylov_type(KrylovMethod method) {
   return KSPBCGS;
 }
 
-PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant_is_free) {
+PCType preconditioner_type(PreconditionerName name, bool is_alone) {
   switch (name) {
     case PreconditionerName::cell_multigrid:
       return PCSHELL;
@@ -54,8 +52,7 @@ PCType preconditioner_type(PreconditionerName name, bool is_alone, bool constant
     case PreconditionerName::automatic:
       break;
   }
-  // With a free constant: plain SSOR, because Eisenstat's form has another unknown, whose null space is not constants.
-  return constant_is_free ? PCSOR : PCEISENSTAT;
+  return PCSOR;
 }
 
 /// By default BoomerAMG solves its coarsest level by elimination. With a free constant that level is singular, and the
@@ -125,9 +122,7 @@ void configure(KSP solver, const PressureSolverTable& settings, const SystemTrai
   check_petsc(KSPSetType(solver, krylov_type(choice.method)));
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner));
-  check_petsc(PCSetType(preconditioner, preconditioner_type(choice.preconditioner, is_alone, system.constant_is_free)));
-  check_petsc(PCEisenstatSetOmega(preconditioner, ssor_factor));
-  check_petsc(PCEisenstatSetNoDiagonalScaling(preconditioner, PETSC_TRUE));  // it is 1 already
+  check_petsc(PCSetType(preconditioner, preconditioner_type(choice.preconditioner, is_alone)));
   check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
   check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
   // With right preconditioning PETSc does not remove the free constant from multigrid's result, and it grows without

@@ -14,9 +14,9 @@ void TriangularSweeps::backward(double omega, std::span<const double> b, std::sp
   }
 }
 
-void TriangularSweeps::times_upper(double omega, std::span<const double> b, std::span<double> x) const {
-  const LinearSystem::Part& behind = system_.behind();
-  for (std::size_t i = 0; i < b.size(); ++i) x[i] = b[i] / omega - system_.scale(i) * behind.sum(i, b.data());
+void TriangularSweeps::times_lower(double omega, std::span<const double> b, std::span<double> x) const {
+  const LinearSystem::Part& before = system_.before();
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] = b[i] / omega - system_.scale(i) * before.sum(i, b.data());
 }
 
 void TriangularSweeps::eisenstat(double omega, std::span<const double> b, std::span<double> x) {

@@ -9,6 +9,9 @@
 
 namespace tailwater {
 
+/// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
+inline constexpr double ssor_factor = 1.35;
+
 /// Borrows the system. All vectors have one entry per row.
 class TriangularSweeps {
  public:
@@ -18,8 +21,8 @@ class TriangularSweeps {
   void forward(double omega, std::span<const double> b, std::span<double> x) const;
   /// x = (D + U)^-1 b.
   void backward(double omega, std::span<const double> b, std::span<double> x) const;
-  /// x = (D + U) b.
-  void times_upper(double omega, std::span<const double> b, std::span<double> x) const;
+  /// x = (D + L) b.
+  void times_lower(double omega, std::span<const double> b, std::span<double> x) const;
   /// x = (D + L)^-1 A (D + U)^-1 b, in Eisenstat's form (docs/theory/linear.md). Collective.
   void eisenstat(double omega, std::span<const double> b, std::span<double> x);
 

@@ -1,18 +1,21 @@
-// The sweeps of SSOR beside their definitions, with whole matrices.
+// The sweeps of SSOR, and BiCGStab with them, beside their definitions, with whole matrices.
 #include "linear/triangular_sweeps.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "linear/swept_bicgstab.h"
+
 namespace tailwater {
 namespace {
 
-constexpr double omega = 1.35;
+constexpr double omega = ssor_factor;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A matrix of 0 to 6 entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
@@ -77,8 +80,8 @@ TEST(TriangularSweeps, SolveWithTheLowerAndTheUpperTriangle) {
   EXPECT_LT((rows.lower() * x - b).lpNorm<Eigen::Infinity>(), 20.0 * eps);
   sweeps.backward(omega, entries(b), entries(x));
   EXPECT_LT((rows.upper() * x - b).lpNorm<Eigen::Infinity>(), 20.0 * eps);
-  sweeps.times_upper(omega, entries(b), entries(x));
-  EXPECT_LT((rows.upper() * b - x).lpNorm<Eigen::Infinity>(), 20.0 * eps);
+  sweeps.times_lower(omega, entries(b), entries(x));
+  EXPECT_LT((rows.lower() * b - x).lpNorm<Eigen::Infinity>(), 20.0 * eps);
 }
 
 TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
@@ -91,6 +94,58 @@ TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
     const Eigen::VectorXd product = rows.whole() * rows.upper().partialPivLu().solve(b);
     EXPECT_LT((rows.lower() * x - product).lpNorm<Eigen::Infinity>(), 100.0 * eps);
   }
+}
+
+TEST(SweptBicgstab, ItsResidualIsThatOfItsSolution) {
+  for (const int images : {0, 5}) {
+    const SparseRows rows(40, images);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
+    for (const double target : {1e-1, 1e-4, 1e-8}) {
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, 3.0, -2.0);
+      const Eigen::VectorXd residual = b - rows.whole() * x;
+      SweptBicgstab method(rows.system);
+      const SweptBicgstab::Outcome outcome = method.solve(entries(residual), target, 100, entries(x));
+      EXPECT_GT(outcome.iterations, 0);
+      EXPECT_LE(outcome.residual, target);
+      EXPECT_NEAR((b - rows.whole() * x).norm(), outcome.residual, 1e4 * eps);
+      EXPECT_EQ(method.history().size(), static_cast<std::size_t>(outcome.iterations) + 1);
+      EXPECT_DOUBLE_EQ(method.history()[0], residual.norm());
+    }
+  }
+}
+
+TEST(SweptBicgstab, SaysWhenItBreaksDown) {
+  // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its image
+  // and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
+  LinearSystem system;
+  system.set_pattern(std::vector<std::size_t>{0, 1, 2}, std::vector<std::int32_t>{1, 0});
+  const double weights[] = {3.0, 3.0};
+  for (int i = 0; i < 2; ++i) {
+    LinearSystem::Row row = system.row(i);
+    row.set_weights([&](std::size_t k) { return weights[k]; });
+    row.finish(1.0, 0.0);
+  }
+  TriangularSweeps sweeps(system);
+  const auto product_with_image = [&](double angle) {
+    const Eigen::VectorXd v = Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    Eigen::VectorXd image(2);
+    sweeps.eisenstat(ssor_factor, entries(v), entries(image));
+    return v.dot(image);
+  };
+  double positive = 0.0;
+  double negative = 0.0;
+  while (product_with_image(positive) < 0.0) positive += 0.1;
+  while (product_with_image(negative) > 0.0 && negative < 7.0) negative += 0.1;
+  ASSERT_LT(product_with_image(negative), 0.0);
+  for (int n = 0; n < 80; ++n) {
+    const double middle = 0.5 * (positive + negative);
+    (product_with_image(middle) > 0.0 ? positive : negative) = middle;
+  }
+  const Eigen::VectorXd v = Eigen::Vector2d(std::cos(positive), std::sin(positive));
+  Eigen::VectorXd b(2);
+  sweeps.times_lower(ssor_factor, entries(v), entries(b));
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
+  EXPECT_TRUE(SweptBicgstab(system).solve(entries(b), 1e-10, 100, entries(x)).broke_down);
 }
 
 TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
