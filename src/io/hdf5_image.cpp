@@ -14,11 +14,11 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
+/// Of the byte by which a file that is open for writing says so, in the head that HDF5 gives files by default.
+constexpr std::size_t place_of_open_flag = 20;
+
 /// Owns an HDF5 identifier.
 using Handle = std::shared_ptr<const hid_t>;
-
-/// Room that a growing file in memory is given at a time.
-constexpr std::size_t image_growth = std::size_t{1} << 20;
 
 Handle own(hid_t id, herr_t (*close)(hid_t), std::string_view what) {
   if (id < 0) throw IoError(fmt::format("HDF5 cannot {}", what));
@@ -39,10 +39,10 @@ void begin_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Access to a file that lives in memory and never on disk.
-Handle in_memory() {
+/// Access to a file that lives in memory, which it gets `room` bytes at a time, and never on disk.
+Handle in_memory(std::size_t room) {
   const Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list of properties");
-  require(H5Pset_fapl_core(*access, image_growth, false), "work in memory");
+  require(H5Pset_fapl_core(*access, room, false), "work in memory");
   require(H5Pset_fclose_degree(*access, H5F_CLOSE_STRONG), "work in memory");
   return access;
 }
@@ -69,10 +69,10 @@ hid_t type_of() {
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer() {
+Hdf5Writer::Hdf5Writer(std::size_t room) {
   begin_hdf5();
-  file_ =
-      own(H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, *in_memory()), H5Fclose, "make a file in memory");
+  file_ = own(H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, *in_memory(room)), H5Fclose,
+              "make a file in memory");
 }
 
 template <class Value>
@@ -92,19 +92,22 @@ void Hdf5Writer::put(const std::string& name, std::string_view text) {
   put(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
-std::string Hdf5Writer::image() const {
+std::string_view Hdf5Writer::image() {
   require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "finish a file");
   const ssize_t size = H5Fget_file_image(*file_, nullptr, 0);
-  if (size < 0) throw IoError("HDF5 cannot give the bytes of a file");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(*file_, bytes.data(), bytes.size()) < 0) throw IoError("HDF5 cannot give the bytes of a file");
-  return bytes;
+  void* held = nullptr;
+  if (size < 0 || H5Fget_vfd_handle(*file_, H5P_DEFAULT, &held) < 0 || held == nullptr) {
+    throw IoError("HDF5 cannot give the bytes of a file");
+  }
+  char* const bytes = *static_cast<char**>(held);
+  bytes[place_of_open_flag] = 0;
+  return {bytes, static_cast<std::size_t>(size)};
 }
 
 Hdf5Reader::Hdf5Reader(std::string_view image) {
   begin_hdf5();
   const SuspendFpTraps suspended;
-  const Handle access = in_memory();
+  const Handle access = in_memory(image.size());
   // HDF5 copies the bytes, and its interface lacks a const.
   require(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
   size_ = image.size();

@@ -13,15 +13,16 @@ namespace tailwater {
 
 class Hdf5Writer {
  public:
-  Hdf5Writer();
+  /// `room`: bytes that are set aside for the file at once, and as often again as they are used up.
+  explicit Hdf5Writer(std::size_t room = std::size_t{1} << 20);
 
   /// A dataset of one value per row or, with more columns, of a table; for double, int64, int32 and uint8.
   template <class Value>
   void put(const std::string& name, std::span<const Value> values, std::size_t columns = 1);
   void put(const std::string& name, std::string_view text);
 
-  /// The whole file.
-  std::string image() const;
+  /// The whole file. The bytes are HDF5's own: they go with the writer and change with the next dataset.
+  std::string_view image();
 
  private:
   std::shared_ptr<const std::int64_t> file_;

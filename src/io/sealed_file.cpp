@@ -100,11 +100,11 @@ Head read_head(std::ifstream& file, const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_sealed_file(const std::filesystem::path& path, const SealedFile& content) {
-  Head head{{content.format, content.writer, content.ranks, ""}, content.body.size(), 0};
-  head.checksum = checksum_of(head, content.body);
-  const std::string text = text_of(head);
-  const std::array<std::string_view, 2> parts{text, content.body};
+void write_sealed_file(const std::filesystem::path& path, const SealedFile& head, std::string_view body) {
+  Head told{{head.format, head.writer, head.ranks, ""}, body.size(), 0};
+  told.checksum = checksum_of(told, body);
+  const std::string text = text_of(told);
+  const std::array<std::string_view, 2> parts{text, body};
   write_file_to_disk(path, parts);
 }
 

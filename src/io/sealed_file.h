@@ -23,8 +23,9 @@ struct SealedFile {
   std::filesystem::path path{};  ///< from which it was read
 };
 
-/// Writes the file, and returns when it is on the disk (write_file.h). Throws IoError.
-void write_sealed_file(const std::filesystem::path& path, const SealedFile& content);
+/// Writes a file of this body and what `head` says, whose own body does not count, and returns when it is on the disk
+/// (write_file.h). Throws IoError.
+void write_sealed_file(const std::filesystem::path& path, const SealedFile& head, std::string_view body);
 
 /// Throws IoError, which names the file, if it cannot be read or differs in any bit from what was written.
 SealedFile read_sealed_file(const std::filesystem::path& path);

@@ -37,11 +37,22 @@ struct Particles {
   /// Calls body with references to all fields.
   template <class Body>
   void apply_to_fields(Body&& body) {
-    body(position, velocity, pressure, volume, kind, wall_row, layer_viscosity, wall_distance, id);
+    apply(*this, body);
+  }
+  template <class Body>
+  void apply_to_fields(Body&& body) const {
+    apply(*this, body);
   }
 
   void resize(std::size_t count) {
     apply_to_fields([count](auto&... field) { (field.resize(count), ...); });
+  }
+
+ private:
+  template <class Self, class Body>
+  static void apply(Self& self, Body& body) {
+    body(self.position, self.velocity, self.pressure, self.volume, self.kind, self.wall_row, self.layer_viscosity,
+         self.wall_distance, self.id);
   }
 };
 

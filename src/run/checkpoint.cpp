@@ -23,6 +23,9 @@ constexpr const char* not_saved = nullptr;
 constexpr std::array particle_fields{"position", "velocity",        "pressure",      "volume", "kind",
                                      not_saved,  "layer_viscosity", "wall_distance", "id"};
 
+/// Bytes for all that is not a field of particles.
+constexpr std::size_t room_beside_fields = std::size_t{1} << 20;
+
 /// How an HDF5 file holds a value: as `columns` numbers.
 template <class Value>
 struct Stored {
@@ -60,8 +63,8 @@ std::vector<Value> get(const Hdf5Reader& file, const std::string& name) {
 }
 
 /// Calls body with each field of particles that is saved, and its name.
-template <int Dim, class Body>
-void for_each_field(Particles<Dim>& particles, Body&& body) {
+template <class AnyParticles, class Body>
+void for_each_field(AnyParticles& particles, Body&& body) {
   particles.apply_to_fields([&](auto&... field) {
     static_assert(sizeof...(field) == particle_fields.size(), "every field has a name");
     std::size_t k = 0;
@@ -282,10 +285,14 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& 
   const std::vector<std::int64_t> owned = ranks.all_gather(static_cast<std::int64_t>(checkpoint.state.particles.owned));
   const std::vector<std::string> cuts = ranks.gather(checkpoint.cuts);
   const std::vector<double> rank_log = ranks.gather(checkpoint.rank_log);
+  const Particles<Dim>& particles = checkpoint.state.particles;  // without ghosts: lists are forgotten
+  std::size_t bytes = room_beside_fields;
+  const auto count = static_cast<std::size_t>(std::accumulate(owned.begin(), owned.end(), std::int64_t{0}));
+  for_each_field(particles,
+                 [&]<class Value>(const char*, const std::vector<Value>&) { bytes += count * sizeof(Value); });
   std::optional<Hdf5Writer> file;
-  do_on_root(ranks, [&] { file.emplace(); });
-  Particles<Dim> particles = checkpoint.state.particles;  // without ghosts: lists are forgotten
-  for_each_field(particles, [&](const char* name, auto& field) {
+  do_on_root(ranks, [&] { file.emplace(bytes); });
+  for_each_field(particles, [&](const char* name, const auto& field) {
     const auto all = ranks.gather(field);
     do_on_root(ranks, [&] { put(*file, name, all); });
   });
@@ -304,7 +311,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& 
     file->put("rank_log", std::span<const double>(rank_log), checkpoint.rank_log.size());
     file->put("cuts", all_cuts);
     file->put("cuts_size", std::span<const std::int64_t>(cuts_size));
-    write_sealed_file(path, {checkpoint_format, version_line(), ranks.size(), file->image()});
+    write_sealed_file(path, {checkpoint_format, version_line(), ranks.size(), ""}, file->image());
   });
 }
 

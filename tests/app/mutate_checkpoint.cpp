@@ -152,7 +152,7 @@ std::string copy_set(const Hdf5Reader& from, Hdf5Writer& to, const Dataset& set,
 }
 
 void mutate_checkpoint(const char* from, const char* to, std::uint64_t seed) {
-  SealedFile file = read_sealed_file(from);
+  const SealedFile file = read_sealed_file(from);
   const Hdf5Reader reader(file.body);
   Hdf5Writer writer;
   Random random(seed);
@@ -163,8 +163,7 @@ void mutate_checkpoint(const char* from, const char* to, std::uint64_t seed) {
     const std::string told = copy_set(reader, writer, datasets[k], is_mutated, random);
     if (is_mutated) fmt::print("'{}' {}\n", datasets[k].name, told);
   }
-  file.body = writer.image();
-  write_sealed_file(to, file);
+  write_sealed_file(to, file, writer.image());
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ std::string image_of(const Sets& sets) {
         put<std::uint8_t>(writer, name, set);
     }
   }
-  return writer.image();
+  return std::string(writer.image());
 }
 
 SealedFile file_of(const Sets& sets) { return {checkpoint_format, "a program", 1, image_of(sets), "step_10.h5"}; }

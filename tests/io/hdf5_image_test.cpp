@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -29,6 +30,22 @@ TEST(Hdf5Image, GivesBackEveryBit) {
   EXPECT_EQ(reader.get<std::uint8_t>("bytes"), bytes);
   EXPECT_EQ(reader.text("text"), "a text\n");
   EXPECT_TRUE(reader.get<double>("nothing").empty());
+}
+
+TEST(Hdf5Image, IsTheFileWhateverRoomItHad) {
+  std::vector<double> numbers(3000);
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  std::vector<std::string> images;
+  for (const std::size_t room : {std::size_t{1000}, std::size_t{1} << 20}) {
+    Hdf5Writer writer(room);
+    writer.put("numbers", std::span<const double>(numbers));
+    writer.put("text", "a text\n");
+    images.emplace_back(writer.image());
+  }
+  EXPECT_EQ(images[0], images[1]);
+  EXPECT_LT(images[0].size(), 8 * numbers.size() + 8192);
+  const std::string consistency_flags = images[0].substr(20, 4);  // of the head of an HDF5 file
+  EXPECT_EQ(consistency_flags, std::string(4, '\0'));
 }
 
 TEST(Hdf5Image, RefusesWhatIsNotThere) {

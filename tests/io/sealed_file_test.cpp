@@ -19,7 +19,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 TEST(SealedFile, GivesBackItsContent) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "sealed";
-  write_sealed_file(path, {3, "program 1.0 (commit abc)", 4, std::string("body\0body", 9)});
+  write_sealed_file(path, {3, "program 1.0 (commit abc)", 4, ""}, std::string("body\0body", 9));
   const SealedFile read = read_sealed_file(path);
   EXPECT_EQ(read.format, 3);
   EXPECT_EQ(read.writer, "program 1.0 (commit abc)");
@@ -31,7 +31,7 @@ TEST(SealedFile, GivesBackItsContent) {
 TEST(SealedFile, ShowsEveryFlippedBit) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "sealed";
-  write_sealed_file(path, {1, "program", 1, "body"});
+  write_sealed_file(path, {1, "program", 1, ""}, "body");
   const std::string whole = bytes_of(path);
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   const auto put = [&](std::size_t place, int byte) {
@@ -50,7 +50,7 @@ TEST(SealedFile, ShowsEveryFlippedBit) {
 TEST(SealedFile, ShowsThatItWasCutOrGrew) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "sealed";
-  write_sealed_file(path, {1, "program", 1, "body"});
+  write_sealed_file(path, {1, "program", 1, ""}, "body");
   std::ofstream(path, std::ios::app | std::ios::binary) << "x";
   EXPECT_THROW(read_sealed_file(path), IoError);
   for (std::size_t size = 512 + 4; size-- > 0;) {
