@@ -8,6 +8,7 @@
 #include <ctime>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "pressure/verbs.h"
 #include "schemes/advance.h"
@@ -62,7 +63,7 @@ struct Stage {
     drive = drive_walls(flow, begin, dt);
     locate(flow);
     predicted = predict(flow, begin, drive, dt);
-    target = aim(flow, predicted, dt);
+    target = aim(flow, std::move(predicted.velocity_gradient), dt);
     pose();
   }
 

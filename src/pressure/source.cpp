@@ -44,11 +44,11 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double dt) {
 }  // namespace
 
 template <int Dim>
-std::vector<double> aim(const Flow<Dim>& flow, const Prediction<Dim>& predicted, double dt) {
+std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt) {
   std::vector<double> target(flow.state.particles.owned, 0.0);
   if (flow.setup.scheme.divergence_free != DivergenceFree::midway) return target;
   for_each(target.size(), [&](std::size_t i) {
-    const Mat<Dim>& gradient = predicted.velocity_gradient[i];
+    const Mat<Dim>& gradient = velocity_gradient[i];
     target[i] = 0.5 * dt * (gradient * gradient).trace();
   });
   return target;
@@ -72,7 +72,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                  \
-  template std::vector<double> aim<Dim>(const Flow<Dim>&, const Prediction<Dim>&, double);          \
+  template std::vector<double> aim<Dim>(const Flow<Dim>&, std::vector<Mat<Dim>>, double);           \
   template PosedEquation assemble<Dim>(Flow<Dim>&, const Prediction<Dim>&, std::span<const double>, \
                                        const WallDrive<Dim>&, double);
 TAILWATER_INSTANTIATE(2)

@@ -1,5 +1,7 @@
 #include "schemes/project.h"
 
+#include <utility>
+
 #include "base/for_each.h"
 #include "pressure/operators.h"
 #include "pressure/verbs.h"
@@ -13,7 +15,7 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
   grow_boundary_layers(flow, predicted);
-  const std::vector<double> target = aim(flow, predicted, dt);
+  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
   const PosedEquation equation = assemble(flow, predicted, target, drive, dt);  // (F15)
   report.add(solve(flow, start, equation, dt, drive));
   correct(flow, predicted, drive, dt);  // (F16)

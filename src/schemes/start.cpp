@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
@@ -24,8 +25,9 @@ void start(Flow<Dim>& flow) {
     locate(flow);
     return;
   }
-  const Prediction<Dim> predicted = predict(flow, start, drive, dt);
-  solve(flow, start, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt), dt, drive);
+  Prediction<Dim> predicted = predict(flow, start, drive, dt);
+  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
+  solve(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
   for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {  // nothing has moved yet
     flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
     flow.state.motion.bodies.each[b].owed.setZero();

@@ -33,8 +33,9 @@ void reproject_here(Flow<2>& flow) {
   const StepStart<2> start = remember(flow);
   locate(flow);
   WallDrive<2> drive = drive_walls(flow, start, dt);
-  const Prediction<2> predicted = predict(flow, start, drive, dt);
-  solve(flow, start, assemble(flow, predicted, aim(flow, predicted, dt), drive, dt), dt, drive);
+  Prediction<2> predicted = predict(flow, start, drive, dt);
+  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
+  solve(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
   reproject(flow, drive, dt);
 }
 
