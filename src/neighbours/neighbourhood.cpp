@@ -1,5 +1,6 @@
 #include "neighbours/neighbourhood.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/for_each.h"
@@ -31,7 +32,9 @@ Neighbourhood<Dim>::Neighbourhood(Kernel<Dim> kernel, double spacing, double ski
       skin_(skin),
       wall_rows_(wall_rows),
       domain_(std::move(domain)),
-      ranks_(std::move(ranks)) {}
+      ranks_(std::move(ranks)),
+      has_ghosts_(!ranks_.is_alone() ||
+                  std::ranges::any_of(domain_, [](const auto& interval) { return interval.has_value(); })) {}
 
 template <int Dim>
 bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
@@ -80,7 +83,8 @@ std::vector<double> Neighbourhood<Dim>::work(const Particles<Dim>& particles) co
 
 template <int Dim>
 bool Neighbourhood<Dim>::ghosts_are_valid(const Particles<Dim>& particles) const {
-  if (!has_pairs_ || position_at_renewal_.size() != particles.owned) return false;
+  if (!has_pairs_ || halo_.plan.owned() != particles.owned) return false;
+  if (!has_ghosts_) return true;
   const double limit = 0.25 * skin_ * skin_;
   return count_each(particles.owned, [&](std::size_t i) {
            return (particles.position[i] - position_at_renewal_[i]).squaredNorm() > limit;
@@ -92,6 +96,7 @@ void Neighbourhood<Dim>::renew_ghosts(Particles<Dim>& particles) {
   ++renewals_;
   particles.resize(particles.owned);
   halo_ = make_halo<Dim>(ranks_, domain_, kernel_radius(kernel_) + skin_, particles);
+  if (!has_ghosts_) return;
   position_at_renewal_.assign(particles.position.begin(),
                               particles.position.begin() + static_cast<std::ptrdiff_t>(particles.owned));
 }

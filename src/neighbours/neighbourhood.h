@@ -71,11 +71,12 @@ class Neighbourhood {
   WallRows wall_rows_;
   PeriodicDomain<Dim> domain_;
   Communicator ranks_;
+  bool has_ghosts_;  ///< whether there can be any
   CellGrid<Dim> grid_;
   Halo<Dim> halo_;
   Pairs<Dim> pairs_;
   bool has_pairs_ = false;
-  std::vector<Vec<Dim>> position_at_renewal_;
+  std::vector<Vec<Dim>> position_at_renewal_;  ///< of owned particles, if there are ghosts
   std::size_t renewals_ = 0;
 };
 

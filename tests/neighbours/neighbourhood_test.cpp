@@ -126,9 +126,10 @@ TYPED_TEST(NeighbourhoodTest, GhostsServeUntilSomeoneMovedHalfTheSkin) {
 
     for (std::size_t i = 0; i < particles.owned; ++i) particles.position[i] = start[i];
     particles.position[7] += 0.501 * skin * Vec<Dim>::UnitX();
-    EXPECT_TRUE(neighbourhood.update(particles));
-    EXPECT_EQ(neighbourhood.renewals(), 2u);
-    if (periodic == 0) expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
+    const bool has_ghosts = periodic > 0;
+    EXPECT_EQ(neighbourhood.update(particles), has_ghosts);
+    EXPECT_EQ(neighbourhood.renewals(), has_ghosts ? 2u : 1u);
+    if (!has_ghosts) expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
   }
 }
 
