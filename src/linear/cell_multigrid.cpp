@@ -160,16 +160,18 @@ void CellMultigrid::take_rows(LinearSystem& system) {
     }
   };
   std::vector<double> total(rows);  // of the weights
+  std::size_t large = 0;
   for (int i = 0; i < rows; ++i) {
     double sum = 0.0;
     for_each_weight(i, [&](int, double weight) { sum += weight; });
     total[i] = sum;
+    if (sum > 0.0) for_each_weight(i, [&](int, double weight) { large += weight >= least_share * sum; });
   }
 
   Level level;
   level.is_whole = ranks_.is_alone();
   const std::vector<int> place = order_rows(system.cells().number, total, level);
-  level.matrix.reserve(rows, system.entries());
+  level.matrix.reserve(rows, large);
   std::vector<int> needed;  // of other ranks
   std::vector<Entry> kept;
   for (const int i : row_) {
