@@ -23,6 +23,10 @@ constexpr double no_absolute_tolerance = 0.0;
 
 constexpr int longest_history = 2000;
 
+/// Iterations after which FGMRES starts again: it keeps two vectors of each. PETSc's default of 30 is needed by cold
+/// solves only, which then take a few iterations more (docs/performance.md).
+constexpr int most_directions = 20;
+
 KSPType krylov_type(KrylovMethod method) {
   switch (method) {
     case KrylovMethod::gmres:
@@ -132,6 +136,7 @@ void configure(KSP solver, const PressureSolverTable& settings, const SystemTrai
   check_petsc(KSPSetPCSide(solver, is_singular_multigrid && can_be_left ? PC_LEFT : PC_RIGHT));
   check_petsc(
       KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
+  if (choice.method == KrylovMethod::fgmres) check_petsc(KSPGMRESSetRestart(solver, most_directions));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
   if (is_singular_multigrid) relax_coarsest_level();
