@@ -72,7 +72,10 @@ struct Stage {
     return advance(flow, next_time_step(flow));
   }
   /// The pressure equation of the next step.
-  void pose() { equation = assemble(flow, predicted, target, drive, dt); }
+  void pose() {
+    equation = assemble(flow, predicted, target, drive, dt);
+    flow.neighbourhood.find_slopes();
+  }
 
   std::size_t fluid() const {
     const Particles<Dim>& particles = flow.state.particles;

@@ -249,6 +249,8 @@ bool KrylovSolver::needs_cells() const {
 
 KrylovSolver::~KrylovSolver() = default;
 
+void KrylovSolver::forget() { petsc_ = std::make_unique<Petsc>(); }
+
 SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution,
                                 std::optional<double> tolerance_asked) {
   const double tolerance_wanted = tolerance_asked.value_or(settings_.tolerance);

@@ -32,6 +32,10 @@ class KrylovSolver {
   /// overrides that of the settings. Collective.
   SolveReport solve(LinearSystem& system, std::span<double> solution, std::optional<double> tolerance = {});
 
+  /// Frees what belongs to the pattern of the last solve. Call when no other solve has the same: a new pattern needs
+  /// all of it anew.
+  void forget();
+
   /// Whether it solves by the multigrid on cells, so that systems must tell theirs.
   bool needs_cells() const;
 

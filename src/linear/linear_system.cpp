@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/assert.h"
+#include "base/room.h"
 
 namespace tailwater {
 
@@ -13,26 +14,30 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
+  // At first, in one piece and of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
+  if (room_ < columns.size()) {
+    storage_.reset();
+    room_ = with_room(columns.size());
+    storage_ = std::make_unique_for_overwrite<std::byte[]>(room_ * (sizeof(std::int32_t) + sizeof(float)));
+  }
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
   first_number_ = ranks_.sum_before(count);
   size_of_all_ = ranks_.sum(count);
-  number_.resize(rows);
-  std::iota(number_.begin(), number_.end(), first_number_);
-  halo.exchange(number_);
   halo_ = halo;
+  std::vector<std::int64_t> number(rows);
+  std::iota(number.begin(), number.end(), first_number_);
+  halo.exchange(number);
+  ghost_number_.assign(number.begin() + static_cast<std::ptrdiff_t>(rows), number.end());
 
   ++pattern_number_;
   cells_ = {};
-  pattern_begin_.assign(row_begin.begin(), row_begin.end());
   rhs_.assign(rows, 0.0);
   scale_.assign(rows, 1.0);
-  for (Part& part : parts_) {
-    part.begin.assign(1, 0);
-    part.column.clear();
-  }
+  const auto row_of = [&](std::size_t i) { return columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]); };
+  for (Part& part : parts_) part.begin.assign(rows + 1, 0);
   for (std::size_t i = 0; i < rows; ++i) {
-    const std::span<const std::int32_t> row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
+    const std::span<const std::int32_t> row = row_of(i);
     const auto is_before = [i](std::int32_t j) { return static_cast<std::size_t>(j) < i; };
     const auto is_own = [rows](std::int32_t j) { return static_cast<std::size_t>(j) < rows; };
     TAILWATER_ASSERT(std::ranges::is_partitioned(row, is_before) && std::ranges::is_partitioned(row, is_own),
@@ -41,13 +46,45 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
     const auto ghost = std::ranges::partition_point(row, is_own);
     const std::array ends{row.begin(), diagonal, ghost, row.end()};
     for (std::size_t n = 0; n < parts_.size(); ++n) {
-      Part& part = parts_[n];
-      part.column.insert(part.column.end(), ends[n], ends[n + 1]);
-      part.begin.push_back(part.column.size());
+      std::vector<std::size_t>& begin = parts_[n].begin;
+      begin[i + 1] = begin[i] + static_cast<std::size_t>(ends[n + 1] - ends[n]);
     }
   }
-  for (Part& part : parts_) part.weight.resize(part.column.size());
+  std::byte* place = storage_.get();
+  const auto take = [&place]<class Value>(std::span<Value>& values, std::size_t count_of_part) {
+    values = {reinterpret_cast<Value*>(place), count_of_part};
+    place += values.size_bytes();
+  };
+  for (Part& part : parts_) {
+    take(part.column, part.begin.back());
+    take(part.weight, part.begin.back());
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::int32_t* entry = row_of(i).data();
+    for (Part& part : parts_) {
+      const std::size_t entries = part.begin[i + 1] - part.begin[i];
+      std::copy_n(entry, entries, part.column.data() + part.begin[i]);
+      entry += entries;
+    }
+  }
   has_ghosts_ = ranks_.any(!ghosts().column.empty());
+}
+
+std::vector<std::int32_t> LinearSystem::columns() const {
+  std::vector<std::int32_t> columns;
+  empty_with_room(columns, entries());
+  for (std::size_t i = 0; i < size(); ++i) {
+    for (const Part& part : parts_) {
+      columns.insert(columns.end(), part.column.data() + part.begin[i], part.column.data() + part.begin[i + 1]);
+    }
+  }
+  return columns;
+}
+
+void LinearSystem::forget_weights() {
+  for (Part& part : parts_) part = {};
+  storage_.reset();
+  room_ = 0;
 }
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,8 +26,8 @@ class LinearSystem {
   /// A part of every row, in compressed rows.
   struct Part {
     std::vector<std::size_t> begin;  ///< rows + 1
-    std::vector<std::int32_t> column;
-    std::vector<float> weight;
+    std::span<std::int32_t> column;
+    std::span<float> weight;
 
     /// sum_k weight_ik x_j(i,k). Two partial sums, so that an addition need not wait for the one before it.
     double sum(std::size_t i, const double* x) const {
@@ -66,6 +68,12 @@ class LinearSystem {
   /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
+  /// The columns of the pattern, as it was set.
+  std::vector<std::int32_t> columns() const;
+
+  /// Frees all weights and columns. Only the right-hand sides stay, until the next pattern is set.
+  void forget_weights();
+
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
   void set_cells(Cells cells) { cells_ = std::move(cells); }
   const Cells& cells() const { return cells_; }
@@ -77,7 +85,7 @@ class LinearSystem {
     /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of those kept.
     template <class Weight>
     double set_weights(Weight&& weight) {
-      std::size_t k = system_.pattern_begin_[i_];
+      std::size_t k = system_.pattern_begin(i_);
       double sum = 0.0;
       for (Part& part : system_.parts_) {
         for (std::size_t n = part.begin[i_]; n < part.begin[i_ + 1]; ++n, ++k) {
@@ -91,7 +99,7 @@ class LinearSystem {
     /// the sum of those kept.
     template <class Write>
     double write_weights(Write&& write) {
-      std::size_t first = system_.pattern_begin_[i_];
+      std::size_t first = system_.pattern_begin(i_);
       double sum = 0.0;
       for (Part& part : system_.parts_) {
         const std::size_t end = first + part.begin[i_ + 1] - part.begin[i_];
@@ -148,7 +156,7 @@ class LinearSystem {
   std::size_t entries() const { return parts_[0].column.size() + parts_[1].column.size() + parts_[2].column.size(); }
   /// The number over all ranks, rank after rank, of this rank's first unknown, and of the unknown of a ghost's column.
   std::int64_t first_number() const { return first_number_; }
-  std::int64_t number_of_ghost(std::int32_t column) const { return number_[column]; }
+  std::int64_t number_of_ghost(std::int32_t column) const { return ghost_number_[column - size()]; }
   /// Whether some row of this or another rank couples ghosts, so that products exchange them.
   bool has_ghosts() const { return has_ghosts_; }
   /// Values of x with those of ghosts behind them. Collective.
@@ -157,6 +165,11 @@ class LinearSystem {
   std::span<const double> rhs() const { return rhs_; }
 
  private:
+  /// Of row i in the pattern, which is all parts.
+  std::size_t pattern_begin(std::size_t i) const {
+    return parts_[0].begin[i] + parts_[1].begin[i] + parts_[2].begin[i];
+  }
+
   Communicator ranks_;
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;
@@ -166,8 +179,9 @@ class LinearSystem {
   ExchangePlan halo_;
   Cells cells_;
   std::array<Part, 3> parts_;
-  std::vector<std::size_t> pattern_begin_;
-  std::vector<std::int64_t> number_;  ///< over all ranks, of each column
+  std::unique_ptr<std::byte[]> storage_;    ///< of columns and weights of all parts
+  std::size_t room_ = 0;                    ///< in it, in entries
+  std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };

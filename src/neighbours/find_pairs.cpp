@@ -8,6 +8,7 @@
 
 #include "base/for_each.h"
 #include "base/lanes.h"
+#include "base/room.h"
 
 namespace tailwater {
 namespace {
@@ -124,7 +125,6 @@ template <int Dim>
 void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
                 WallRows wall_rows, double least_distance, Pairs<Dim>& pairs) {
   const double radius = kernel_radius(kernel);
-  const double least_squared = least_distance * least_distance;
   const Vec<Dim>* const position = particles.position.data();
   const OrderedParticles<Dim> ordered(grid.order(), particles.position);
   const FluidGrid<Dim> fluid(particles, radius);
@@ -134,7 +134,6 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   std::vector<std::int32_t> behind(near.size());
   std::vector<std::int32_t> ghosts(near.size());
   std::vector<std::int32_t> row(near.size());
-  std::vector<double> row_F(near.size());
 
   pairs.position = particles.position;
   pairs.id = particles.id;
@@ -142,38 +141,51 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.kernel = kernel;
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
-  const std::size_t before = pairs.j.size();
-  const auto empty = [&](auto&... arrays) {
-    // A little more room than the last pairs had: it is not touched beyond the new ones, and costs no memory.
-    ((arrays.clear(), arrays.capacity() < before + before / 32 ? arrays.reserve(before + before / 8) : void()), ...);
+  // Puts the neighbours of particle i, and itself if it sees its kind, into `near`. Returns how many.
+  const auto find_near = [&](std::size_t i) {
+    const bool sees_all = wall_rows == WallRows::all || particles.is_fluid(i);
+    return sees_all ? find_row(grid, ordered, position[i], radius, near.data())
+                    : find_row(fluid.grid, ordered_fluid, position[i], radius, near.data());
   };
-  empty(pairs.j, pairs.F);
+  // The first pairs are counted before they are kept; later ones are about as many as the last.
+  const std::size_t before = pairs.j.size();
+  const std::size_t expected = before > 0 ? before : count_each(particles.owned, find_near);
+  empty_with_room(pairs.j, expected);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
+    const std::size_t n =
+        put_in_order({near.data(), find_near(i)}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
+    pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
+    pairs.row_begin[i + 1] = pairs.j.size();
+  }
+  find_slopes(pairs);
+}
 
+template <int Dim>
+void find_slopes(Pairs<Dim>& pairs) {
+  const Vec<Dim>* const position = pairs.position.data();
+  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
+  empty_with_room(pairs.F, pairs.j.size());
+  std::vector<double> row;
   std::visit(
       [&](const auto chosen) {
-        for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
-          const Vec<Dim> r_i = position[i];
-          const bool sees_all = wall_rows == WallRows::all || particles.is_fluid(i);
-          const std::size_t found = sees_all ? find_row(grid, ordered, r_i, radius, near.data())
-                                             : find_row(fluid.grid, ordered_fluid, r_i, radius, near.data());
-          const std::size_t n =
-              put_in_order({near.data(), found}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
-          for_each_lanes(0, n, [&](auto range) {
-            VecLanes<Dim> d = range.neighbours(row.data())(position);
-            for (int a = 0; a < Dim; ++a) d.at[a] = r_i[a] - d.at[a];
-            const Lanes square = max_of(d.dot(d), in_all_lanes(least_squared));
-            range.store(chosen.steepness(sqrt_of(square)), row_F.data() + range.begin);
+        for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: rows are put one behind the other
+          const std::int32_t* const neighbours = pairs.j.data() + pairs.begin(i);
+          const std::size_t count = pairs.end(i) - pairs.begin(i);
+          row.resize(std::max(row.size(), count));
+          for_each_lanes(0, count, [&](auto range) {
+            VecLanes<Dim> d = range.neighbours(neighbours)(position);
+            for (int a = 0; a < Dim; ++a) d.at[a] = position[i][a] - d.at[a];
+            range.store(chosen.steepness(sqrt_of(max_of(d.dot(d), least_squared))), row.data() + range.begin);
           });
-          const auto count = static_cast<std::ptrdiff_t>(n);
-          pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + count);
-          pairs.F.insert(pairs.F.end(), row_F.begin(), row_F.begin() + count);
-          pairs.row_begin[i + 1] = pairs.j.size();
+          pairs.F.insert(pairs.F.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
         }
       },
-      kernel);
+      pairs.kernel);
 }
 
 template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);
 template void find_pairs<3>(const Kernel<3>&, const CellGrid<3>&, const Particles<3>&, WallRows, double, Pairs<3>&);
+template void find_slopes<2>(Pairs<2>&);
+template void find_slopes<3>(Pairs<3>&);
 
 }  // namespace tailwater

@@ -17,4 +17,8 @@ template <int Dim>
 void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
                 WallRows wall_rows, double least_distance, Pairs<Dim>& pairs);
 
+/// Finds pairs.F of the pairs that there are.
+template <int Dim>
+void find_slopes(Pairs<Dim>& pairs);
+
 }  // namespace tailwater

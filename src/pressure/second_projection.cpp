@@ -111,6 +111,7 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
       report.iterations = solved.iterations;
       report.residual = solved.residual;
       report.interventions.restarted_solves = solved.restarts;
+      flow.pressure_solver.forget();
     } else {
       flow.pressure_rows.sweep(guess);
     }
@@ -131,6 +132,7 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
     for_each(added.size(), [&](std::size_t i) { added[i] += length * next.pressure[i]; });
     std::swap(next, last);
   }
+  flow.pressure_rows.forget_weights();
   if (flow.setup.finds_wall_forces) {
     flow.halo().exchange(added);
     add_wall_forces(flow, added);

@@ -30,9 +30,50 @@ void hold_suction(Flow<Dim>& flow) {
   });
 }
 
+/// As long as it lives the rows of the matrix are all that there is of pairs, if these have no slopes. Then there is no
+/// matrix.
+template <int Dim>
+class PairsInRows {
+ public:
+  explicit PairsInRows(Flow<Dim>& flow) : flow_(flow) {
+    if (lends_slopes(flow)) flow.neighbourhood.forget_neighbours();
+  }
+  ~PairsInRows() {
+    flow_.pressure_solver.forget();
+    if (lends_slopes(flow_)) flow_.neighbourhood.give_back_neighbours(flow_.pressure_rows.columns());
+    flow_.pressure_rows.forget_weights();
+    if (lends_slopes(flow_)) flow_.neighbourhood.find_slopes();
+  }
+  PairsInRows(const PairsInRows&) = delete;
+  PairsInRows& operator=(const PairsInRows&) = delete;
+
+ private:
+  Flow<Dim>& flow_;
+};
+
 PressureReport report_of(const SolveReport& solved) {
   PressureReport report{.iterations = solved.iterations, .residual = solved.residual, .interventions = {}};
   report.interventions.restarted_solves = solved.restarts;
+  return report;
+}
+
+template <int Dim>
+PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive) {
+  const double tolerance = flow.pressure_solver.tolerance();
+  const PairsInRows<Dim> pairs_are_there(flow);
+  BodyCoupling<Dim> coupling(flow, start, dt, drive);
+  PressureReport report;
+  if (flow.setup.has_air()) {
+    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
+    const PressureReport rough = report_of(coupling.solve_roughly(std::pow(tolerance, roughness)));
+    hold_suction(flow);
+    report = report_of(coupling.solve(tolerance));
+    report.iterations += rough.iterations;
+    report.interventions += rough.interventions;
+  } else {
+    report = report_of(coupling.solve(tolerance));
+  }
+  coupling.carry_over();
   return report;
 }
 
@@ -51,20 +92,7 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
                      WallDrive<Dim>& drive) {
-  const double tolerance = flow.pressure_solver.tolerance();
-  BodyCoupling<Dim> coupling(flow, start, dt, drive);
-  PressureReport report;
-  if (flow.setup.has_air()) {
-    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const PressureReport rough = report_of(coupling.solve_roughly(std::pow(tolerance, roughness)));
-    hold_suction(flow);
-    report = report_of(coupling.solve(tolerance));
-    report.iterations += rough.iterations;
-    report.interventions += rough.interventions;
-  } else {
-    report = report_of(coupling.solve(tolerance));
-  }
-  coupling.carry_over();
+  PressureReport report = find_pressure(flow, start, dt, drive);
   report.interventions.fallback_rows = equation.fallback_rows;
   finish_pressure(flow, drive);
   return report;

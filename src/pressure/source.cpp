@@ -44,6 +44,11 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double dt) {
 }  // namespace
 
 template <int Dim>
+bool lends_slopes(const Flow<Dim>& flow) {
+  return flow.setup.scheme.laplacian == LaplacianKind::morris && flow.setup.bodies.empty();
+}
+
+template <int Dim>
 std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt) {
   std::vector<double> target(flow.state.particles.owned, 0.0);
   if (flow.setup.scheme.divergence_free != DivergenceFree::midway) return target;
@@ -58,20 +63,26 @@ template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,
                        const WallDrive<Dim>& drive, double dt) {
   PosedEquation equation;
-  equation.fallback_rows = assemble_weights(flow, drive);
   equation.density_source = find_density_source(flow, dt);
   const double unit = flow.setup.density / dt;
   const bool with_divergence = flow.setup.scheme.source != SourceKind::density;
+  std::vector<double> source(flow.state.particles.owned, 0.0);
+  const auto is_sought = [&flow](std::size_t i) { return flow.has_equation(i) && !flow.is_in_end_stretch(i); };
   for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (!flow.has_equation(i) || flow.is_in_end_stretch(i)) return;
-    double source = 0.0;
-    if (with_divergence) source -= unit * (divergence_at(flow, i, predicted.velocity) - target[i]);
-    flow.pressure_rows.set_rhs(i, source + equation.density_source[i]);
+    if (with_divergence && is_sought(i)) {
+      source[i] -= unit * (divergence_at(flow, i, predicted.velocity) - target[i]);
+    }
+  });
+  if (lends_slopes(flow)) flow.neighbourhood.forget_slopes();
+  equation.fallback_rows = assemble_weights(flow, drive);
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (is_sought(i)) flow.pressure_rows.set_rhs(i, source[i] + equation.density_source[i]);
   });
   return equation;
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                  \
+  template bool lends_slopes<Dim>(const Flow<Dim>&);                                                \
   template std::vector<double> aim<Dim>(const Flow<Dim>&, std::vector<Mat<Dim>>, double);           \
   template PosedEquation assemble<Dim>(Flow<Dim>&, const Prediction<Dim>&, std::span<const double>, \
                                        const WallDrive<Dim>&, double);

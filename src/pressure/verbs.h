@@ -25,6 +25,11 @@ struct PosedEquation {
   std::vector<double> density_source;  ///< Pa/m^2; the part of owned rows' sources that answers the density error
 };
 
+/// Whether pairs have no slopes from `assemble` until `solve` has found the pressure, because nothing reads them in
+/// that time: the largest arrays of all, slopes and matrix, then never are in memory together.
+template <int Dim>
+bool lends_slopes(const Flow<Dim>& flow);
+
 /// (F15), (F22): lap p = rho/dt (div u_star - target), or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources.
 template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,
@@ -34,7 +39,8 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
 /// (0 in the outermost rows, 1 inside; that of a wall that cannot pull by 0), and the system is solved again. With an
 /// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). Where bodies
-/// float, finds how they move with this pressure, and drives their walls so (floating_bodies.h).
+/// float, finds how they move with this pressure, and drives their walls so (floating_bodies.h). The matrix is gone
+/// then.
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
                      WallDrive<Dim>& drive);

@@ -48,8 +48,10 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volu
       for_each_lanes(first, end, [&](auto range) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const VecLanes<Dim> d = differences(pairs, range, j, i);
-        const Lanes share = share_of_morris_weight(d.dot(d), spacing);
-        const Lanes weight = 2.0 * share * j(volume_taking_part.data()) * range.load(pairs.F.data());
+        const Lanes square = d.dot(d);
+        const Lanes share = share_of_morris_weight(square, spacing);
+        const Lanes F = kernel_steepness<Dim>(pairs.kernel, sqrt_of(square));
+        const Lanes weight = 2.0 * share * j(volume_taking_part.data()) * F;
         sums += range.store(weight, weights + (range.begin - first));
       });
       return sum_of(sums);

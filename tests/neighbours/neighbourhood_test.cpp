@@ -206,6 +206,20 @@ TYPED_TEST(NeighbourhoodTest, CoincidentParticlesGetOppositeDirections) {
   EXPECT_TRUE(std::isfinite(pairs.F[0]));
 }
 
+TYPED_TEST(NeighbourhoodTest, SlopesAreFoundAgainAsTheyWere) {
+  constexpr int Dim = TypeParam::value;
+  Particles<Dim> particles = random_fluid<Dim>(200, 13);
+  particles.position[1] = particles.position[0];
+  auto neighbourhood = make_neighbourhood<Dim>();
+  neighbourhood.update(particles);
+  const std::vector<double> before = neighbourhood.pairs().F;
+  for (Vec<Dim>& position : particles.position) position *= 1.1;  // pairs stay where they were found
+  neighbourhood.forget_slopes();
+  EXPECT_TRUE(neighbourhood.pairs().F.empty());
+  neighbourhood.find_slopes();
+  EXPECT_EQ(neighbourhood.pairs().F, before);
+}
+
 TYPED_TEST(NeighbourhoodTest, PairsKeepTheirGeometryWhenParticlesJump) {
   constexpr int Dim = TypeParam::value;
   const PeriodicDomain<Dim> domain = unit_domain<Dim>(1);

@@ -1,0 +1,38 @@
+#include "base/room.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace tailwater {
+namespace {
+
+TEST(Room, IsEnoughAndNeverMuchMore) {
+  for (std::size_t count = 0; count < 100000; ++count) {
+    ASSERT_GE(with_room(count), count + count / 32);
+    // A thirty-second, and less than an eighth of what that makes.
+    ASSERT_LE(with_room(count), 33.0 / 32.0 * 9.0 / 8.0 * static_cast<double>(count) + 1.0);
+  }
+}
+
+TEST(Room, HasEightSizesBetweenPowersOfTwo) {
+  std::set<std::size_t> sizes;
+  for (std::size_t count = 1 << 16; count < 1 << 17; ++count) sizes.insert(with_room(count));
+  EXPECT_LE(sizes.size(), 9u);  // and the first of the next eight
+}
+
+TEST(Room, IsSetAsideOnlyWhereItIsMissing) {
+  std::vector<int> array;
+  empty_with_room(array, 1000);
+  EXPECT_EQ(array.capacity(), with_room(1000));
+  array.resize(1000);
+  const int* const place = array.data();
+  empty_with_room(array, 900);
+  EXPECT_TRUE(array.empty());
+  EXPECT_EQ(array.data(), place);
+  empty_with_room(array, 2000);
+  EXPECT_EQ(array.capacity(), with_room(2000));
+}
+
+}  // namespace
+}  // namespace tailwater
