@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "flow/verbs.h"
@@ -49,8 +50,31 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 void StepGuard<Dim>::remember_good() {
-  last_good_ = flow_.state.particles;
+  const Particles<Dim>& particles = flow_.state.particles;
+  good_count_ = particles.owned;
+  const auto keep = [this](const auto& field, auto& kept) {
+    kept.assign(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(good_count_));
+  };
+  keep(particles.position, good_position_);
+  keep(particles.velocity, good_velocity_);
+  keep(particles.pressure, good_pressure_);
+  keep(particles.layer_viscosity, good_layer_viscosity_);
+  keep(particles.wall_distance, good_wall_distance_);
   last_good_time_ = flow_.state.time;
+}
+
+/// Within a step particles only come, behind the others.
+template <int Dim>
+Particles<Dim> StepGuard<Dim>::last_good() const {
+  Particles<Dim> particles = flow_.state.particles;
+  particles.resize(good_count_);
+  particles.owned = good_count_;
+  particles.position = good_position_;
+  particles.velocity = good_velocity_;
+  particles.pressure = good_pressure_;
+  particles.layer_viscosity = good_layer_viscosity_;
+  particles.wall_distance = good_wall_distance_;
+  return particles;
 }
 
 template <int Dim>
@@ -98,7 +122,7 @@ void StepGuard<Dim>::attempt(const std::function<void()>& work) {
   if (flow_.setup.ranks.any(culprit.has_value())) {
     blame(culprit, [&](std::size_t i) {
       return fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.state.particles.id[i],
-                         place<Dim>(last_good_.position[i]));
+                         place<Dim>(good_position_[i]));
     });
   }
   if (!failure.empty()) fail(failure, std::nullopt);
@@ -125,8 +149,9 @@ template <int Dim>
 void StepGuard<Dim>::fail(const std::string& reason, std::optional<std::size_t> culprit) {
   const std::string message =
       fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, last_good_time_, reason);
-  write_failure(folder_, flow_, last_good_, last_good_time_, culprit, message);
-  flow_.state.particles = last_good_;
+  Particles<Dim> particles = last_good();
+  write_failure(folder_, flow_, particles, last_good_time_, culprit, message);
+  flow_.state.particles = std::move(particles);
   flow_.state.time = last_good_time_;
   throw SolverError(
       fmt::format("{}. The last good fields and a report are in {}", message, (folder_.path() / "failure").string()));

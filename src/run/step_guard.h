@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "flow/flow.h"
 #include "io/run_folder.h"
@@ -43,7 +44,16 @@ class StepGuard {
   const RunFolder& folder_;
   double smallest_step_;
   double reference_step_ = 0.0;  ///< s; 0 before the first step
-  Particles<Dim> last_good_;
+  /// The particles as they were when they were good.
+  Particles<Dim> last_good() const;
+
+  std::size_t good_count_ = 0;  ///< owned
+  // What a step changes of them.
+  std::vector<Vec<Dim>> good_position_;
+  std::vector<Vec<Dim>> good_velocity_;
+  std::vector<double> good_pressure_;
+  std::vector<double> good_layer_viscosity_;
+  std::vector<double> good_wall_distance_;
   double last_good_time_ = 0.0;
 };
 
