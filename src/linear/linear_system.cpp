@@ -1,6 +1,7 @@
 #include "linear/linear_system.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "base/assert.h"
@@ -14,6 +15,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
+  TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
   // At first, in one piece and of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
   if (room_ < columns.size()) {
     storage_.reset();
@@ -46,8 +48,8 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
     const auto ghost = std::ranges::partition_point(row, is_own);
     const std::array ends{row.begin(), diagonal, ghost, row.end()};
     for (std::size_t n = 0; n < parts_.size(); ++n) {
-      std::vector<std::size_t>& begin = parts_[n].begin;
-      begin[i + 1] = begin[i] + static_cast<std::size_t>(ends[n + 1] - ends[n]);
+      std::vector<std::uint32_t>& begin = parts_[n].begin;
+      begin[i + 1] = begin[i] + static_cast<std::uint32_t>(ends[n + 1] - ends[n]);
     }
   }
   std::byte* place = storage_.get();

@@ -25,7 +25,7 @@ class LinearSystem {
  public:
   /// A part of every row, in compressed rows.
   struct Part {
-    std::vector<std::size_t> begin;  ///< rows + 1
+    std::vector<std::uint32_t> begin;  ///< rows + 1
     std::span<std::int32_t> column;
     std::span<float> weight;
 
@@ -167,7 +167,9 @@ class LinearSystem {
  private:
   /// Of row i in the pattern, which is all parts.
   std::size_t pattern_begin(std::size_t i) const {
-    return parts_[0].begin[i] + parts_[1].begin[i] + parts_[2].begin[i];
+    std::size_t begin = 0;
+    for (const Part& part : parts_) begin += part.begin[i];
+    return begin;
   }
 
   Communicator ranks_;
