@@ -243,6 +243,7 @@ CellMultigrid::Couplings CellMultigrid::couple(const LinearSystem& system, std::
 /// level's, each when it comes up first.
 std::vector<int> CellMultigrid::find_parents(Level& fine, Level& next) const {
   std::vector<int> parent(fine.matrix.size());
+  fine.in_cells = fine.cell.size();
   for (std::size_t i = 0; i < parent.size(); ++i) {
     if (i >= fine.cell.size()) {
       parent[i] = fine.matrix.row(i).empty() ? stands_for_itself : follows;
@@ -339,6 +340,7 @@ void CellMultigrid::add_next_level() {
   if (!next.is_whole && ranks_.sum(static_cast<std::int64_t>(next.cell.size())) <= gathered_rows) gather(next);
   next.rhs.resize(next.matrix.size());
   next.solution.resize(next.matrix.size());
+  std::vector<std::uint64_t>().swap(fine.cell);
   levels_.push_back(std::move(next));
 }
 
@@ -439,7 +441,7 @@ void CellMultigrid::cycle(std::size_t k) {
   correct_by_next(k);
   if (!level.is_whole) level.couplings.plan.exchange(x);
   for (std::size_t i = matrix.size(); i-- > 0;) relax(i);
-  for (std::size_t i = level.cell.size(); i < matrix.size(); ++i) relax(i);
+  for (std::size_t i = level.in_cells; i < matrix.size(); ++i) relax(i);
 }
 
 /// Adds to the solution of level k, after its first sweep, a correction from the next level.

@@ -91,7 +91,8 @@ class CellMultigrid {
     Couplings couplings;
     std::optional<Gathering> gathering;
     bool is_whole = false;            ///< this rank has all rows
-    std::vector<std::uint64_t> cell;  ///< on the next level, of the rows that have one; these come first, cell by cell
+    std::vector<std::uint64_t> cell;  ///< on the next level, of the rows that have one; forgotten once that is made
+    std::size_t in_cells = 0;         ///< how many have one; these come first, cell by cell
     std::vector<int> member_begin;    ///< of each cell: its first row
     std::vector<float> rhs;
     std::vector<float> solution;

@@ -15,8 +15,8 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
   grow_boundary_layers(flow, predicted);
-  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
-  const PosedEquation equation = assemble(flow, predicted, target, drive, dt);  // (F15)
+  const PosedEquation equation =
+      assemble(flow, predicted, aim(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
   report.add(solve(flow, start, equation, dt, drive));
   correct(flow, predicted, drive, dt);  // (F16)
   report.work = book_works(flow, start, predicted, equation, dt);
