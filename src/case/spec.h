@@ -605,7 +605,6 @@ struct SchemeTable {
   double energy_slack = 1e-4;
 
   ImplicitForm implicit_form = ImplicitForm::residual;
-  int corrections = 2;
   int max_passes = 3;
   double pass_tolerance = 1e-3;
   double relax_pressure = 1.0;
@@ -695,10 +694,6 @@ struct SchemeTable {
         "implicit_form", self.implicit_form,
         "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "
         "the whole step repeated (F20-F27) (formulation)");
-    v.integer(
-        "corrections", self.corrections, "", Range::between(1, 100),
-        "Number of corrections in the second projection; each brings the Laplacian nearer to the divergence of the "
-        "gradient");
     v.integer("max_passes", self.max_passes, "", Range::between(1, 100),
               "Largest number of passes of the implicit iteration (formulation)");
     v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),

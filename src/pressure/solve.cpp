@@ -1,16 +1,11 @@
-#include <cmath>
-
 #include "base/for_each.h"
 #include "pressure/floating_bodies.h"
 #include "pressure/suction.h"
+#include "pressure/tolerance.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
 namespace {
-
-/// Exponent of the solver's tolerance in that of the rough solve. Rows whose rough pressure is that close to 0 may be
-/// taken for pulling, or not, by mistake.
-constexpr double roughness = 0.6;
 
 /// Whether particle i pulls and may not with all of it.
 template <int Dim>
@@ -65,7 +60,7 @@ PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, doubl
   PressureReport report;
   if (flow.setup.has_air()) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const PressureReport rough = report_of(coupling.solve_roughly(std::pow(tolerance, roughness)));
+    const PressureReport rough = report_of(coupling.solve_roughly(rough_tolerance(tolerance)));
     hold_suction(flow);
     report = report_of(coupling.solve(tolerance));
     report.iterations += rough.iterations;

@@ -57,9 +57,8 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure);
 
-/// Projects the velocity a second time, at the present positions: takes div u out of it as far as `corrections` reach,
-/// and adds what does it to the pressure, without suction near the surface (but for what lengths and mixing of
-/// corrections bring back). The particles stay. Reports its one solve.
+/// Projects the velocity a second time, at the present positions: takes div u out of it, and adds what does it to the
+/// pressure, without suction near the surface. The particles stay.
 template <int Dim>
 PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt);
 

@@ -1,0 +1,13 @@
+// How far the solves of a step go that are not its last word on the pressure.
+#pragma once
+
+#include <cmath>
+
+namespace tailwater {
+
+/// Tolerance of a rough solve beside one that reaches `tolerance`. The first projection asks it where water near the
+/// surface would pull: rows whose rough pressure is that close to 0 may be taken for pulling, or not, by mistake. The
+/// second projection needs no more, since what it corrects is small.
+inline double rough_tolerance(double tolerance) { return std::pow(tolerance, 0.6); }
+
+}  // namespace tailwater
