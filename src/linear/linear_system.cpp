@@ -119,14 +119,6 @@ void LinearSystem::make_rhs_consistent() {
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];
 }
 
-void LinearSystem::sweep(std::span<double> solution) const {
-  TAILWATER_ASSERT(solution.size() == size(), "the solution must have one entry per row");
-  double* const x = solution.data();
-  for (std::size_t i = 0; i < size(); ++i) x[i] = rhs_[i] + scale_[i] * before().sum(i, x);
-  // What stands before a row has not changed when the way back comes to it.
-  for (std::size_t i = size(); i-- > 0;) x[i] += scale_[i] * behind().sum_back(i, x);
-}
-
 void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {
   for (std::size_t i = 0; i < size(); ++i) {
     y[i] = x[i] - scale_[i] * (before().sum(i, x.data()) + behind().sum(i, x.data()));

@@ -134,10 +134,6 @@ class LinearSystem {
   /// For systems with a free constant: changes the right-hand side so that a solution exists. Collective.
   void make_rhs_consistent();
 
-  /// A rough solution: one symmetric Gauss-Seidel sweep from 0, forward and back, over the rows of each rank as if
-  /// ghosts were 0.
-  void sweep(std::span<double> solution) const;
-
   /// y = A x. Collective.
   void multiply(std::span<const double> x, std::span<double> y) const;
 

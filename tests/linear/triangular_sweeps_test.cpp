@@ -159,20 +159,6 @@ TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
   }
 }
 
-TEST(LinearSystemSweep, IsGaussSeidelForwardAndBack) {
-  SparseRows rows(40, 0);
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
-  for (int i = 0; i < 40; ++i) rows.system.set_rhs(i, b[i]);
-  Eigen::VectorXd x(40);
-  rows.system.sweep(entries(x));
-  Eigen::VectorXd expected = Eigen::VectorXd::Zero(40);
-  for (int n = 0; n < 80; ++n) {
-    const int i = n < 40 ? n : 79 - n;
-    expected[i] += b[i] - rows.own.row(i).dot(expected);
-  }
-  EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 100.0 * eps);
-}
-
 TEST(LinearSystemRow, OfDifferencesIsExactAndSymmetricThoughWeightsAreRounded) {
   constexpr int rows = 23;
   std::vector<std::size_t> row_begin{0};
