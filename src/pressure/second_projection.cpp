@@ -44,6 +44,8 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.interventions.restarted_solves = solved.restarts;
+  flow.pressure_solver.forget();
+  flow.pressure_rows.forget_weights();
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {
@@ -51,8 +53,6 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
     if (flow.is_solved_for(i)) particles.velocity[i] -= dt / density * gradient_at(flow, i, correction);
     particles.pressure[i] += correction[i];
   });
-  flow.pressure_solver.forget();
-  flow.pressure_rows.forget_weights();
   if (flow.setup.finds_wall_forces) {
     add_wall_forces(flow, correction);
     owe_to_bodies(flow, forces_on_bodies(flow, correction, flow.state.time + dt), dt);

@@ -116,8 +116,8 @@ TEST(SweptBicgstab, ItsResidualIsThatOfItsSolution) {
 }
 
 TEST(SweptBicgstab, SaysWhenItBreaksDown) {
-  // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its image
-  // and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
+  // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its
+  // image and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
   LinearSystem system;
   system.set_pattern(std::vector<std::size_t>{0, 1, 2}, std::vector<std::int32_t>{1, 0});
   const double weights[] = {3.0, 3.0};
