@@ -55,7 +55,7 @@ void add_closures(Stage<Dim>& stage) {
   add_benchmark("closures/shift", [&stage, shifts] {
     const Flow<Dim>& flow = stage.flow;
     compute_shift<Dim>(flow.setup.shifting_law, stage.dt, largest_speed(flow), flow.pairs(), flow.state.particles,
-                       flow.here.interior, flow.here.concentration_gradient, *shifts);
+                       flow.here.interior, *shifts);
   });
 }
 

@@ -10,9 +10,6 @@
 namespace tailwater {
 namespace {
 
-/// [1/dx]; a smaller |grad C| is that of an even set and has no direction to speak of.
-constexpr double least_steepness = 1e-3;
-
 template <int Dim>
 struct LindShift {
   Vec<Dim> direction;
@@ -55,10 +52,10 @@ Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
   return direction;
 }
 
-/// Share of a shift's part along the surface's normal that a particle keeps: 0 in the three outermost rows, whose
-/// support the surface cuts, 1 where all neighbours are inside. A flat surface reads a mean of `interior` over the
-/// neighbours of 0.26, 0.75, 0.98, 1 from the second row on.
-double normal_share(double interior, double mean_interior) {
+/// Share of its shift that a particle keeps: 0 in the three outermost rows, whose support the surface cuts, 1 where all
+/// neighbours are inside. A flat surface reads a mean of `interior` over the neighbours of 0.26, 0.75, 0.98, 1 from the
+/// second row on.
+double kept_share(double interior, double mean_interior) {
   return interior * std::clamp(4.0 * mean_interior - 3.0, 0.0, 1.0);
 }
 
@@ -67,7 +64,7 @@ double normal_share(double interior, double mean_interior) {
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
                           const Particles<Dim>& particles, std::span<const double> interior,
-                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift) {
+                          std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i)) return false;
@@ -75,27 +72,20 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     if (law.kind == ShiftingKind::lind) {
       const LindShift<Dim> lind = lind_shift(law, pairs, particles, interior, i);
       shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind.direction;
-      kept = normal_share(interior[i], lind.mean_interior);
+      kept = kept_share(interior[i], lind.mean_interior);
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
-    if (kept < 1.0) {
-      const double steepness = concentration_gradient[i].norm();
-      if (steepness * law.spacing > least_steepness) {
-        const Vec<Dim> normal = concentration_gradient[i] / steepness;
-        shift[i] -= (1.0 - kept) * shift[i].dot(normal) * normal;
-      }
-    }
+    shift[i] *= kept;
     const double ratio = shift[i].norm() / law.cap;
     shift[i] /= std::sqrt(1.0 + ratio * ratio);
     return ratio > 1.0;
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
-  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&,                     \
-                                          const Particles<Dim>&, std::span<const double>, std::span<const Vec<Dim>>, \
-                                          std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                               \
+  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
+                                          const Particles<Dim>&, std::span<const double>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

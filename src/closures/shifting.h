@@ -7,9 +7,9 @@
 //           keeps this explicit diffusion stable at the long steps of the implicit integrator.
 //   farzin  dr_i = eps |u_i| dt R_i, R_i = sum (rbar_i/r_ij)^3 e_ij (F28-F30)
 //
-// Both keep of their part along the free surface's normal only a share: 0 where `interior` (free_surface.h) is 0, 1
-// where that is 1. With lind the share is 0 wherever the surface is within the support, judged by `interior` of the
-// neighbours: there the gradient is that of the surface and would drive water out of the inside.
+// Of both only a share is kept: 0 where `interior` (free_surface.h) is 0, 1 where that is 1. With lind the share is 0
+// wherever the surface is within the support, judged by `interior` of the neighbours: there the gradient is that of the
+// surface and would drive water out of the inside.
 //
 // Both have a smooth bound, dr/sqrt(1 + (dr/cap)^2). Ordinary shifts are a hundredth of dx and hardly notice it. A
 // particle where two bodies of water meet has all its neighbours on one side and would be thrown a quarter of dx.
@@ -38,7 +38,6 @@ struct ShiftingLaw {
 /// up to date on ghosts. Returns how many would have been longer than the bound.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, std::span<const double> interior,
-                          std::span<const Vec<Dim>> concentration_gradient, std::span<Vec<Dim>> shift);
+                          const Particles<Dim>& particles, std::span<const double> interior, std::span<Vec<Dim>> shift);
 
 }  // namespace tailwater

@@ -38,7 +38,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> shift(particles.owned);
   interventions.capped_shifts = compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
-                                                   flow.here.interior, flow.here.concentration_gradient, shift);
+                                                   flow.here.interior, shift);
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.is_in_end_stretch(i)) shift[i].setZero();
   });

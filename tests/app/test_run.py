@@ -189,7 +189,7 @@ class Books(ProgramTest):
     def test_spray_above_an_open_tank_is_not_lost(self):
         self.call("run", "small.toml", "--out", "run", "--quiet", "--set",
                   "wall[0].points=[[0, 0.6], [0, 0], [1, 0], [1, 0.6]]", "--set", "fluid[0].velocity=[0, 3]", "--set",
-                  "time.end=0.2")
+                  "time.end=0.2", "--set", "particles.spacing=0.05")
         summary = self.summary("run")
         positions, _ = read_points(read_series(self.folder / "run/fields/fields.pvd")[-1][1])
         self.assertGreater(np.count_nonzero(positions[:, 1] > 0.6), 0)

@@ -91,7 +91,7 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
       return Vec<Dim>(sum + flow.setup.bodies[0].mass * body.linear_velocity() + body.owed.template head<Dim>());
     };
     const Vec<Dim> before = momentum();
-    for (int n = 0; n < (Dim == 2 ? 40 : 12); ++n) step(flow);
+    for (int n = 0; n < (Dim == 2 ? 40 : 14); ++n) step(flow);
     EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm());
     const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
     EXPECT_GT(body.velocity[0], 0.1);  // it was hit
