@@ -151,9 +151,9 @@ class Checkpoints(Resumed):
         self.wait_for(lambda: not request.exists(), process)
         first = self.checkpoints()
         self.assertEqual(len(first), 1)
-        # A second request within the five steps that belong to one checkpoint would find it written.
+        # A second request within the ten steps that belong to one checkpoint would find it written.
         written_step = int(first[0].stem.removeprefix("step_"))
-        self.wait_for(lambda: self.table("run/steps.csv")[1][-1][1] > written_step + 5, process)
+        self.wait_for(lambda: self.table("run/steps.csv")[1][-1][1] > written_step + 10, process)
         process.send_signal(signal.SIGHUP)
         self.wait_for(lambda: len(self.checkpoints()) == 2, process)
         process.send_signal(signal.SIGTERM)
