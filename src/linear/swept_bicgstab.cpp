@@ -1,6 +1,7 @@
 #include "linear/swept_bicgstab.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace tailwater {
 namespace {
@@ -8,13 +9,12 @@ namespace {
 /// A residual so many times that of the start will not come down again.
 constexpr double explosion = 1e5;
 
-}  // namespace
-
-double SweptBicgstab::dot(const std::vector<double>& a, const std::vector<double>& b) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+/// Of the entries of this rank.
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
+
+}  // namespace
 
 SweptBicgstab::Outcome SweptBicgstab::solve(std::span<const double> residual, double target, int most_iterations,
                                             std::span<double> x) {
@@ -28,8 +28,7 @@ SweptBicgstab::Outcome SweptBicgstab::solve(std::span<const double> residual, do
   direction_ = first_;
   solution_.assign(size, 0.0);
 
-  double square = 0.0;
-  for (const double value : residual) square += value * value;
+  double square = dot(residual, residual);
   double rho = dot(first_, first_);
   ranks.sum_each(square, rho);
   const double start = std::sqrt(rho);

@@ -29,8 +29,6 @@ class SweptBicgstab {
   const std::vector<double>& history() const { return history_; }
 
  private:
-  double dot(const std::vector<double>& a, const std::vector<double>& b) const;
-
   const LinearSystem& system_;
   TriangularSweeps sweeps_;
   std::vector<double> history_;

@@ -39,15 +39,14 @@ class StepGuard {
   template <class Describe>
   [[noreturn]] void blame(std::optional<std::size_t> culprit, const Describe& describe);
   [[noreturn]] void fail(const std::string& reason, std::optional<std::size_t> culprit);
+  /// The particles as they were when they were good.
+  Particles<Dim> last_good() const;
 
   Flow<Dim>& flow_;
   const RunFolder& folder_;
   double smallest_step_;
   double reference_step_ = 0.0;  ///< s; 0 before the first step
-  /// The particles as they were when they were good.
-  Particles<Dim> last_good() const;
-
-  std::size_t good_count_ = 0;  ///< owned
+  std::size_t good_count_ = 0;   ///< owned
   // What a step changes of them.
   std::vector<Vec<Dim>> good_position_;
   std::vector<Vec<Dim>> good_velocity_;
