@@ -23,7 +23,7 @@ void add_operators(Stage<Dim>& stage) {
     const Particles<Dim>& particles = flow.state.particles;
     for_each(particles.owned, [&](std::size_t i) {
       if (particles.is_fluid(i)) {
-        (*fluid_sums)[i] = kernel_sums<Dim>(flow.pairs(), i, particles.volume, flow.setup.W_0);
+        (*fluid_sums)[i] = kernel_sums<Dim>(flow.pairs(), i, flow.setup.W_0);
       }
     });
   });

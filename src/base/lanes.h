@@ -1,5 +1,6 @@
 // Several numbers side by side, on which the processor works at once. A loop over the pairs of a row that takes them in
 // lanes reads as the one pair by pair. Compilers do not turn one into the other: that would change the order of sums.
+// Pairs are computed in single precision, and sums are kept in double: docs/theory/neighbours.md says what that costs.
 // The instructions that gather are not used, because on many processors they are slower than single loads.
 #pragma once
 
@@ -9,24 +10,40 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #if defined(__AVX__)
 #include <immintrin.h>
 #endif
 
+#include "base/for_each.h"
 #include "base/vec.h"
 
 namespace tailwater {
 
 #if defined(__AVX__)
-inline constexpr int lane_count = 4;  // also with AVX-512, for which many processors lower their clock
+inline constexpr int lane_count = 8;  // also with AVX-512, for which many processors lower their clock
 #else
-inline constexpr int lane_count = 2;
+inline constexpr int lane_count = 4;
 #endif
 
 /// As wide as a register. Arithmetic, comparison and ?: act on each lane.
-using Lanes = double __attribute__((vector_size(8 * lane_count)));
+using Lanes = float __attribute__((vector_size(4 * lane_count)));
+using LaneTruths = decltype(Lanes{} < Lanes{});
+/// Integers modulo 2^32.
+using IntegerLanes = std::uint32_t __attribute__((vector_size(4 * lane_count)));
+
+/// The same in double precision, half as many.
+inline constexpr int double_lane_count = lane_count / 2;
+using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
+using DoubleTruths = decltype(DoubleLanes{} < DoubleLanes{});
+
+/// What one lane of a number, or of several, holds.
+template <class Number>
+using LaneOf = std::conditional_t<std::is_same_v<Number, Lanes>, float, double>;
 
 /// A vector in each lane.
 template <int Dim>
@@ -55,12 +72,13 @@ struct MatLanes {
   }
 };
 
-inline Lanes in_all_lanes(double value) { return Lanes{} + value; }
+inline Lanes in_all_lanes(double value) { return Lanes{} + static_cast<float>(value); }
+inline DoubleLanes in_all_double_lanes(double value) { return DoubleLanes{} + value; }
 
 #if defined(__AVX__)
-inline constexpr Lanes lane_numbers{0.0, 1.0, 2.0, 3.0};
+inline constexpr LaneTruths lane_numbers{0, 1, 2, 3, 4, 5, 6, 7};
 #else
-inline constexpr Lanes lane_numbers{0.0, 1.0};
+inline constexpr LaneTruths lane_numbers{0, 1, 2, 3};
 #endif
 
 inline Lanes min_of(Lanes a, Lanes b) { return a < b ? a : b; }
@@ -69,7 +87,7 @@ inline double max_of(double a, double b) { return a > b ? a : b; }
 
 inline Lanes sqrt_of(Lanes lanes) {
 #if defined(__AVX__)
-  return _mm256_sqrt_pd(lanes);
+  return _mm256_sqrt_ps(lanes);
 #else
   for (int n = 0; n < lane_count; ++n) lanes[n] = std::sqrt(lanes[n]);
   return lanes;
@@ -77,18 +95,22 @@ inline Lanes sqrt_of(Lanes lanes) {
 }
 inline double sqrt_of(double number) { return std::sqrt(number); }
 
-/// Numbers in single precision, as arrays that are read often may keep them.
-using SingleLanes = float __attribute__((vector_size(4 * lane_count)));
-
-using LaneTruths = decltype(Lanes{} < Lanes{});
-
 /// Bit n is set where a comparison holds in lane n.
 inline unsigned bits_of(LaneTruths holds) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
+#else
+  unsigned bits = 0;
+  for (int n = 0; n < lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  return bits;
+#endif
+}
+inline unsigned bits_of(DoubleTruths holds) {
 #if defined(__AVX__)
   return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
 #else
   unsigned bits = 0;
-  for (int n = 0; n < lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  for (int n = 0; n < double_lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
   return bits;
 #endif
 }
@@ -127,121 +149,148 @@ Mat<Dim> sum_of_lower(const MatLanes<Dim>& lanes) {
   return sum;
 }
 
+/// A sum in double precision, for what is conserved and for what nearly cancels.
+class LaneSum {
+ public:
+  void operator+=(Lanes terms) {
+#if defined(__AVX__)
+    low_ += _mm256_cvtps_pd(_mm256_castps256_ps128(terms));
+    high_ += _mm256_cvtps_pd(_mm256_extractf128_ps(terms, 1));
+#else
+    low_ += __builtin_convertvector(__builtin_shufflevector(terms, terms, 0, 1), DoubleLanes);
+    high_ += __builtin_convertvector(__builtin_shufflevector(terms, terms, 2, 3), DoubleLanes);
+#endif
+  }
+  void operator-=(Lanes terms) { *this += -terms; }
+
+  double total() const {
+    const DoubleLanes sums = low_ + high_;
+    double total = sums[0];
+    for (int n = 1; n < double_lane_count; ++n) total += sums[n];
+    return total;
+  }
+
+ private:
+  DoubleLanes low_{};
+  DoubleLanes high_{};
+};
+
+template <int Dim>
+struct VecSum {
+  LaneSum at[Dim];
+
+  Vec<Dim> total() const {
+    Vec<Dim> total;
+    for (int d = 0; d < Dim; ++d) total[d] = at[d].total();
+    return total;
+  }
+};
+
+/// Up to four numbers of a particle, which are loaded together.
+struct alignas(16) Four {
+  std::array<float, 4> at{};
+};
+
+/// A vector field in single precision.
+template <int Dim>
+std::vector<Four> in_fours(std::span<const Vec<Dim>> field) {
+  std::vector<Four> fours(field.size());
+  for_each(field.size(), [&](std::size_t i) {
+    for (int d = 0; d < Dim; ++d) fours[i].at[d] = static_cast<float>(field[i][d]);
+  });
+  return fours;
+}
+
 /// What each lane reads of an array that has several numbers per entry.
 class LaneIndices {
  public:
-  template <class Index>
-  explicit LaneIndices(Index&& index) {
-    for (int n = 0; n < lane_count; ++n) index_[n] = static_cast<std::ptrdiff_t>(index(n));
-  }
+  explicit LaneIndices(IntegerLanes indices) { std::memcpy(index_.data(), &indices, sizeof(indices)); }
 
-  Lanes operator()(const double* array) const { return read<1>(array); }
-
-  /// Where holds(index) is true.
-  template <class Condition>
-  LaneTruths where(Condition&& holds) const {
-    LaneTruths truths;
-    for (int n = 0; n < lane_count; ++n) truths[n] = holds(index_[n]) ? -1 : 0;
-    return truths;
-  }
-
-  /// The numbers of entries that have `Size` of them one behind the other, a multiple of four.
-  template <int Size>
-  [[gnu::always_inline]] std::array<Lanes, Size> record(const double* numbers) const {
-    static_assert(Size % 4 == 0);
-    std::array<Lanes, Size> lanes;
-    for (int n = 0; n < Size; n += 4) read_four<Size>(numbers + n, &lanes[n]);
+  Lanes operator()(const float* array) const {
+    Lanes lanes;
+    for (int n = 0; n < lane_count; ++n) lanes[n] = array[index_[n]];
     return lanes;
   }
+  /// Rounded to single precision.
+  Lanes operator()(const double* array) const { return read<1>(array); }
 
   template <int Dim>
   VecLanes<Dim> operator()(const Vec<Dim>* array) const {
     const auto* const numbers = reinterpret_cast<const double*>(array);
     VecLanes<Dim> lanes;
-    read_two<Dim>(numbers, lanes.at[0], lanes.at[1]);
-    if constexpr (Dim == 3) lanes.at[2] = read<Dim>(numbers + 2);
+    for (int d = 0; d < Dim; ++d) lanes.at[d] = read<Dim>(numbers + d);
+    return lanes;
+  }
+
+  /// The numbers of entries of nothing but numbers of four bytes, as many as fill whole registers.
+  template <class Entry>
+  [[gnu::always_inline]] std::array<Lanes, sizeof(Entry) / 4> numbers(const Entry* entries) const {
+    constexpr int count = sizeof(Entry) / 4;
+    static_assert(count % 4 == 0);
+    const auto* const numbers = reinterpret_cast<const float*>(entries);
+    std::array<Lanes, count> lanes;
+    for (int n = 0; n < count; n += 4) read_four<count>(numbers + n, &lanes[n]);
     return lanes;
   }
 
   template <int Dim>
-  MatLanes<Dim> operator()(const Mat<Dim>* array) const {
-    const auto* const numbers = reinterpret_cast<const double*>(array);  // column by column
-    MatLanes<Dim> lanes;
-    for (int b = 0; b < Dim; ++b) {
-      VecLanes<Dim>& column = lanes.column[b];
-      read_two<Dim * Dim>(numbers + Dim * b, column.at[0], column.at[1]);
-      if constexpr (Dim == 3) column.at[2] = read<Dim * Dim>(numbers + Dim * b + 2);
-    }
-    return lanes;
-  }
-  /// The same of symmetric matrices.
-  template <int Dim>
-  MatLanes<Dim> symmetric(const Mat<Dim>* array) const {
-    const auto* const numbers = reinterpret_cast<const double*>(array);
-    MatLanes<Dim> lanes;
-    read_two<Dim * Dim>(numbers, lanes.column[0].at[0], lanes.column[0].at[1]);
-    if constexpr (Dim == 2) {
-      lanes.column[1].at[1] = read<Dim * Dim>(numbers + 3);
-    } else {
-      lanes.column[0].at[2] = read<Dim * Dim>(numbers + 2);
-      read_two<Dim * Dim>(numbers + 4, lanes.column[1].at[1], lanes.column[1].at[2]);
-      lanes.column[2].at[2] = read<Dim * Dim>(numbers + 8);
-    }
-    for (int b = 1; b < Dim; ++b) {
-      for (int a = 0; a < b; ++a) lanes.column[b].at[a] = lanes.column[a].at[b];
-    }
-    return lanes;
+  [[gnu::always_inline]] VecLanes<Dim> vectors(const Four* field) const {
+    const std::array<Lanes, 4> lanes = numbers(field);
+    VecLanes<Dim> vectors;
+    for (int d = 0; d < Dim; ++d) vectors.at[d] = lanes[d];
+    return vectors;
   }
 
  private:
-  /// One number of each entry of an array whose entries have `Stride` numbers.
   template <int Stride>
   Lanes read(const double* from) const {
-    return read<Stride>(from, std::make_index_sequence<lane_count>());
+    return read<Stride>(from, std::make_index_sequence<double_lane_count>());
   }
   template <int Stride, std::size_t... Lane>
   Lanes read(const double* from, std::index_sequence<Lane...>) const {
-    return Lanes{from[Stride * index_[Lane]]...};
+    const DoubleLanes low{from[Stride * static_cast<std::ptrdiff_t>(index_[Lane])]...};
+    const DoubleLanes high{from[Stride * static_cast<std::ptrdiff_t>(index_[Lane + double_lane_count])]...};
+    using Half = float __attribute__((vector_size(4 * double_lane_count)));
+    const Half halves[2] = {__builtin_convertvector(low, Half), __builtin_convertvector(high, Half)};
+    Lanes lanes;
+    std::memcpy(&lanes, halves, sizeof(lanes));
+    return lanes;
   }
 
-  /// A number of each entry and the one that follows it. They are loaded together: loads are what loops over pairs
-  /// have most of.
+  /// Four numbers that follow each other, of entries that have `Stride` of them. They are loaded together: loads are
+  /// what loops over pairs have most of.
   template <int Stride>
-  void read_two(const double* from, Lanes& first, Lanes& second) const {
-    using Two = double __attribute__((vector_size(16)));
-    Two two[lane_count];
-    for (int n = 0; n < lane_count; ++n) std::memcpy(&two[n], from + Stride * index_[n], sizeof(Two));
+  [[gnu::always_inline]] void read_four(const float* from, Lanes* lanes) const {
+    using Quarter = float __attribute__((vector_size(16)));
+    const auto load = [&](int n) {
+      Quarter four;
+      std::memcpy(&four, from + Stride * static_cast<std::ptrdiff_t>(index_[n]), sizeof(four));
+      return four;
+    };
 #if defined(__AVX__)
-    const Lanes even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
-    const Lanes odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
-    first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-    second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+    __m256 rows[4];
+    for (int n = 0; n < 4; ++n) rows[n] = _mm256_insertf128_ps(_mm256_castps128_ps256(load(n)), load(n + 4), 1);
+    const __m256 low_even = _mm256_unpacklo_ps(rows[0], rows[1]);
+    const __m256 high_even = _mm256_unpackhi_ps(rows[0], rows[1]);
+    const __m256 low_odd = _mm256_unpacklo_ps(rows[2], rows[3]);
+    const __m256 high_odd = _mm256_unpackhi_ps(rows[2], rows[3]);
+    lanes[0] = _mm256_shuffle_ps(low_even, low_odd, 0x44);
+    lanes[1] = _mm256_shuffle_ps(low_even, low_odd, 0xEE);
+    lanes[2] = _mm256_shuffle_ps(high_even, high_odd, 0x44);
+    lanes[3] = _mm256_shuffle_ps(high_even, high_odd, 0xEE);
 #else
-    first = __builtin_shufflevector(two[0], two[1], 0, 2);
-    second = __builtin_shufflevector(two[0], two[1], 1, 3);
+    const Quarter low_even = __builtin_shufflevector(load(0), load(1), 0, 4, 1, 5);
+    const Quarter high_even = __builtin_shufflevector(load(0), load(1), 2, 6, 3, 7);
+    const Quarter low_odd = __builtin_shufflevector(load(2), load(3), 0, 4, 1, 5);
+    const Quarter high_odd = __builtin_shufflevector(load(2), load(3), 2, 6, 3, 7);
+    lanes[0] = __builtin_shufflevector(low_even, low_odd, 0, 1, 4, 5);
+    lanes[1] = __builtin_shufflevector(low_even, low_odd, 2, 3, 6, 7);
+    lanes[2] = __builtin_shufflevector(high_even, high_odd, 0, 1, 4, 5);
+    lanes[3] = __builtin_shufflevector(high_even, high_odd, 2, 3, 6, 7);
 #endif
   }
 
-  /// The same of four numbers.
-  template <int Stride>
-  void read_four(const double* from, Lanes* lanes) const {
-#if defined(__AVX__)
-    Lanes four[lane_count];
-    for (int n = 0; n < lane_count; ++n) std::memcpy(&four[n], from + Stride * index_[n], sizeof(Lanes));
-    const Lanes low_even = __builtin_shufflevector(four[0], four[1], 0, 4, 2, 6);
-    const Lanes low_odd = __builtin_shufflevector(four[0], four[1], 1, 5, 3, 7);
-    const Lanes high_even = __builtin_shufflevector(four[2], four[3], 0, 4, 2, 6);
-    const Lanes high_odd = __builtin_shufflevector(four[2], four[3], 1, 5, 3, 7);
-    lanes[0] = __builtin_shufflevector(low_even, high_even, 0, 1, 4, 5);
-    lanes[1] = __builtin_shufflevector(low_odd, high_odd, 0, 1, 4, 5);
-    lanes[2] = __builtin_shufflevector(low_even, high_even, 2, 3, 6, 7);
-    lanes[3] = __builtin_shufflevector(low_odd, high_odd, 2, 3, 6, 7);
-#else
-    for (int n = 0; n < 4; ++n) lanes[n] = read<Stride>(from + n);
-#endif
-  }
-
-  std::array<std::ptrdiff_t, lane_count> index_;
+  std::array<std::int32_t, lane_count> index_;
 };
 
 /// Some entries of a row: as many as there are lanes, or the rest of a row. Then the last entry is in the lanes left
@@ -253,53 +302,53 @@ struct LaneRange {
 
   std::size_t entry(int n) const { return begin + (is_full ? n : std::min(n, count - 1)); }
 
-  LaneIndices entries() const {
-    return LaneIndices([this](int n) { return entry(n); });
-  }
   /// The neighbours of the entries.
   LaneIndices neighbours(const std::int32_t* j) const {
-    return LaneIndices([this, j](int n) { return j[entry(n)]; });
+    auto indices = load<IntegerLanes>(j);
+    if constexpr (!is_full) indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count)]);
+    return LaneIndices(indices);
   }
-  Lanes load(const double* array) const {
-    if constexpr (!is_full) return entries()(array);
-    Lanes lanes;
-    std::memcpy(&lanes, array + begin, sizeof(lanes));
-    return lanes;
-  }
+  /// 0 in lanes left over.
+  Lanes load(const float* array) const { return load<Lanes>(array); }
   /// `lanes` with 0 in those left over.
   Lanes only(Lanes lanes) const {
-    if constexpr (!is_full) lanes = lane_numbers < in_all_lanes(count) ? lanes : Lanes{};
+    if constexpr (!is_full) lanes = holds() ? lanes : Lanes{};
     return lanes;
   }
-  /// Writes to `place` and behind it.
-  void store(Lanes lanes, double* place) const {
+  /// Writes to `place` and behind it. Returns what was written, with 0 in lanes left over.
+  Lanes store(Lanes lanes, float* place) const {
     if constexpr (is_full) {
       std::memcpy(place, &lanes, sizeof(lanes));
     } else {
       for (int n = 0; n < count; ++n) place[n] = lanes[n];
     }
+    return only(lanes);
   }
-  /// The same in single precision. Returns the numbers as they are kept, with 0 in lanes left over.
-  Lanes store(Lanes lanes, float* place) const {
-    const auto kept = __builtin_convertvector(lanes, SingleLanes);
+
+ private:
+  /// Of which lanes there are entries.
+  LaneTruths holds() const { return lane_numbers < count; }
+
+  template <class Wide, class Number>
+  Wide load(const Number* array) const {
+    Wide lanes{};
     if constexpr (is_full) {
-      std::memcpy(place, &kept, sizeof(kept));
+      std::memcpy(&lanes, array + begin, sizeof(lanes));
     } else {
-      for (int n = 0; n < count; ++n) place[n] = kept[n];
+#if defined(__AVX__)
+      lanes = reinterpret_cast<Wide>(
+          _mm256_maskload_ps(reinterpret_cast<const float*>(array + begin), reinterpret_cast<__m256i>(holds())));
+#else
+      std::memcpy(&lanes, array + begin, sizeof(Number) * count);
+#endif
     }
-    return only(__builtin_convertvector(kept, Lanes));
-  }
-  template <int Dim>
-  void store(const VecLanes<Dim>& lanes, Vec<Dim>* array) const {
-    for (int n = 0; n < (is_full ? lane_count : count); ++n) {
-      for (int d = 0; d < Dim; ++d) array[begin + n][d] = lanes.at[d][n];
-    }
+    return lanes;
   }
 };
 
 /// Calls body(range) for the entries begin .. end, in their order.
 template <class Body>
-void for_each_lanes(std::size_t begin, std::size_t end, Body&& body) {
+[[gnu::always_inline]] inline void for_each_lanes(std::size_t begin, std::size_t end, Body&& body) {
   constexpr std::size_t width = lane_count;
   for (; begin + width <= end; begin += width) body(LaneRange<true>{begin, lane_count});
   if (begin < end) body(LaneRange<false>{begin, static_cast<int>(end - begin)});

@@ -102,7 +102,7 @@ void find_interior(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std
   for_each(pairs.owned(), [&](std::size_t i) {
     interior[i] = 0.0;
     if (!particles.is_fluid(i)) return;
-    const double mean = mean_over_fluid(pairs, particles, i, concentration, W_0);
+    const double mean = mean_over_fluid(pairs, i, concentration, W_0);
     const double step = std::clamp((mean - interior_begins) / (interior_is_full - interior_begins), 0.0, 1.0);
     interior[i] = step * step * (3.0 - 2.0 * step);
   });

@@ -17,24 +17,25 @@ struct LindShift {
 };
 
 template <int Dim>
-LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                          std::span<const double> interior, std::size_t i) {
-  const double inverse_W = 1.0 / law.W_spacing;
+LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, std::span<const double> interior,
+                          std::size_t i) {
+  const auto inverse_W = static_cast<float>(1.0 / law.W_spacing);
   VecLanes<Dim> sum{};
   Lanes interiors{};
   Lanes weights{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes volume = range.only(j(particles.volume.data()));
-    const VecLanes<Dim> d = differences(pairs, range, j, i);
-    const Lanes W = kernel_at(pairs, d);
-    const Lanes ratio = W * inverse_W;
-    const Lanes weight = volume * (1.0 + 0.2 * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
-    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
-    const Lanes W_of_fluid = of_fluid(particles, j, range.only(W));
-    interiors += W_of_fluid * j(interior.data());
-    weights += W_of_fluid;
-  });
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const Lanes W = kernel_at(pairs, place.d);
+        const Lanes ratio = W * inverse_W;
+        const Lanes weight =
+            place.volume() * (1.0F + 0.2F * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
+        for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
+        const Lanes W_of_fluid = place.of_fluid(W);
+        interiors += W_of_fluid * j(interior.data());
+        weights += W_of_fluid;
+      });
   const double weight = sum_of(weights);
   return {law.spacing * sum_of(sum), weight > 0.0 ? sum_of(interiors) / weight : 0.0};
 }
@@ -70,7 +71,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
     if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i)) return false;
     double kept = interior[i];
     if (law.kind == ShiftingKind::lind) {
-      const LindShift<Dim> lind = lind_shift(law, pairs, particles, interior, i);
+      const LindShift<Dim> lind = lind_shift(law, pairs, interior, i);
       shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind.direction;
       kept = kept_share(interior[i], lind.mean_interior);
     } else {

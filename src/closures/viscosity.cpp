@@ -15,54 +15,62 @@
 namespace tailwater {
 namespace {
 
-/// The volume of fluid particles and 0 of others, which take no part in sums weighted by it.
+/// What a particle brings to the viscous forces of its pairs.
 template <int Dim>
-std::vector<double> volumes_of_fluid(const Particles<Dim>& particles) {
-  std::vector<double> volume(particles.size());
-  for_each(volume.size(), [&](std::size_t j) { volume[j] = particles.is_fluid(j) ? particles.volume[j] : 0.0; });
-  return volume;
+struct alignas(Dim == 2 ? 32 : 64) ViscousEnd {
+  std::array<float, Dim> velocity;        ///< m/s
+  float viscosity;                        ///< m^2/s
+  float layer_viscosity;                  ///< m^2/s
+  std::array<float, Dim * Dim> gradient;  ///< 1/s; of the velocity, column by column
+};
+
+template <int Dim>
+std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::span<const double> viscosity,
+                                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient) {
+  std::vector<ViscousEnd<Dim>> ends(particles.size());
+  for_each(ends.size(), [&](std::size_t i) {
+    ViscousEnd<Dim>& end = ends[i];
+    for (int a = 0; a < Dim; ++a) end.velocity[a] = static_cast<float>(velocity[i][a]);
+    for (int n = 0; n < Dim * Dim; ++n) end.gradient[n] = static_cast<float>(gradient[i].data()[n]);
+    end.viscosity = viscosity.empty() ? 0.0F : static_cast<float>(viscosity[i]);
+    end.layer_viscosity = static_cast<float>(particles.layer_viscosity[i]);
+  });
+  return ends;
 }
 
 /// What viscous forces need of several pairs of particle i.
 template <int Dim>
 struct PairLanes {
-  LaneIndices j;
-  Lanes volume;              ///< m^Dim; w_j of fluid, 0 of walls
-  VecLanes<Dim> difference;  ///< m/s; u_j - u_i
-  MatLanes<Dim> gradients;   ///< 1/s; sum of both velocity gradients
-  VecLanes<Dim> d;           ///< m; r_i - r_j
+  PlaceLanes<Dim> place;
   Lanes F;                   ///< of the kernel
+  VecLanes<Dim> difference;  ///< m/s; u_j - u_i
+  Lanes viscosity;           ///< m^2/s; mean of both
+  MatLanes<Dim> gradients;   ///< 1/s; sum of both velocity gradients
   Lanes squared;             ///< m^2; d.d
   Lanes share_of_volume;     ///< m^Dim; of w_j in the weights of the Morris Laplacian
   Lanes layer_viscosity;     ///< m^2/s; of j if i belongs to a boundary layer, else 0
 
-  template <class Range>
-  PairLanes(const Range& range, const LaneIndices& neighbours, const VecLanes<Dim>& d_of_pairs, Lanes F_of_pairs,
-            const Particles<Dim>& particles, std::span<const double> volume_of_fluid, double spacing, std::size_t i,
-            std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient)
-      : j(neighbours),
-        volume(range.only(j(volume_of_fluid.data()))),
-        difference(j(velocity.data())),
-        gradients(j(gradient.data())),
-        d(d_of_pairs),
-        F(F_of_pairs),
-        squared(d.dot(d)),
-        share_of_volume(volume * share_of_morris_weight(squared, spacing)),
-        layer_viscosity(particles.layer_viscosity[i] > 0.0 ? j(particles.layer_viscosity.data()) : Lanes{}) {
-    for (int a = 0; a < Dim; ++a) {
-      difference.at[a] -= velocity[i][a];
-      for (int b = 0; b < Dim; ++b) gradients.column[b].at[a] += gradient[i](a, b);
-    }
+  PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
+            std::span<const ViscousEnd<Dim>> ends, double spacing, std::size_t i)
+      : place(place_of_pairs), F(F_of_pairs) {
+    const auto other = j.numbers(ends.data());
+    const ViscousEnd<Dim>& own = ends[i];
+    for (int a = 0; a < Dim; ++a) difference.at[a] = other[a] - own.velocity[a];
+    viscosity = 0.5F * (own.viscosity + other[Dim]);
+    layer_viscosity = own.layer_viscosity > 0.0F ? other[Dim + 1] : Lanes{};
+    for (int n = 0; n < Dim * Dim; ++n) gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + other[Dim + 2 + n];
+    squared = place.d.dot(place.d);
+    share_of_volume = place.volume_of_fluid() * share_of_morris_weight(squared, spacing);
   }
 
   /// Adds `viscosity` times the acceleration by the noise in the difference of velocity. The shear of a boundary layer,
   /// to which both particles belong, is left alone.
-  [[gnu::always_inline]] void add_noise_force(double viscosity, VecLanes<Dim>& sum) const {
-    constexpr double least = std::numeric_limits<double>::min();  // prevents 0/0
-    VecLanes<Dim> explained = gradients.times(d);
+  [[gnu::always_inline]] void add_noise_force(double noise_viscosity, VecLanes<Dim>& terms) const {
+    constexpr double least = std::numeric_limits<float>::min();  // prevents 0/0
+    VecLanes<Dim> explained = gradients.times(place.d);
     VecLanes<Dim> noise;
     for (int a = 0; a < Dim; ++a) {
-      explained.at[a] *= -0.5;
+      explained.at[a] *= -0.5F;
       noise.at[a] = difference.at[a] - explained.at[a];
     }
     const Lanes in_shear = noise.dot(explained) / max_of(explained.dot(explained), in_all_lanes(least));
@@ -70,8 +78,8 @@ struct PairLanes {
     for (int a = 0; a < Dim; ++a) noise.at[a] -= left_alone * explained.at[a];
     const Lanes work = min_of(Lanes{}, noise.dot(difference));
     const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
-    const Lanes weight = viscosity * 2.0 * share_of_volume * F;
-    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * (noise.at[a] - given * difference.at[a]);
+    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * share_of_volume * F;
+    for (int a = 0; a < Dim; ++a) terms.at[a] += weight * (noise.at[a] - given * difference.at[a]);
   }
 };
 
@@ -96,24 +104,28 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
-  const std::vector<double> volume = volumes_of_fluid(particles);
+  const std::vector<ViscousEnd<Dim>> ends = viscous_ends(particles, viscosity, velocity, gradient);
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    VecLanes<Dim> sum{};
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const LaneIndices j = range.neighbours(pairs.j.data());
-      const auto [d_ij, F_ij, a] = pair_vectors(pairs, range, j, i);
-      const PairLanes<Dim> pair(range, j, d_ij, F_ij, particles, volume, spacing, i, velocity, gradient);
-      // Only of pairs that nearly coincide may the corrections turn the sign.
-      const Lanes F = max_of(Lanes{}, -a.dot(pair.d)) / pair.squared;
-      const Lanes laplacian = 2.0 * pair.share_of_volume * F;
-      const Lanes mean = 0.5 * (viscosity[i] + pair.j(viscosity.data()));
-      for (int d = 0; d < Dim; ++d) {
-        sum.at[d] += mean * (laplacian * pair.difference.at[d] + pair.volume * pair.gradients.column[d].dot(a));
-      }
-      if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, sum);
-    });
-    acceleration[i] += sum_of(sum);
+    VecSum<Dim> sum;
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          const LaneIndices j = range.neighbours(pairs.j.data());
+          const PairVectorLanes<Dim> vectors = pair_vectors(pairs, range, j, i);
+          const PairLanes<Dim> pair(vectors.place, vectors.F, j, ends, spacing, i);
+          // Only of pairs that nearly coincide may the corrections turn the sign.
+          const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
+          const Lanes laplacian = 2.0F * pair.share_of_volume * F;
+          const Lanes volume = pair.place.volume_of_fluid();
+          VecLanes<Dim> terms;
+          for (int d = 0; d < Dim; ++d) {
+            terms.at[d] =
+                pair.viscosity * (laplacian * pair.difference.at[d] + volume * pair.gradients.column[d].dot(vectors.a));
+          }
+          if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, terms);
+          for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
+        });
+    acceleration[i] += sum.total();
   });
 }
 
@@ -144,17 +156,19 @@ template <int Dim>
 void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
                          std::span<Vec<Dim>> acceleration) {
-  const std::vector<double> volume = volumes_of_fluid(particles);
+  const std::vector<ViscousEnd<Dim>> ends = viscous_ends<Dim>(particles, {}, velocity, gradient);
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    VecLanes<Dim> sum{};
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences(pairs, range, j, i);
-      PairLanes<Dim>(range, j, d, range.load(pairs.F.data()), particles, volume, spacing, i, velocity, gradient)
-          .add_noise_force(viscosity, sum);
-    });
-    acceleration[i] += sum_of(sum);
+    VecSum<Dim> sum;
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          const LaneIndices j = range.neighbours(pairs.j.data());
+          VecLanes<Dim> terms{};
+          PairLanes<Dim>(places(pairs, range, j, i), range.load(pairs.F.data()), j, ends, spacing, i)
+              .add_noise_force(viscosity, terms);
+          for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
+        });
+    acceleration[i] += sum.total();
   });
 }
 

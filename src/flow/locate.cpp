@@ -18,7 +18,7 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
     here.concentration_gradient[i].setZero();
     here.first_moment[i].setIdentity();
     if (!flow.has_equation(i)) return;
-    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, particles.volume, flow.setup.W_0);
+    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.W_0);
     here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;
     here.concentration_gradient[i] = sums.gradient;

@@ -93,11 +93,11 @@ void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::ve
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
+  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
   std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], particles.volume,
-                                          std::span<const Vec<Dim>>(particles.velocity));
+    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], velocity);
   });
   flow.halo().exchange(gradient);
   return gradient;

@@ -18,18 +18,19 @@ struct CubicSpline {
 
   template <class Number>
   Number value(Number r) const {
-    const Number s = 2.0 * r / radius;
-    const Number a = max_of(Number{}, 2.0 - s);
-    const Number b = max_of(Number{}, 1.0 - s);
-    return 0.25 * scale * (a * a * a - 4.0 * b * b * b);
+    using One = LaneOf<Number>;
+    const Number s = One(2.0 / radius) * r;
+    const Number a = max_of(Number{}, One(2.0) - s);
+    const Number b = max_of(Number{}, One(1.0) - s);
+    return One(0.25 * scale) * (a * a * a - One(4.0) * b * b * b);
   }
 
   template <class Number>
   Number derivative(Number r) const {
-    const Number s = 2.0 * r / radius;
-    const Number a = max_of(Number{}, 2.0 - s);
-    const Number b = max_of(Number{}, 1.0 - s);
-    return -1.5 * scale / radius * (a * a - 4.0 * b * b);
+    using One = LaneOf<Number>;
+    const Number s = One(2.0 / radius) * r;
+    const Number a = max_of(Number{}, One(2.0) - s);
+    return One(-1.5 * scale / radius) * (s < One(1.0) ? s * (One(4.0) - One(3.0) * s) : a * a);
   }
 
   template <class Number>

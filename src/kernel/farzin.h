@@ -16,13 +16,15 @@ struct FarzinKernel {
 
   template <class Number>
   Number value(Number r) const {
-    const Number a = max_of(Number{}, 1.0 - r / radius);
-    return scale * a * a;
+    using One = LaneOf<Number>;
+    const Number a = max_of(Number{}, One(1.0) - r / One(radius));
+    return One(scale) * a * a;
   }
 
   template <class Number>
   Number derivative(Number r) const {
-    return -2.0 * scale / radius * max_of(Number{}, 1.0 - r / radius);
+    using One = LaneOf<Number>;
+    return One(-2.0 * scale / radius) * max_of(Number{}, One(1.0) - r / One(radius));
   }
 
   template <class Number>

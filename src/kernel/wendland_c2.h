@@ -19,15 +19,17 @@ struct WendlandC2 {
 
   template <class Number>
   Number value(Number r) const {
-    const Number q = r * inverse_radius;
-    const Number a = max_of(Number{}, radius - r) * inverse_radius;  // 1 - q, and 0 exactly at the rim
-    return scale * a * a * a * a * (1.0 + 4.0 * q);
+    using One = LaneOf<Number>;
+    const Number q = r * One(inverse_radius);
+    const Number a = max_of(Number{}, One(radius) - r) * One(inverse_radius);  // 1 - q, and 0 exactly at the rim
+    return One(scale) * a * a * a * a * (One(1.0) + One(4.0) * q);
   }
 
   template <class Number>
   Number steepness(Number r) const {
-    const Number a = max_of(Number{}, radius - r) * inverse_radius;
-    return (20.0 * scale * inverse_radius * inverse_radius) * a * a * a;
+    using One = LaneOf<Number>;
+    const Number a = max_of(Number{}, One(radius) - r) * One(inverse_radius);
+    return One(20.0 * scale * inverse_radius * inverse_radius) * a * a * a;
   }
 
   double derivative(double r) const {

@@ -1,6 +1,7 @@
 #include "linear/linear_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -8,6 +9,12 @@
 #include "base/room.h"
 
 namespace tailwater {
+namespace {
+
+/// Share of a constant right-hand side below which what is left of it is rounding, which no pressure has to answer.
+constexpr double rounding = 1e-12;
+
+}  // namespace
 
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns) {
   set_pattern(row_begin, columns, ExchangePlan({}, row_begin.size() - 1, {{}}));
@@ -116,7 +123,11 @@ void LinearSystem::make_rhs_consistent() {
     if (scale_[i] != 0.0) sum += rhs_[i] / scale_[i];
   }
   const double mean = ranks_.sum(sum) / static_cast<double>(size_of_all_);
-  for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= mean * scale_[i];
+  for (std::size_t i = 0; i < rhs_.size(); ++i) {
+    const double constant = mean * scale_[i];
+    rhs_[i] -= constant;
+    if (std::abs(rhs_[i]) < rounding * std::abs(constant)) rhs_[i] = 0.0;
+  }
 }
 
 void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {

@@ -9,16 +9,17 @@
 #include "base/for_each.h"
 #include "base/lanes.h"
 #include "base/room.h"
+#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
 
 /// For each set of lanes, as bits: which lanes these are, put to the front.
-constexpr std::array<std::array<std::int32_t, lane_count>, 1 << lane_count> lanes_of_bits = [] {
-  std::array<std::array<std::int32_t, lane_count>, 1 << lane_count> lanes{};
+constexpr std::array<std::array<std::int32_t, double_lane_count>, 1 << double_lane_count> lanes_of_bits = [] {
+  std::array<std::array<std::int32_t, double_lane_count>, 1 << double_lane_count> lanes{};
   for (unsigned bits = 0; bits < lanes.size(); ++bits) {
     int count = 0;
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (int lane = 0; lane < double_lane_count; ++lane) {
       if ((bits >> lane & 1U) != 0) lanes[bits][count++] = lane;
     }
   }
@@ -32,7 +33,7 @@ class OrderedParticles {
  public:
   OrderedParticles(std::span<const std::int32_t> order, std::span<const Vec<Dim>> position)
       : index_(order.begin(), order.end()) {
-    index_.resize(order.size() + lane_count);
+    index_.resize(order.size() + double_lane_count);
     for (int d = 0; d < Dim; ++d) {
       at_[d].resize(index_.size());
       for_each(order.size(), [&](std::size_t n) { at_[d][n] = position[index_[n]][d]; });
@@ -43,14 +44,14 @@ class OrderedParticles {
   /// entries as there are lanes.
   void write(std::size_t n, unsigned bits, std::int32_t* row) const {
     // Without a branch: which candidates are near is unpredictable.
-    for (int m = 0; m < lane_count; ++m) row[m] = index_[n + lanes_of_bits[bits][m]];
+    for (int m = 0; m < double_lane_count; ++m) row[m] = index_[n + lanes_of_bits[bits][m]];
   }
 
   /// Bit m is set if the particle at place n + m of the order is nearer to `point` than the square root of `squared`.
-  unsigned nearer(const Vec<Dim>& point, Lanes squared, std::size_t n) const {
-    Lanes sum{};
+  unsigned nearer(const Vec<Dim>& point, DoubleLanes squared, std::size_t n) const {
+    DoubleLanes sum{};
     for (int d = 0; d < Dim; ++d) {
-      Lanes x;
+      DoubleLanes x;
       std::memcpy(&x, at_[d].data() + n, sizeof(x));
       x = point[d] - x;
       sum += x * x;
@@ -102,15 +103,15 @@ std::size_t put_in_order(std::span<const std::int32_t> found, std::int32_t self,
 }
 
 /// Puts the particles nearer to `point` than `radius` into `row`, in the order of the grid. Returns how many. `row`
-/// needs room for `lane_count` more.
+/// needs room for `double_lane_count` more.
 template <int Dim>
 std::size_t find_row(const CellGrid<Dim>& grid, const OrderedParticles<Dim>& ordered, const Vec<Dim>& point,
                      double radius, std::int32_t* row) {
-  const Lanes radius_squared = in_all_lanes(radius * radius);
+  const DoubleLanes radius_squared = in_all_double_lanes(radius * radius);
   std::size_t found = 0;
   grid.for_each_range_near(point, [&](std::int32_t begin, std::int32_t end) {
-    for (std::int32_t n = begin; n < end; n += lane_count) {
-      const unsigned in_range = (1U << std::min(end - n, lane_count)) - 1U;
+    for (std::int32_t n = begin; n < end; n += double_lane_count) {
+      const unsigned in_range = (1U << std::min(end - n, double_lane_count)) - 1U;
       const unsigned near = ordered.nearer(point, radius_squared, n) & in_range;
       ordered.write(n, near, row + found);
       found += std::popcount(near);
@@ -130,7 +131,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   const FluidGrid<Dim> fluid(particles, radius);
   const OrderedParticles<Dim> ordered_fluid(fluid.order, particles.position);
   const auto owned = static_cast<std::int32_t>(particles.owned);
-  std::vector<std::int32_t> near(particles.size() + lane_count);
+  std::vector<std::int32_t> near(particles.size() + double_lane_count);
   std::vector<std::int32_t> behind(near.size());
   std::vector<std::int32_t> ghosts(near.size());
   std::vector<std::int32_t> row(near.size());
@@ -161,30 +162,48 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
 }
 
 template <int Dim>
+void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& domain, double radius, Pairs<Dim>& pairs) {
+  Vec<Dim> unit = Vec<Dim>::Constant(static_cast<float>(radius * 0x1p-28));
+  for (int d = 0; d < Dim; ++d) {
+    if (domain[d]) {  // a whole number of units in a period, so that images are as far away as their owners
+      const double period = domain[d]->second - domain[d]->first;
+      unit[d] = period / std::round(period / unit[d]);
+    }
+    pairs.unit[d] = static_cast<float>(unit[d]);
+  }
+  pairs.place.resize(particles.size());
+  for_each(particles.size(), [&](std::size_t i) {
+    Place<Dim>& place = pairs.place[i];
+    for (int d = 0; d < Dim; ++d) {
+      place.at[d] = static_cast<std::uint32_t>(std::llround(particles.position[i][d] / unit[d]));
+    }
+    const auto volume = static_cast<float>(particles.volume[i]);
+    place.signed_volume = particles.is_fluid(i) ? volume : -volume;
+  });
+}
+
+template <int Dim>
 void find_slopes(Pairs<Dim>& pairs) {
-  const Vec<Dim>* const position = pairs.position.data();
-  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
   empty_with_room(pairs.F, pairs.j.size());
-  std::vector<double> row;
+  pairs.F.resize(pairs.j.size());
   std::visit(
       [&](const auto chosen) {
-        for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: rows are put one behind the other
-          const std::int32_t* const neighbours = pairs.j.data() + pairs.begin(i);
-          const std::size_t count = pairs.end(i) - pairs.begin(i);
-          row.resize(std::max(row.size(), count));
-          for_each_lanes(0, count, [&](auto range) {
-            VecLanes<Dim> d = range.neighbours(neighbours)(position);
-            for (int a = 0; a < Dim; ++a) d.at[a] = position[i][a] - d.at[a];
-            range.store(chosen.steepness(sqrt_of(max_of(d.dot(d), least_squared))), row.data() + range.begin);
-          });
-          pairs.F.insert(pairs.F.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
-        }
+        const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
+        for_each(pairs.owned(), [&](std::size_t i) {
+          for_each_lanes(
+              pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+                const VecLanes<Dim> d = places(pairs, range, range.neighbours(pairs.j.data()), i).d;
+                range.store(chosen.steepness(sqrt_of(max_of(d.dot(d), least_squared))), pairs.F.data() + range.begin);
+              });
+        });
       },
       pairs.kernel);
 }
 
 template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);
 template void find_pairs<3>(const Kernel<3>&, const CellGrid<3>&, const Particles<3>&, WallRows, double, Pairs<3>&);
+template void find_places<2>(const Particles<2>&, const PeriodicDomain<2>&, double, Pairs<2>&);
+template void find_places<3>(const Particles<3>&, const PeriodicDomain<3>&, double, Pairs<3>&);
 template void find_slopes<2>(Pairs<2>&);
 template void find_slopes<3>(Pairs<3>&);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "neighbours/cell_grid.h"
+#include "neighbours/halo.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
 
@@ -10,7 +11,11 @@ namespace tailwater {
 /// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
 enum class WallRows { fluid_only, all };
 
-/// Makes the pairs of all owned particles at their present positions; ghosts are neighbours only. `grid` has all
+/// Finds pairs.place of all particles at their present positions. `radius` [m] is that of the support.
+template <int Dim>
+void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& domain, double radius, Pairs<Dim>& pairs);
+
+/// Makes the pairs of all owned particles, whose places are found; ghosts are neighbours only. `grid` has all
 /// particles, where they are now, and the kernel's support as its reach. Particles nearer than `least_distance` [m]
 /// count as that far apart.
 template <int Dim>

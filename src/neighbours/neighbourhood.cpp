@@ -45,6 +45,7 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
     halo_.exchange_positions(particles.position);
   }
   grid_ = CellGrid<Dim>(particles.position, kernel_radius(kernel_));
+  find_places<Dim>(particles, domain_, kernel_radius(kernel_), pairs_);
   find_pairs<Dim>(kernel_, grid_, particles, wall_rows_, least_distance_over_spacing * spacing_, pairs_);
   has_pairs_ = true;
   return renew;

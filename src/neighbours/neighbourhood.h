@@ -30,7 +30,7 @@ class Neighbourhood {
   }
 
   /// Frees the slopes of all pairs, pairs().F, which nothing may read until they are found anew: the same numbers.
-  void forget_slopes() { std::vector<double>().swap(pairs_.F); }
+  void forget_slopes() { std::vector<float>().swap(pairs_.F); }
   void find_slopes() { tailwater::find_slopes(pairs_); }
   /// Frees the neighbours of all pairs, pairs().j, which nothing may read until they are given back.
   void forget_neighbours() { std::vector<std::int32_t>().swap(pairs_.j); }

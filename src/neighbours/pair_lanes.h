@@ -6,27 +6,56 @@
 
 namespace tailwater {
 
-/// r_i - r_j of several pairs of particle i and neighbours at `x`, as pairs.d has them one by one.
+/// Where several neighbours of a particle are.
+template <int Dim>
+struct PlaceLanes {
+  VecLanes<Dim> d;      ///< m; r_i - r_j, as pairs.d has them one by one
+  Lanes signed_volume;  ///< m^Dim; negative of wall particles, and 0 in lanes left over
+
+  Lanes volume() const { return max_of(signed_volume, -signed_volume); }
+  Lanes volume_of_fluid() const { return max_of(signed_volume, Lanes{}); }
+  /// `lanes` where the neighbours are fluid, and 0 elsewhere.
+  Lanes of_fluid(Lanes lanes) const { return signed_volume > Lanes{} ? lanes : Lanes{}; }
+};
+
+/// `d` with those of two particles at one place as pairs.d has them.
 template <int Dim, class Range>
-[[gnu::always_inline]] inline VecLanes<Dim> differences_from(const Pairs<Dim>& pairs, const Range& range,
-                                                             const VecLanes<Dim>& x, std::size_t i) {
-  VecLanes<Dim> d;
-  for (int a = 0; a < Dim; ++a) d.at[a] = pairs.position[i][a] - x.at[a];
-  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-  if (any_of(d.dot(d) <= least_squared)) [[unlikely]] {
-    for (int n = 0; n < lane_count; ++n) {
-      const Vec<Dim> apart = pairs.d(i, range.entry(n));
-      for (int a = 0; a < Dim; ++a) d.at[a][n] = apart[a];
-    }
+[[gnu::noinline, gnu::cold]] VecLanes<Dim> with_directions(const Pairs<Dim>& pairs, const Range& range, std::size_t i,
+                                                           VecLanes<Dim> d) {
+  const LaneTruths is_least = d.dot(d) <= in_all_lanes(pairs.least_distance * pairs.least_distance);
+  for (int n = 0; n < lane_count; ++n) {
+    if (is_least[n] == 0) continue;
+    const Vec<Dim> apart = pairs.d(i, range.entry(n));
+    for (int a = 0; a < Dim; ++a) d.at[a][n] = static_cast<float>(apart[a]);
   }
   return d;
 }
 
-/// The same for neighbours `j`.
+/// Of neighbours of particle i of which `numbers` are those of their Place, maybe with others behind it.
+template <int Dim, class Range, std::size_t size>
+[[gnu::always_inline]] inline PlaceLanes<Dim> place_lanes(const Pairs<Dim>& pairs, const Range& range,
+                                                          const std::array<Lanes, size>& numbers, std::size_t i) {
+  using SignedLanes = std::int32_t __attribute__((vector_size(4 * lane_count)));
+  PlaceLanes<Dim> lanes;
+  const Place<Dim>& own = pairs.place[i];
+  for (int a = 0; a < Dim; ++a) {
+    const auto apart = reinterpret_cast<SignedLanes>(own.at[a] - reinterpret_cast<IntegerLanes>(numbers[a]));
+    lanes.d.at[a] = pairs.unit[a] * __builtin_convertvector(apart, Lanes);
+  }
+  lanes.signed_volume = range.only(numbers[Dim]);
+  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
+  if (any_of(lanes.d.dot(lanes.d) <= least_squared)) [[unlikely]] {
+    const VecLanes<Dim> d = with_directions<Dim>(pairs, range, i, lanes.d);
+    for (int a = 0; a < Dim; ++a) lanes.d.at[a] = d.at[a];
+  }
+  return lanes;
+}
+
+/// Of neighbours `j` of particle i.
 template <int Dim, class Range>
-[[gnu::always_inline]] inline VecLanes<Dim> differences(const Pairs<Dim>& pairs, const Range& range,
-                                                        const LaneIndices& j, std::size_t i) {
-  return differences_from<Dim>(pairs, range, j(pairs.position.data()), i);
+[[gnu::always_inline]] inline PlaceLanes<Dim> places(const Pairs<Dim>& pairs, const Range& range, const LaneIndices& j,
+                                                     std::size_t i) {
+  return place_lanes<Dim>(pairs, range, j.numbers(pairs.place.data()), i);
 }
 
 /// pairs.value of pairs with these differences.
@@ -35,11 +64,9 @@ template <int Dim>
   return kernel_value(pairs.kernel, sqrt_of(d.dot(d)));
 }
 
-/// pairs.gradient of pairs of particle i and neighbours `j`.
+/// pairs.gradient of pairs with these differences.
 template <int Dim, class Range>
-[[gnu::always_inline]] inline VecLanes<Dim> gradients(const Pairs<Dim>& pairs, const Range& range, const LaneIndices& j,
-                                                      std::size_t i) {
-  VecLanes<Dim> d = differences(pairs, range, j, i);
+[[gnu::always_inline]] inline VecLanes<Dim> gradients(const Pairs<Dim>& pairs, const Range& range, VecLanes<Dim> d) {
   const Lanes F = range.load(pairs.F.data());
   for (int a = 0; a < Dim; ++a) d.at[a] *= -F;
   return d;

@@ -1,7 +1,12 @@
 // The interacting pairs: compact neighbour rows, and for each pair the kernel's slope, which nearly every loop needs.
-// Nothing else is kept by pair: neighbours' positions are in the cache, and an array with an entry per pair is not.
+// Nothing else is kept by pair: neighbours' places are in the cache, and an array with an entry per pair is not.
+//
+// Loops over pairs compute in single precision (base/lanes.h). A position in single precision would not do: in a long
+// channel its rounding is a share of dx. Places are integers modulo 2^32 instead, in units so small that differences of
+// neighbours are exact to 2^-28 of the support, in a domain of any size.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,13 +16,22 @@
 
 namespace tailwater {
 
+/// Where a particle is and how large: what loops over pairs read of a neighbour.
+template <int Dim>
+struct alignas(16) Place {
+  std::array<std::uint32_t, Dim> at{};  ///< in units of Pairs::unit, modulo 2^32
+  float signed_volume = 0.0F;           ///< m^Dim; the negative one of a wall particle
+};
+
 /// Row i holds the neighbours of owned particle i within the support: entries row_begin[i] .. row_begin[i + 1] of the
 /// arrays below.
 template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;  ///< owned + 1 entries
   std::vector<std::int32_t> j;         ///< neighbour: in each row those below i, those above it, then ghosts
-  std::vector<double> F;               ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+  std::vector<float> F;                ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+  std::vector<Place<Dim>> place;       ///< of all particles when the pairs were found
+  std::array<float, Dim> unit{};       ///< m; of places
   std::vector<Vec<Dim>> position;      ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;        ///< of all particles
   double least_distance = 0.0;         ///< m; two particles nearer than this count as this far apart

@@ -7,7 +7,7 @@
 // field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface.
 #pragma once
 
-#include <span>
+#include <cmath>
 
 #include "neighbours/pair_lanes.h"
 
@@ -21,23 +21,24 @@ struct KernelSums {
 };
 
 template <int Dim>
-KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume, double W_0) {
-  Lanes concentration{};
+KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, double W_0) {
+  LaneSum concentration;
   VecLanes<Dim> gradient{};
   MatLanes<Dim> moment{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes volume_j = range.only(j(volume.data()));
-    const VecLanes<Dim> d = differences(pairs, range, j, i);
-    concentration += volume_j * kernel_at(pairs, d);
-    const Lanes volume_F = volume_j * range.load(pairs.F.data());
-    for (int b = 0; b < Dim; ++b) {
-      const Lanes weight = volume_F * d.at[b];
-      gradient.at[b] -= weight;
-      for (int a = b; a < Dim; ++a) moment.column[b].at[a] += weight * d.at[a];
-    }
-  });
-  return {volume[i] * W_0 + sum_of(concentration), sum_of(gradient), sum_of_lower(moment)};
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        concentration += place.volume() * kernel_at(pairs, place.d);
+        const Lanes volume_F = place.volume() * range.load(pairs.F.data());
+        for (int b = 0; b < Dim; ++b) {
+          const Lanes weight = volume_F * place.d.at[b];
+          gradient.at[b] -= weight;
+          for (int a = b; a < Dim; ++a) moment.column[b].at[a] += weight * place.d.at[a];
+        }
+      });
+  const double volume_i = std::abs(pairs.place[i].signed_volume);
+  return {volume_i * W_0 + concentration.total(), sum_of(gradient), sum_of_lower(moment)};
 }
 
 }  // namespace tailwater

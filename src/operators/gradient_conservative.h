@@ -14,16 +14,18 @@ namespace tailwater {
 
 /// Gradient of a scalar at particle i.
 template <int Dim>
-Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
-                               const PairVectorField<Dim>& pair_vectors, std::span<const double> field) {
-  VecLanes<Dim> sum{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes weight = range.only(j(volume.data())) * (field[i] + j(field.data()));
-    const VecLanes<Dim> a = pair_vectors(pairs, range, j, i).a;
-    for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
-  });
-  return sum_of(sum);
+Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, const PairVectorField<Dim>& pair_vectors,
+                               std::span<const double> field) {
+  VecSum<Dim> sum;
+  const Lanes own = in_all_lanes(field[i]);
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PairVectorLanes<Dim> pair = pair_vectors(pairs, range, j, i);
+        const Lanes weight = pair.place.volume() * (own + j(field.data()));
+        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * pair.a.at[d];
+      });
+  return sum.total();
 }
 
 }  // namespace tailwater

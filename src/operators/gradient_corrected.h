@@ -23,17 +23,19 @@ inline double correction_share(double least_eigenvalue_M) {
 /// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. `first_moment` is M_i.
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
-                            std::span<const double> volume, std::span<const Vec<Dim>> field) {
+                            std::span<const Four> field) {
   MatLanes<Dim> sums{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const VecLanes<Dim> d = differences(pairs, range, j, i);
-    const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
-    const VecLanes<Dim> field_j = j(field.data());
-    for (int b = 0; b < Dim; ++b) {
-      for (int a = 0; a < Dim; ++a) sums.column[b].at[a] -= weight * d.at[b] * (field_j.at[a] - field[i][a]);
-    }
-  });
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const Lanes weight = place.volume() * range.load(pairs.F.data());
+        const VecLanes<Dim> field_j = j.template vectors<Dim>(field.data());
+        for (int b = 0; b < Dim; ++b) {
+          for (int a = 0; a < Dim; ++a)
+            sums.column[b].at[a] -= weight * place.d.at[b] * (field_j.at[a] - field[i].at[a]);
+        }
+      });
   const Mat<Dim> sum = sum_of(sums);
   const double share = correction_share(least_eigenvalue<Dim>(first_moment));
   if (share == 0.0) return sum;

@@ -26,10 +26,8 @@ inline double morris_laplacian_weight(double volume_j, double F, double distance
 /// What the least distance leaves of the weights 2 w_j F of several pairs: 1 for nearly all.
 inline Lanes share_of_morris_weight(Lanes distance_squared, double spacing) {
   const double least = least_morris_distance * spacing;
-  Lanes share = in_all_lanes(1.0);
-  if (!any_of(distance_squared < in_all_lanes(least * least))) return share;
-  for (int n = 0; n < lane_count; ++n) share[n] = std::min(1.0, std::sqrt(distance_squared[n]) / least);
-  return share;
+  if (!any_of(distance_squared < in_all_lanes(least * least))) return in_all_lanes(1.0);
+  return min_of(in_all_lanes(1.0), sqrt_of(distance_squared) / in_all_lanes(least));
 }
 
 }  // namespace tailwater

@@ -26,11 +26,24 @@ Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
   return eigen.eigenvectors() * scale.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+/// What the mean of first moments reads of a neighbour.
+template <int Dim>
+struct alignas(Dim == 2 ? 16 : 32) InteriorMoment {
+  float interior;
+  std::array<float, symmetric_size<Dim>> first_moment;  ///< M, packed
+};
+
 /// B_i of owned particles.
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, CorrectionReach reach,
                              std::span<Packed<Dim>> correction) {
-  const double inverse_square = 1.0 / (input.radius * input.radius);
+  std::vector<InteriorMoment<Dim>> moments(input.interior.size());
+  for_each(moments.size(), [&](std::size_t i) {
+    moments[i].interior = static_cast<float>(input.interior[i]);
+    const Packed<Dim> moment = packed<Dim>(input.first_moment[i]);
+    for (int n = 0; n < symmetric_size<Dim>; ++n) moments[i].first_moment[n] = static_cast<float>(moment[n]);
+  });
+  const auto inverse_square = static_cast<float>(1.0 / (input.radius * input.radius));
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = input.interior[i];
     Mat<Dim> at_surface = Mat<Dim>::Identity();
@@ -40,21 +53,21 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     correction[i] = (1.0 - share) * packed<Dim>(at_surface);
     if (share == 0.0) return;
     // Weights 1 - (r/R)^2: a mean over as many neighbours as there are, and continuous.
-    MatLanes<Dim> sums{};
+    std::array<Lanes, symmetric_size<Dim>> sums{};
     Lanes weight_sums{};
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
-      const Lanes weight = range.only(j(input.interior.data())) * (1.0 - d.dot(d) * inverse_square);
-      const MatLanes<Dim> moment = j.symmetric(input.first_moment.data());
-      for (int b = 0; b < Dim; ++b) {
-        for (int a = b; a < Dim; ++a) sums.column[b].at[a] += weight * moment.column[b].at[a];
-      }
-      weight_sums += weight;
-    });
-    const Mat<Dim> sum = share * input.first_moment[i] + sum_of_lower(sums);
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          const LaneIndices j = range.neighbours(pairs.j.data());
+          const VecLanes<Dim> d = places(pairs, range, j, i).d;
+          const auto other = j.numbers(moments.data());
+          const Lanes weight = range.only(other[0]) * (1.0F - d.dot(d) * inverse_square);
+          for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[1 + n];
+          weight_sums += weight;
+        });
+    Packed<Dim> sum = share * packed<Dim>(input.first_moment[i]);
+    for (int n = 0; n < symmetric_size<Dim>; ++n) sum[n] += sum_of(sums[n]);
     const double weights = share + sum_of(weight_sums);
-    const Mat<Dim> mean = sum / weights;
+    const Mat<Dim> mean = unpacked<Dim>(sum / weights);
     correction[i] += share * packed<Dim>(mean.inverse());
   });
 }
@@ -81,40 +94,41 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     const double share = input.interior[i];
     equation.open[i].setZero();
     if (to_surface ? input.kind[i] != ParticleKind::fluid : share == 0.0) return;
-    VecLanes<Dim> sums{};
-    VecLanes<Dim> kernel_sums{};
-    Lanes weights{};
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const LaneIndices j = range.neighbours(pairs.j.data());
-      const Lanes volume_j = range.only(j(input.volume.data()));
-      const PairVectorLanes<Dim> pair = unclosed(pairs, range, j, i);
-      const Lanes weight = volume_j * pair.F;
-      for (int a = 0; a < Dim; ++a) sums.at[a] -= volume_j * pair.a.at[a];
-      for (int a = 0; to_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.d.at[a];
-      weights += weight;
-    });
-    const Vec<Dim> open = sum_of(sums);
-    equation.weights[i] = sum_of(weights);
+    VecSum<Dim> sums;
+    VecSum<Dim> kernel_sums;
+    LaneSum weights;
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          const LaneIndices j = range.neighbours(pairs.j.data());
+          const PairVectorLanes<Dim> pair = unclosed(pairs, range, j, i);
+          const Lanes volume_j = pair.place.volume();
+          const Lanes weight = volume_j * pair.F;
+          for (int a = 0; a < Dim; ++a) sums.at[a] -= volume_j * pair.a.at[a];
+          for (int a = 0; to_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.place.d.at[a];
+          weights += weight;
+        });
+    const Vec<Dim> open = sums.total();
+    equation.weights[i] = weights.total();
     equation.open[i] = open;
     equation.share[i] = to_surface ? 1.0 : share;
     equation.rhs[i] = 0.5 * open;
-    if (to_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - sum_of(kernel_sums));
+    if (to_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - kernel_sums.total());
   });
   return equation;
 }
 
-/// sum_j w_j F_ij l_j [1/m]
+/// sum_j w_j F_ij l_j [1/m], of w_j l_j
 template <int Dim>
-Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, std::span<const double> volume, std::span<const Vec<Dim>> l,
-                             std::size_t i) {
-  VecLanes<Dim> sums{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes weight = range.only(j(volume.data())) * range.load(pairs.F.data());
-    const VecLanes<Dim> l_j = j(l.data());
-    for (int a = 0; a < Dim; ++a) sums.at[a] += weight * l_j.at[a];
-  });
-  return sum_of(sums);
+Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, std::span<const Four> weighted_l, std::size_t i) {
+  VecSum<Dim> sums;
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const Lanes F = range.only(range.load(pairs.F.data()));
+        const VecLanes<Dim> l_j = j.template vectors<Dim>(weighted_l.data());
+        for (int a = 0; a < Dim; ++a) sums.at[a] += F * l_j.at[a];
+      });
+  return sums.total();
 }
 
 /// Places and corrections of all particles, with l = 0.
@@ -122,7 +136,10 @@ template <int Dim>
 void begin(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_vectors, auto&& correction) {
   pair_vectors.ends.resize(pairs.position.size());
   for_each(pairs.position.size(), [&](std::size_t i) {
-    pair_vectors.ends[i] = {pairs.position[i], Vec<Dim>::Zero(), correction(i)};
+    PairVectorEnd<Dim>& end = pair_vectors.ends[i];
+    end = {pairs.place[i].at, pairs.place[i].signed_volume, {}, {}};
+    const Packed<Dim> packed = correction(i);
+    for (int n = 0; n < symmetric_size<Dim>; ++n) end.correction[n] = static_cast<float>(packed[n]);
   });
 }
 
@@ -147,22 +164,28 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   // Jacobi; the first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(size, Vec<Dim>::Zero());
   std::vector<Vec<Dim>> next(size, Vec<Dim>::Zero());
+  std::vector<Four> weighted_l(size);
   for (int n = 0; n < sweeps; ++n) {
     for_each(pairs.owned(), [&](std::size_t i) {
       if (equation.weights[i] == 0.0) return;
       next[i] = equation.rhs[i];
-      if (n > 0) next[i] += sum_over_neighbours<Dim>(pairs, input.volume, l, i);
+      if (n > 0) next[i] += sum_over_neighbours<Dim>(pairs, weighted_l, i);
       next[i] *= equation.share[i] / equation.weights[i];
     });
     halo.exchange(next);
     std::swap(l, next);
+    for_each(size, [&](std::size_t i) {
+      for (int a = 0; a < Dim; ++a) weighted_l[i].at[a] = static_cast<float>(input.volume[i] * l[i][a]);
+    });
   }
-  for_each(size, [&](std::size_t i) { pair_vectors.ends[i].l = l[i]; });
+  for_each(size, [&](std::size_t i) {
+    for (int a = 0; a < Dim; ++a) pair_vectors.ends[i].l[a] = static_cast<float>(l[i][a]);
+  });
   open_faces.resize(pairs.owned());
   for_each(pairs.owned(), [&](std::size_t i) {
     open_faces[i].setZero();
     if (equation.weights[i] == 0.0) return;
-    open_faces[i] = equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, input.volume, l, i);
+    open_faces[i] = equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, weighted_l, i);
   });
 }
 

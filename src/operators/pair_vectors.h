@@ -60,20 +60,19 @@ struct CorrectionInput {
   std::span<const Mat<Dim>> first_moment;  ///< M; I at walls
 };
 
-/// What a particle brings to its pair vectors, as many numbers as fill whole registers.
+/// What a particle brings to its pair vectors, in one piece, so that a neighbour is read in one place.
 template <int Dim>
-struct alignas(32) PairVectorEnd {
-  Vec<Dim> position;       ///< m; a copy, so that a neighbour is read in one place
-  Vec<Dim> l;              ///< m
-  Packed<Dim> correction;  ///< B
-
-  static constexpr int numbers = Dim == 2 ? 8 : 12;  ///< the last one of 2D is left over
+struct alignas(Dim == 2 ? 32 : 64) PairVectorEnd {
+  std::array<std::uint32_t, Dim> at;                  ///< of its Place
+  float signed_volume;                                ///< likewise
+  std::array<float, Dim> l;                           ///< m
+  std::array<float, symmetric_size<Dim>> correction;  ///< B, packed
 };
 
 /// What is known of several pairs of a particle.
 template <int Dim>
 struct PairVectorLanes {
-  VecLanes<Dim> d;  ///< m; r_i - r_j
+  PlaceLanes<Dim> place;
   Lanes F;          ///< 1/m^(Dim+2); of the kernel
   VecLanes<Dim> a;  ///< 1/m^(Dim+1); the pair vectors
 };
@@ -86,24 +85,22 @@ struct PairVectorField {
   template <class Range>
   [[gnu::always_inline]] PairVectorLanes<Dim> operator()(const Pairs<Dim>& pairs, const Range& range,
                                                          const LaneIndices& j, std::size_t i) const {
-    const auto other = j.template record<End::numbers>(reinterpret_cast<const double*>(ends.data()));
-    const End& own = ends[i];
-    PairVectorLanes<Dim> pair;
-    VecLanes<Dim> x;
-    for (int a = 0; a < Dim; ++a) x.at[a] = other[a];
-    pair.d = differences_from<Dim>(pairs, range, x, i);
-    pair.F = range.load(pairs.F.data());
+    constexpr int l = Dim + 1;
+    constexpr int correction = 2 * Dim + 1;
+    const auto other = j.numbers(ends.data());
+    const PairVectorEnd<Dim>& own = ends[i];
+    PairVectorLanes<Dim> pair{place_lanes<Dim>(pairs, range, other, i), range.load(pairs.F.data()), {}};
     MatLanes<Dim> corrections;
     int n = 0;
     for (int c = 0; c < Dim; ++c) {
       for (int d = c; d < Dim; ++d) {
-        corrections.column[c].at[d] = corrections.column[d].at[c] = own.correction[n] + other[2 * Dim + n];
+        corrections.column[c].at[d] = corrections.column[d].at[c] = own.correction[n] + other[correction + n];
         ++n;
       }
     }
-    const VecLanes<Dim> corrected = corrections.times(pair.d);
+    const VecLanes<Dim> corrected = corrections.times(pair.place.d);
     for (int a = 0; a < Dim; ++a) {
-      pair.a.at[a] = -pair.F * (0.5 * corrected.at[a] - (own.l[a] - other[Dim + a]));
+      pair.a.at[a] = -pair.F * (0.5F * corrected.at[a] - (own.l[a] - other[l + a]));
     }
     return pair;
   }
@@ -114,10 +111,6 @@ struct PairVectorField {
     const VecLanes<Dim> a = (*this)(pairs, range, range.neighbours(pairs.j.data()), i).a;
     return Vec<Dim>::NullaryExpr([&a](Eigen::Index n) { return a.at[n][0]; });
   }
-
- private:
-  using End = PairVectorEnd<Dim>;
-  static_assert(sizeof(End) == End::numbers * sizeof(double));
 };
 
 /// The kernel's gradient at i, dW e_ij, for every pair.

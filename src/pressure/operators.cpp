@@ -16,7 +16,7 @@ template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
   const std::vector<double>& volume = flow.state.particles.volume;
   if (flow.setup.scheme.gradient == GradientKind::conservative) {
-    return conservative_gradient<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, pressure);
+    return conservative_gradient<Dim>(flow.pairs(), i, flow.here.pair_vectors, pressure);
   }
   if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
     return density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.here.concentration, pressure);
@@ -39,39 +39,46 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
     });
   }
   const bool has_pair_vectors = flow.setup.uses_pair_vectors();
-  VecLanes<Dim> sum{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const Lanes weight = of_fluid(particles, j, range.only(j(volume.data()))) * (pressure[i] + j(pressure.data()));
-    const VecLanes<Dim> a =
-        has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, j, i);
-    for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
-  });
-  return sum_of(sum);
+  VecSum<Dim> sum;
+  const Lanes own = in_all_lanes(pressure[i]);
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const Lanes weight = place.volume_of_fluid() * (own + j(pressure.data()));
+        const VecLanes<Dim> a =
+            has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, place.d);
+        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
+      });
+  return sum.total();
 }
 
 template <int Dim>
-double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity) {
-  const std::vector<double>& volume = flow.state.particles.volume;
-  if (flow.setup.scheme.divergence == DivergenceKind::standard) {
-    return standard_divergence<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, velocity);
+Divergence<Dim>::Divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity)
+    : flow_(flow), velocity_(velocity) {
+  if (flow.setup.scheme.divergence == DivergenceKind::standard) in_fours_ = in_fours(velocity);
+}
+
+template <int Dim>
+double Divergence<Dim>::operator()(std::size_t i) const {
+  const Pairs<Dim>& pairs = flow_.pairs();
+  if (flow_.setup.scheme.divergence == DivergenceKind::standard) {
+    return standard_divergence<Dim>(pairs, i, flow_.here.pair_vectors, in_fours_);
   }
-  const Renormalisation<Dim>& tensors = flow.here.tensors[i];
+  const Renormalisation<Dim>& tensors = flow_.here.tensors[i];
   if (!tensors.gradient_is_sound()) return 0.0;
-  return consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, volume, flow.here.takes_part,
-                                  std::span<const Vec<Dim>>(velocity))
-      .trace();
+  const std::vector<double>& volume = flow_.state.particles.volume;
+  return consistent_gradient<Dim>(pairs, i, tensors.B1, volume, flow_.here.takes_part, velocity_).trace();
 }
 
 template <int Dim>
 std::vector<double> find_divergence(Flow<Dim>& flow, int stride) {
   Particles<Dim>& particles = flow.state.particles;
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  const Divergence<Dim> divergence_at(flow, particles.velocity);
   std::vector<double> divergence(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i) && particles.id[i] % stride == 0) {
-      divergence[i] = divergence_at(flow, i, particles.velocity);
-    }
+    if (particles.is_fluid(i) && particles.id[i] % stride == 0) divergence[i] = divergence_at(i);
   });
   return divergence;
 }
@@ -88,7 +95,7 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int str
 #define TAILWATER_INSTANTIATE(Dim)                                                                         \
   template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);           \
   template Vec<Dim> push_of_wall_particle<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&); \
-  template double divergence_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<Vec<Dim>>&);         \
+  template class Divergence<Dim>;                                                                          \
   template std::vector<double> find_divergence<Dim>(Flow<Dim>&, int);                                      \
   template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&, int);
 TAILWATER_INSTANTIATE(2)

@@ -17,9 +17,19 @@ Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<dou
 template <int Dim>
 Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure);
 
-/// div of `velocity` at fluid particle i [1/s]; 0 where the consistent operator is chosen and does not exist.
+/// div of a velocity at fluid particles [1/s]; 0 where the consistent operator is chosen and does not exist.
 template <int Dim>
-double divergence_at(const Flow<Dim>& flow, std::size_t i, const std::vector<Vec<Dim>>& velocity);
+class Divergence {
+ public:
+  Divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
+
+  double operator()(std::size_t i) const;
+
+ private:
+  const Flow<Dim>& flow_;
+  std::span<const Vec<Dim>> velocity_;
+  std::vector<Four> in_fours_;  ///< if the standard operator is chosen
+};
 
 /// The divergence that steps report is an rms over every eighth particle, by its id: nothing else needs it.
 inline constexpr int reported_stride = 8;

@@ -33,9 +33,9 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   PressureReport report;
   report.interventions.fallback_rows = assemble_weights(flow, drive);
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  const Divergence<Dim> divergence(flow, particles.velocity);
   for_each(particles.owned, [&](std::size_t i) {
-    const double divergence = flow.is_solved_for(i) ? divergence_at(flow, i, particles.velocity) : 0.0;
-    flow.pressure_rows.set_rhs(i, -density / dt * divergence);
+    flow.pressure_rows.set_rhs(i, flow.is_solved_for(i) ? -density / dt * divergence(i) : 0.0);
   });
   std::vector<double> correction(particles.size(), 0.0);
   const double tolerance = rough_tolerance(flow.pressure_solver.tolerance());

@@ -36,7 +36,7 @@ constexpr double cell_edge = 2.0;
 
 /// Sets the weights of row i and returns their sum. `volume_taking_part` is 0 for particles that do not.
 template <int Dim>
-double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volume_taking_part, std::size_t i,
+double set_laplacian_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i,
                              LinearSystem::Row& row, bool& fell_back) {
   const Pairs<Dim>& pairs = flow.pairs();
   const Surroundings<Dim>& here = flow.here;
@@ -44,17 +44,18 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const double> volu
   const double spacing = flow.setup.spacing;
   if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
     return row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
-      Lanes sums{};
-      for_each_lanes(first, end, [&](auto range) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const VecLanes<Dim> d = differences(pairs, range, j, i);
-        const Lanes square = d.dot(d);
-        const Lanes share = share_of_morris_weight(square, spacing);
-        const Lanes F = kernel_steepness<Dim>(pairs.kernel, sqrt_of(square));
-        const Lanes weight = 2.0 * share * j(volume_taking_part.data()) * F;
-        sums += range.store(weight, weights + (range.begin - first));
-      });
-      return sum_of(sums);
+      LaneSum sums;
+      for_each_lanes(
+          first, end, [&](auto range) __attribute__((always_inline)) {
+            const LaneIndices j = range.neighbours(pairs.j.data());
+            const VecLanes<Dim> d = places(pairs, range, j, i).d;
+            const Lanes square = d.dot(d);
+            const Lanes share = share_of_morris_weight(square, spacing);
+            const Lanes F = kernel_steepness<Dim>(pairs.kernel, sqrt_of(square));
+            const Lanes weight = 2.0F * share * j(volume_taking_part.data()) * F;
+            sums += range.store(weight, weights + (range.begin - first));
+          });
+      return sums.total();
     });
   }
   if (flow.setup.scheme.laplacian == LaplacianKind::shao_lo) {
@@ -139,7 +140,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
 
 /// Writes row i without its source. Returns whether it had to fall back to two-point weights.
 template <int Dim>
-bool assemble_equation(Flow<Dim>& flow, std::span<const double> volume_taking_part, std::size_t i) {
+bool assemble_equation(Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i) {
   const Setup<Dim>& setup = flow.setup;
   if (flow.is_in_end_stretch(i)) {
     assemble_end_row(flow, i);
@@ -174,9 +175,10 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
                         [&](std::size_t i) { return flow.has_equation(i) && !flow.is_fed(i); }));
   }
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
-  std::vector<double> volume(flow.state.particles.size());
-  for_each(volume.size(),
-           [&](std::size_t j) { volume[j] = flow.here.takes_part[j] ? flow.state.particles.volume[j] : 0.0; });
+  std::vector<float> volume(flow.state.particles.size());
+  for_each(volume.size(), [&](std::size_t j) {
+    volume[j] = flow.here.takes_part[j] ? static_cast<float>(flow.state.particles.volume[j]) : 0.0F;
+  });
   return count_each(flow.state.particles.owned,
                     [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, volume, i); });
 }

@@ -12,14 +12,15 @@ namespace {
 template <int Dim>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i) {
   const Pairs<Dim>& pairs = scene.pairs;
-  VecLanes<Dim> sum{};
-  for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-    const LaneIndices j = range.neighbours(pairs.j.data());
-    const VecLanes<Dim> d = differences(pairs, range, j, i);
-    const Lanes weight = of_fluid(scene.particles, j, range.only(kernel_at(pairs, d)));
-    for (int a = 0; a < Dim; ++a) sum.at[a] += weight * d.at[a];
-  });
-  return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);
+  VecSum<Dim> sum;
+  for_each_lanes(
+      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+        const LaneIndices j = range.neighbours(pairs.j.data());
+        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const Lanes weight = place.of_fluid(kernel_at(pairs, place.d));
+        for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
+      });
+  return force.hydrostatic_difference(scene.particles, i, sum.total() / scene.here.wall_fluid_weight[i]);
 }
 
 template <int Dim>
@@ -30,14 +31,15 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
     return;
   }
   const Pairs<Dim>& pairs = scene.pairs;
-  const double share = 1.0 / scene.here.wall_fluid_weight[i];
+  const auto share = static_cast<float>(1.0 / scene.here.wall_fluid_weight[i]);
   const double sum = row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
-    Lanes sums{};
-    for_each_lanes(first, end, [&](auto range) {
-      const Lanes weight = weights_of_fluid(pairs, scene.particles, range, range.neighbours(pairs.j.data()), i);
-      sums += range.store(share * weight, weights + (range.begin - first));
-    });
-    return sum_of(sums);
+    LaneSum sums;
+    for_each_lanes(
+        first, end, [&](auto range) __attribute__((always_inline)) {
+          const Lanes weight = weights_of_fluid(pairs, range, range.neighbours(pairs.j.data()), i);
+          sums += range.store(share * weight, weights + (range.begin - first));
+        });
+    return sums.total();
   });
   row.finish(sum, excess_over_water(scene, force, i));  // the sum is 1 but for rounding
 }
@@ -60,8 +62,7 @@ class Dummies final : public WallModel<Dim> {
       if (scene.particles.is_fluid(i)) return;
       velocity[i].setZero();
       if (!scene.here.is_wet[i]) return;
-      const Vec<Dim> mean =
-          fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
+      const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], velocity);
       const auto row = scene.particles.wall_row[i];
       const Vec<Dim> own = entry_of<Dim>(V, row);
       const Vec<Dim> relative = mean - own;
@@ -78,7 +79,7 @@ class Dummies final : public WallModel<Dim> {
       if (scene.particles.is_fluid(i)) return;
       Vec<Dim> mean = Vec<Dim>::Zero();
       if (scene.here.is_wet[i]) {
-        mean = fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
+        mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], velocity);
       }
       const Vec<Dim> wall_velocity = entry_of<Dim>(V, scene.particles.wall_row[i]);
       no_slip[i] = (wall_velocity - mean) + wall_velocity;
@@ -104,12 +105,13 @@ class Dummies final : public WallModel<Dim> {
     const Pairs<Dim>& pairs = scene.pairs;
     for_each(pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
-      Lanes sum{};
-      for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        sum += weights_of_fluid(pairs, scene.particles, range, j, i) * j(pressure.data());
-      });
-      const double mean = sum_of(sum) / scene.here.wall_fluid_weight[i];
+      LaneSum sum;
+      for_each_lanes(
+          pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+            const LaneIndices j = range.neighbours(pairs.j.data());
+            sum += weights_of_fluid(pairs, range, j, i) * j(pressure.data());
+          });
+      const double mean = sum.total() / scene.here.wall_fluid_weight[i];
       pressure[i] = std::max(0.0, mean + excess_over_water(scene, force, i));
     });
     return true;

@@ -12,8 +12,7 @@ void OnWall<Dim>::show_velocity(const WallScene<Dim>& scene, std::span<const Vec
     if (scene.particles.is_fluid(i)) return;
     velocity[i].setZero();
     if (!scene.here.is_wet[i]) return;
-    const Vec<Dim> mean =
-        fluid_velocity_at_wall<Dim>(scene.pairs, scene.particles, i, scene.here.wall_fluid_weight[i], velocity);
+    const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], velocity);
     const auto row = scene.particles.wall_row[i];
     const Vec<Dim> own = entry_of<Dim>(V, row);
     const Vec<Dim> relative = mean - own;

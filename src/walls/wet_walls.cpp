@@ -18,11 +18,12 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
     fluid_weight[i] = 0.0;
     is_wet[i] = 0;
     if (particles.is_fluid(i)) return;
-    Lanes sum{};
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      sum += weights_of_fluid(pairs, particles, range, range.neighbours(pairs.j.data()), i);
-    });
-    fluid_weight[i] = sum_of(sum);
+    LaneSum sum;
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          sum += weights_of_fluid(pairs, range, range.neighbours(pairs.j.data()), i);
+        });
+    fluid_weight[i] = sum.total();
     is_wet[i] = fluid_weight[i] > least_wet_weight * W_0;
   });
 }

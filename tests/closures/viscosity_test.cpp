@@ -17,6 +17,7 @@ namespace tailwater {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 
 template <class D>
@@ -69,7 +70,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   }
   const double round_off = static_cast<double>(set.size() + 200) * eps * forces;
   EXPECT_LT(force.norm(), round_off);
-  EXPECT_NEAR(power, pair_power, 2.0 * round_off);  // |u| < 2
+  EXPECT_NEAR(power, pair_power, 4.0 * single_eps * forces);  // |u| < 2
   EXPECT_LT(power, 0.0);
 }
 
@@ -85,7 +86,7 @@ TYPED_TEST(ViscosityTest, ARigidRotationIsFreeOfStressUpToTheSurface) {
   add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                std::vector<Mat<Dim>>(set.size(), spin), acceleration);
   // Pair by pair 2 w dW (G + G^T) e, which is 0; its two parts are of the size nu spin/dx.
-  for (const Vec<Dim>& a : acceleration) EXPECT_LT(a.norm(), 1e4 * eps * 0.1 * 2.0 / dx);
+  for (const Vec<Dim>& a : acceleration) EXPECT_LT(a.norm(), 10.0 * single_eps * 0.1 * 2.0 / dx);
 }
 
 TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
@@ -132,7 +133,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesTheProfileOfALayerAlone) {
   double largest = 0.0;
   for (const Vec<Dim>& a : outside) largest = std::max(largest, a.norm());
   EXPECT_GT(largest, 1e-3);
-  for (std::size_t i = 0; i < set.pairs().owned(); ++i) EXPECT_LT(inside[i].norm(), 1e-12);
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) EXPECT_LT(inside[i].norm(), 100.0 * single_eps * largest);
 }
 
 TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
@@ -154,7 +155,7 @@ TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
     ASSERT_GT(of_noise[i].norm(), 0.0);
     // Some 100 terms, each up to a hundred times the sum.
     ASSERT_LT((together[i] - newtonian[i] - of_noise[i]).norm(),
-              1e4 * eps * (newtonian[i].norm() + of_noise[i].norm()));
+              100.0 * single_eps * (newtonian[i].norm() + of_noise[i].norm()));
   }
 }
 
@@ -165,11 +166,11 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
                              dx);
   const Mat<Dim> slope = 3.0 * Mat<Dim>::Identity() + Mat<Dim>::Ones();
   const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(slope * x); });
+  const std::vector<Four> in_single = in_fours<Dim>(velocity);
   std::vector<Mat<Dim>> gradient(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, set.particles.volume, 0.0);
-    gradient[i] = corrected_gradient<Dim>(set.pairs(), i, sums.first_moment, set.particles.volume,
-                                          std::span<const Vec<Dim>>(velocity));
+    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, 0.0);
+    gradient[i] = corrected_gradient<Dim>(set.pairs(), i, sums.first_moment, in_single);
   }
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   add_noise_viscosity<Dim>(set.pairs(), set.particles, dx, 0.1, velocity, gradient, acceleration);
@@ -180,7 +181,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (set.position(i).cwiseAbs().maxCoeff() > inside) continue;
     ++tested;
-    EXPECT_LT(acceleration[i].norm(), 1e4 * eps * unit);
+    EXPECT_LT(acceleration[i].norm(), 10.0 * single_eps * unit);
   }
   EXPECT_GT(tested, 0u);
 }

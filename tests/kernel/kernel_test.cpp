@@ -17,6 +17,7 @@ namespace tailwater {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr std::array all_kernels{KernelName::wendland_c2, KernelName::cubic_spline, KernelName::farzin};
 constexpr std::array radii{0.03, 1.0, 7.0};
 
@@ -91,10 +92,11 @@ TYPED_TEST(KernelTest, IsTheSameInLanes) {
     const Kernel<Dim> kernel = make_kernel<Dim>(name, 1.0);
     for (double r = 0.003; r < 1.2; r += 0.01) {
       Lanes distances = in_all_lanes(0.5);
-      distances[1] = r;
-      EXPECT_NEAR(kernel_value(kernel, distances)[1], kernel_value(kernel, r), 16.0 * eps * kernel_value(kernel, 0.0));
+      distances[1] = static_cast<float>(r);
+      EXPECT_NEAR(kernel_value(kernel, distances)[1], kernel_value(kernel, r),
+                  16.0 * single_eps * kernel_value(kernel, 0.0));
       EXPECT_NEAR(kernel_steepness(kernel, distances)[1], kernel_steepness(kernel, r),
-                  64.0 * eps * kernel_steepness(kernel, 0.003));
+                  64.0 * single_eps * kernel_steepness(kernel, 0.003));
     }
   }
 }

@@ -1,4 +1,4 @@
-// Loops in lanes read and write what loops pair by pair do, in rows of any length.
+// Loops in lanes read and write what loops pair by pair do, in rows of any length, rounded to single precision.
 #include "neighbours/pair_lanes.h"
 
 #include <gtest/gtest.h>
@@ -8,38 +8,56 @@
 #include <random>
 #include <vector>
 
+#include "neighbours/find_pairs.h"
+
 namespace tailwater {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr std::size_t count = 23;
 
-/// Particles in a unit box; the row of particle i has its i neighbours of lower index. The last two are at one place.
+/// Sixteen numbers of a particle.
+struct alignas(64) Sixteen {
+  std::array<float, 16> at;
+};
+
+/// Particles in a unit box at `origin`, every third of them a wall; the row of particle i has its i neighbours of lower
+/// index. The last two are at one place.
 template <int Dim>
 struct Rows {
-  Rows() {
+  explicit Rows(double origin = 0.0) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(0.0, 1.0);
+    const auto single = [&] { return static_cast<float>(number(random)); };
+    Particles<Dim> particles;
+    particles.resize(count);
     pairs.row_begin.push_back(0);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         pairs.j.push_back(static_cast<std::int32_t>(j));
-        pairs.F.push_back(number(random));
+        pairs.F.push_back(single());
       }
       pairs.row_begin.push_back(pairs.j.size());
-      pairs.position.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      particles.position[i] = Vec<Dim>::NullaryExpr([&] { return origin + number(random); });
+      particles.volume[i] = single();
+      particles.kind[i] = i % 3 == 0 ? ParticleKind::wall : ParticleKind::fluid;
       pairs.id.push_back(static_cast<std::int64_t>(i));
-      matrix.push_back(Mat<Dim>::NullaryExpr([&] { return number(random); }));
-      volume.push_back(number(random));
-      for (int m = 0; m < 4; ++m) records.push_back(number(random));
+      field.push_back(number(random));
+      vectors.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      records.emplace_back();
+      for (float& value : records.back().at) value = single();
     }
-    pairs.position[count - 1] = pairs.position[count - 2];
+    particles.position[count - 1] = particles.position[count - 2];
+    pairs.position = particles.position;
     pairs.least_distance = 1e-6;
+    volume = particles.volume;
+    find_places<Dim>(particles, {}, 2.0, pairs);
   }
 
-  std::vector<Mat<Dim>> matrix;
   std::vector<double> volume;
-  std::vector<double> records;  // four numbers of each particle
+  std::vector<double> field;
+  std::vector<Vec<Dim>> vectors;
+  std::vector<Sixteen> records;
   Pairs<Dim> pairs;
 };
 
@@ -53,61 +71,114 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   const Rows<Dim> rows;
   const Pairs<Dim>& pairs = rows.pairs;
   ASSERT_EQ(pairs.j.size(), count * (count - 1) / 2);
+  const std::vector<Four> fours = in_fours<Dim>(rows.vectors);
   std::vector<int> visits(pairs.j.size(), 0);
-  std::vector<Vec<Dim>> stored(pairs.j.size(), Vec<Dim>::Constant(7.0));
-  std::vector<Vec<Dim>> expected(pairs.j.size());
+  std::vector<float> stored(pairs.j.size() + lane_count, -1.0F);
   for (std::size_t i = 0; i < count; ++i) {
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const VecLanes<Dim> d = differences<Dim>(pairs, range, j, i);
-      const MatLanes<Dim> matrix = j(rows.matrix.data());
-      const Lanes volume = j(rows.volume.data());
-      const Lanes W = kernel_at(pairs, d);
+      const PlaceLanes<Dim> place = places(pairs, range, j, i);
+      const Lanes W = kernel_at(pairs, place.d);
       const Lanes F = range.load(pairs.F.data());
-      const VecLanes<Dim> gradient = gradients(pairs, range, j, i);
-      const std::array<Lanes, 4> record = j.template record<4>(rows.records.data());
-      const Lanes even = j.where([](std::ptrdiff_t of) { return of % 2 == 0; }) ? in_all_lanes(1.0) : Lanes{};
+      const VecLanes<Dim> gradient = gradients(pairs, range, place.d);
+      const std::array<Lanes, 16> record = j.numbers(rows.records.data());
+      const Lanes field = j(rows.field.data());
+      const VecLanes<Dim> vectors = j(rows.vectors.data());
+      const VecLanes<Dim> from_fours = j.template vectors<Dim>(fours.data());
+      const Lanes fluid = place.of_fluid(in_all_lanes(1.0));
       for (int n = 0; n < range.count; ++n) {
         const std::size_t k = range.begin + n;
+        const auto neighbour = pairs.j[k];
+        const auto volume = static_cast<float>(rows.volume[neighbour]);
+        const bool is_fluid = neighbour % 3 != 0;
         ++visits[k];
-        expected[k] = pairs.d(i, k);
-        EXPECT_NEAR(W[n], pairs.value(i, k), 16.0 * eps * kernel_value(pairs.kernel, 0.0));
+        EXPECT_NEAR(W[n], pairs.value(i, k), 16.0 * single_eps * kernel_value(pairs.kernel, 0.0));
         EXPECT_EQ(F[n], pairs.F[k]);
-        for (int m = 0; m < 4; ++m) EXPECT_EQ(record[m][n], rows.records[4 * pairs.j[k] + m]);
-        EXPECT_EQ(even[n], pairs.j[k] % 2 == 0 ? 1.0 : 0.0);
-        EXPECT_EQ(volume[n], rows.volume[pairs.j[k]]);
+        for (int m = 0; m < 16; ++m) EXPECT_EQ(record[m][n], rows.records[neighbour].at[m]);
+        EXPECT_EQ(field[n], static_cast<float>(rows.field[neighbour]));
+        EXPECT_EQ(place.volume()[n], volume);
+        EXPECT_EQ(place.volume_of_fluid()[n], is_fluid ? volume : 0.0F);
+        EXPECT_EQ(fluid[n], is_fluid ? 1.0F : 0.0F);
         for (int a = 0; a < Dim; ++a) {
-          EXPECT_EQ(d.at[a][n], expected[k][a]);
-          EXPECT_EQ(gradient.at[a][n], -F[n] * d.at[a][n]);
-          for (int b = 0; b < Dim; ++b) EXPECT_EQ(matrix.column[b].at[a][n], rows.matrix[pairs.j[k]](a, b));
+          EXPECT_NEAR(place.d.at[a][n], pairs.d(i, k)[a], single_eps);
+          EXPECT_EQ(gradient.at[a][n], -F[n] * place.d.at[a][n]);
+          EXPECT_EQ(vectors.at[a][n], static_cast<float>(rows.vectors[neighbour][a]));
+          EXPECT_EQ(from_fours.at[a][n], vectors.at[a][n]);
         }
       }
-      range.store(d, stored.data());
+      for (int n = range.count; n < lane_count; ++n) {  // what sums leave out
+        EXPECT_EQ(F[n], 0.0F);
+        EXPECT_EQ(place.volume()[n], 0.0F);
+        EXPECT_EQ(fluid[n], 0.0F);
+      }
+      range.store(F, stored.data() + range.begin);
     });
   }
-  EXPECT_EQ(expected.back().norm(), pairs.least_distance);
+  EXPECT_EQ(pairs.r(count - 1, pairs.j.size() - 1), pairs.least_distance);
   for (std::size_t k = 0; k < visits.size(); ++k) {
     EXPECT_EQ(visits[k], 1);
-    EXPECT_EQ(stored[k], expected[k]);
+    EXPECT_EQ(stored[k], pairs.F[k]);
   }
+  for (std::size_t k = visits.size(); k < stored.size(); ++k) EXPECT_EQ(stored[k], -1.0F);
 }
 
-TYPED_TEST(PairLanes, SumsLeaveOutTheLanesLeftOver) {
+TYPED_TEST(PairLanes, DifferencesAreAsExactFarFromTheOriginAndOppositeForBothEnds) {
   constexpr int Dim = TypeParam::value;
-  const Rows<Dim> rows;
-  for (std::size_t i = 0; i < count; ++i) {
-    Lanes lanes{};
-    for_each_lanes(rows.pairs.begin(i), rows.pairs.end(i), [&](auto range) { lanes += range.only(in_all_lanes(1.0)); });
-    EXPECT_EQ(sum_of(lanes), static_cast<double>(i));
+  const Rows<Dim> rows(1e4);  // five thousand supports away: places have gone round 2^32 a thousand times
+  const Pairs<Dim>& pairs = rows.pairs;
+  Pairs<Dim> swapped = pairs;
+  for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const LaneRange<false> one{k, 1};
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      swapped.j[k] = static_cast<std::int32_t>(i);
+      const VecLanes<Dim> d = places(pairs, one, one.neighbours(pairs.j.data()), i).d;
+      const VecLanes<Dim> back = places(swapped, one, one.neighbours(swapped.j.data()), j).d;
+      for (int a = 0; a < Dim; ++a) {
+        EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], single_eps);
+        EXPECT_EQ(d.at[a][0], -back.at[a][0]);
+      }
+    }
   }
 }
 
-TEST(SymmetricLanes, AreReadAndSummedFromTheLowerTriangle) {
-  const Mat<3> matrix{{1.0, -9.0, -9.0}, {2.0, 3.0, -9.0}, {4.0, 5.0, 6.0}};
-  const MatLanes<3> lanes = LaneIndices([](int) { return 0; }).symmetric(&matrix);
+TYPED_TEST(PairLanes, PeriodicImagesAreAsFarAwayAsTheirOwners) {
+  constexpr int Dim = TypeParam::value;
+  Particles<Dim> particles;
+  particles.resize(2);
+  particles.position = {Vec<Dim>::Constant(0.123456789), Vec<Dim>::Constant(0.123456789 + 1.7)};
+  Pairs<Dim> pairs;
+  PeriodicDomain<Dim> domain;
+  domain.fill(std::pair{0.0, 1.7});
+  find_places<Dim>(particles, domain, 0.3, pairs);
+  const double period = std::round(1.7 / static_cast<float>(0.3 * 0x1p-28));
+  for (int a = 0; a < Dim; ++a) {
+    EXPECT_EQ(pairs.place[1].at[a] - pairs.place[0].at[a], static_cast<std::uint32_t>(std::llround(period)));
+  }
+}
+
+TEST(LaneSums, AreInDoublePrecision) {
+  LaneSum sum;
+  Lanes lanes{};
+  for (int n = 0; n < lane_count; ++n) {
+    sum += in_all_lanes(n == 0 ? 0x1p24 : 1.0);
+    lanes += in_all_lanes(1.0);
+  }
+  EXPECT_EQ(sum.total(), lane_count * (0x1p24 + lane_count - 1.0));
+  EXPECT_EQ(sum_of(lanes), static_cast<double>(lane_count * lane_count));
+}
+
+TEST(MatrixLanes, AreSummedFromTheLowerTriangle) {
+  MatLanes<3> lanes{};
   const Mat<3> symmetric{{1.0, 2.0, 4.0}, {2.0, 3.0, 5.0}, {4.0, 5.0, 6.0}};
-  EXPECT_EQ(sum_of(lanes), Mat<3>(lane_count * symmetric));
+  for (int b = 0; b < 3; ++b) {
+    for (int a = b; a < 3; ++a) lanes.column[b].at[a] = in_all_lanes(symmetric(a, b));
+  }
   EXPECT_EQ(sum_of_lower(lanes), Mat<3>(lane_count * symmetric));
+  for (int b = 0; b < 3; ++b) {
+    for (int a = 0; a < b; ++a) lanes.column[b].at[a] = lanes.column[a].at[b];
+  }
+  EXPECT_EQ(sum_of(lanes), Mat<3>(lane_count * symmetric));
   const VecLanes<3> product = lanes.times({in_all_lanes(1.0), in_all_lanes(2.0), in_all_lanes(-1.0)});
   EXPECT_EQ(sum_of(product), Vec<3>(lane_count * symmetric * Vec<3>(1.0, 2.0, -1.0)));
 }

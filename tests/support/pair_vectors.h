@@ -34,7 +34,7 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
   const Halo<Dim>& halo = set.neighbourhood.halo();
   std::vector<Mat<Dim>> moment(set.size());
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    moment[i] = kernel_sums<Dim>(pairs, i, set.particles.volume, 0.0).first_moment;
+    moment[i] = kernel_sums<Dim>(pairs, i, 0.0).first_moment;
   }
   halo.exchange(moment);
   CorrectedPairVectors<Dim> found;
@@ -52,14 +52,12 @@ PairVectorField<Dim> corrected_pair_vectors(const ParticleSet<Dim>& set, const s
   return corrected_pair_vectors_and_faces<Dim>(set, interior, reach, sweeps).vectors;
 }
 
-/// Pair by pair, as loops in lanes have them.
+/// Pair by pair.
 template <int Dim>
 std::vector<Vec<Dim>> listed(const Pairs<Dim>& pairs, const PairVectorField<Dim>& vectors) {
   std::vector<Vec<Dim>> list(pairs.j.size());
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      range.store(vectors(pairs, range, range.neighbours(pairs.j.data()), i).a, list.data());
-    });
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) list[k] = vectors.at(pairs, i, k);
   }
   return list;
 }
