@@ -23,7 +23,7 @@ Vec<Dim> sum_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles
 template <int Dim, class Range>
 [[gnu::always_inline]] inline Lanes weights_of_fluid(const Pairs<Dim>& pairs, const Range& range, const LaneIndices& j,
                                                      std::size_t i) {
-  const PlaceLanes<Dim> place = places(pairs, range, j, i);
+  const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
   return place.of_fluid(kernel_at(pairs, place.d));
 }
 

@@ -26,7 +26,7 @@ LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, std::
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         const Lanes W = kernel_at(pairs, place.d);
         const Lanes ratio = W * inverse_W;
         const Lanes weight =

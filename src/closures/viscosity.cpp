@@ -164,7 +164,7 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
           VecLanes<Dim> terms{};
-          PairLanes<Dim>(places(pairs, range, j, i), range.load(pairs.F.data()), j, ends, spacing, i)
+          PairLanes<Dim>(neighbour_places(pairs, range, j, i), range.load(pairs.F.data()), j, ends, spacing, i)
               .add_noise_force(viscosity, terms);
           for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
         });

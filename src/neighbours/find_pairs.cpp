@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "base/for_each.h"
 #include "base/lanes.h"
@@ -14,17 +15,57 @@
 namespace tailwater {
 namespace {
 
-/// For each set of lanes, as bits: which lanes these are, put to the front.
-constexpr std::array<std::array<std::int32_t, double_lane_count>, 1 << double_lane_count> lanes_of_bits = [] {
-  std::array<std::array<std::int32_t, double_lane_count>, 1 << double_lane_count> lanes{};
-  for (unsigned bits = 0; bits < lanes.size(); ++bits) {
+/// As many candidates are looked at together, whatever the width of a register.
+constexpr int batch = 8;
+using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch)));
+
+/// The first `count` bits, all if there are more candidates than a batch has.
+inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch)) - 1U; }
+
+#if defined(__AVX2__)
+/// For each set of candidates, as bits: their places in the batch, put to the front, a byte each.
+constexpr std::array<std::uint64_t, 1 << batch> places_of_bits = [] {
+  std::array<std::uint64_t, 1 << batch> places{};
+  for (unsigned bits = 0; bits < places.size(); ++bits) {
     int count = 0;
-    for (int lane = 0; lane < double_lane_count; ++lane) {
-      if ((bits >> lane & 1U) != 0) lanes[bits][count++] = lane;
+    for (unsigned n = 0; n < batch; ++n) {
+      if ((bits >> n & 1U) != 0) places[bits] |= static_cast<std::uint64_t>(n) << (8 * count++);
     }
   }
-  return lanes;
+  return places;
 }();
+#endif
+
+/// Writes those of a batch of indices whose bit is set, one behind the other, and may write to as many entries as a
+/// batch has. Returns the end of those that count.
+inline std::int32_t* write_chosen(const std::int32_t* indices, unsigned bits, std::int32_t* chosen) {
+#if defined(__AVX2__)
+  // Without a branch: which candidates are near is unpredictable.
+  IndexBatch all;
+  std::memcpy(&all, indices, sizeof(all));
+  const __m256i places = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(places_of_bits[bits])));
+  const __m256i ordered = _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(all), places);
+  std::memcpy(chosen, &ordered, sizeof(ordered));
+  return chosen + std::popcount(bits);
+#else
+  for (; bits != 0; bits &= bits - 1) *chosen++ = indices[std::countr_zero(bits)];
+  return chosen;
+#endif
+}
+
+/// Bit n is set if index n of a batch is at least `begin` and less than `end`.
+inline unsigned bits_between(const std::int32_t* indices, std::int32_t begin, std::int32_t end) {
+  IndexBatch all;
+  std::memcpy(&all, indices, sizeof(all));
+  const IndexBatch holds = (all >= begin) & (all < end);
+#if defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
+#else
+  unsigned bits = 0;
+  for (int n = 0; n < batch; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  return bits;
+#endif
+}
 
 /// The particles in the order of a grid, their positions coordinate by coordinate, so that those of a range of cells
 /// are read in lanes. The last range may be read beyond its end.
@@ -33,30 +74,30 @@ class OrderedParticles {
  public:
   OrderedParticles(std::span<const std::int32_t> order, std::span<const Vec<Dim>> position)
       : index_(order.begin(), order.end()) {
-    index_.resize(order.size() + double_lane_count);
+    index_.resize(order.size() + batch);
     for (int d = 0; d < Dim; ++d) {
       at_[d].resize(index_.size());
       for_each(order.size(), [&](std::size_t n) { at_[d][n] = position[index_[n]][d]; });
     }
   }
 
-  /// Writes the indices of those particles at place n of the order and behind it whose bit is set. Writes to as many
-  /// entries as there are lanes.
-  void write(std::size_t n, unsigned bits, std::int32_t* row) const {
-    // Without a branch: which candidates are near is unpredictable.
-    for (int m = 0; m < double_lane_count; ++m) row[m] = index_[n + lanes_of_bits[bits][m]];
-  }
+  /// The index of the particle at place n of the order.
+  const std::int32_t* index(std::size_t n) const { return index_.data() + n; }
 
   /// Bit m is set if the particle at place n + m of the order is nearer to `point` than the square root of `squared`.
   unsigned nearer(const Vec<Dim>& point, DoubleLanes squared, std::size_t n) const {
-    DoubleLanes sum{};
-    for (int d = 0; d < Dim; ++d) {
-      DoubleLanes x;
-      std::memcpy(&x, at_[d].data() + n, sizeof(x));
-      x = point[d] - x;
-      sum += x * x;
+    unsigned bits = 0;
+    for (int m = 0; m < batch; m += double_lane_count) {
+      DoubleLanes sum{};
+      for (int d = 0; d < Dim; ++d) {
+        DoubleLanes x;
+        std::memcpy(&x, at_[d].data() + n + m, sizeof(x));
+        x = point[d] - x;
+        sum += x * x;
+      }
+      bits |= bits_of(sum < squared) << m;
     }
-    return bits_of(sum < squared);
+    return bits;
   }
 
  private:
@@ -82,43 +123,54 @@ struct FluidGrid {
   std::vector<std::int32_t> order;  ///< of the grid, as indices of particles
 };
 
-/// Puts the indices below `self`, those above it and those from `owned` on, ghosts, one behind the other into
-/// `ordered`, each kind in the order it has. Returns how many. `self` is left out.
-std::size_t put_in_order(std::span<const std::int32_t> found, std::int32_t self, std::int32_t owned,
-                         std::vector<std::int32_t>& behind, std::vector<std::int32_t>& ghosts, std::int32_t* ordered) {
-  std::size_t before_count = 0;
-  std::size_t behind_count = 0;
-  std::size_t ghost_count = 0;
-  for (const std::int32_t j : found) {  // each index to all three places, and only one of them moves on
-    ordered[before_count] = j;
-    behind[behind_count] = j;
-    ghosts[ghost_count] = j;
-    before_count += static_cast<std::size_t>(j < self);
-    behind_count += static_cast<std::size_t>(j > self) & static_cast<std::size_t>(j < owned);
-    ghost_count += static_cast<std::size_t>(j >= owned);
-  }
-  std::copy_n(behind.begin(), behind_count, ordered + before_count);
-  std::copy_n(ghosts.begin(), ghost_count, ordered + before_count + behind_count);
-  return before_count + behind_count + ghost_count;
-}
+/// The neighbours of one particle at a time. Its arrays are written up to a batch beyond their ends.
+class NeighbourRow {
+ public:
+  explicit NeighbourRow(std::size_t most)
+      : found_(most + batch), ordered_(most + batch), behind_(most + batch), ghosts_(most + batch) {}
 
-/// Puts the particles nearer to `point` than `radius` into `row`, in the order of the grid. Returns how many. `row`
-/// needs room for `double_lane_count` more.
-template <int Dim>
-std::size_t find_row(const CellGrid<Dim>& grid, const OrderedParticles<Dim>& ordered, const Vec<Dim>& point,
-                     double radius, std::int32_t* row) {
-  const DoubleLanes radius_squared = in_all_double_lanes(radius * radius);
-  std::size_t found = 0;
-  grid.for_each_range_near(point, [&](std::int32_t begin, std::int32_t end) {
-    for (std::int32_t n = begin; n < end; n += double_lane_count) {
-      const unsigned in_range = (1U << std::min(end - n, double_lane_count)) - 1U;
-      const unsigned near = ordered.nearer(point, radius_squared, n) & in_range;
-      ordered.write(n, near, row + found);
-      found += std::popcount(near);
+  /// Finds the particles nearer to `point` than `radius`, in the order of the grid. Returns how many.
+  template <int Dim>
+  std::size_t find(const CellGrid<Dim>& grid, const OrderedParticles<Dim>& ordered, const Vec<Dim>& point,
+                   double radius) {
+    const DoubleLanes radius_squared = in_all_double_lanes(radius * radius);
+    std::int32_t* found_end = found_.data();
+    grid.for_each_range_near(point, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t n = begin; n < end; n += batch) {
+        const unsigned near = ordered.nearer(point, radius_squared, n) & first_bits(end - n);
+        found_end = write_chosen(ordered.index(n), near, found_end);
+      }
+    });
+    count_ = found_end - found_.data();
+    return count_;
+  }
+
+  /// What was found without `self`: the indices below it, those above it and those from `owned` on, ghosts, each kind
+  /// in the order in which they were found.
+  std::span<const std::int32_t> in_order(std::int32_t self, std::int32_t owned) {
+    constexpr std::int32_t beyond_all = std::numeric_limits<std::int32_t>::max();
+    std::int32_t* end = ordered_.data();
+    std::int32_t* behind_end = behind_.data();
+    std::int32_t* ghosts_end = ghosts_.data();
+    for (std::size_t n = 0; n < count_; n += batch) {
+      const std::int32_t* const indices = found_.data() + n;
+      const unsigned counts = first_bits(count_ - n);
+      end = write_chosen(indices, bits_between(indices, 0, self) & counts, end);
+      behind_end = write_chosen(indices, bits_between(indices, self + 1, owned) & counts, behind_end);
+      ghosts_end = write_chosen(indices, bits_between(indices, owned, beyond_all) & counts, ghosts_end);
     }
-  });
-  return found;
-}
+    end = std::copy(behind_.data(), behind_end, end);
+    end = std::copy(ghosts_.data(), ghosts_end, end);
+    return {ordered_.data(), end};
+  }
+
+ private:
+  std::vector<std::int32_t> found_;
+  std::vector<std::int32_t> ordered_;
+  std::vector<std::int32_t> behind_;
+  std::vector<std::int32_t> ghosts_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -131,10 +183,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   const FluidGrid<Dim> fluid(particles, radius);
   const OrderedParticles<Dim> ordered_fluid(fluid.order, particles.position);
   const auto owned = static_cast<std::int32_t>(particles.owned);
-  std::vector<std::int32_t> near(particles.size() + double_lane_count);
-  std::vector<std::int32_t> behind(near.size());
-  std::vector<std::int32_t> ghosts(near.size());
-  std::vector<std::int32_t> row(near.size());
+  NeighbourRow row(particles.size());
 
   pairs.position = particles.position;
   pairs.id = particles.id;
@@ -142,20 +191,20 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.kernel = kernel;
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
-  // Puts the neighbours of particle i, and itself if it sees its kind, into `near`. Returns how many.
-  const auto find_near = [&](std::size_t i) {
+  // Finds the neighbours of particle i, and itself if it sees its kind. Returns how many.
+  const auto find_row = [&](std::size_t i) {
     const bool sees_all = wall_rows == WallRows::all || particles.is_fluid(i);
-    return sees_all ? find_row(grid, ordered, position[i], radius, near.data())
-                    : find_row(fluid.grid, ordered_fluid, position[i], radius, near.data());
+    return sees_all ? row.find(grid, ordered, position[i], radius)
+                    : row.find(fluid.grid, ordered_fluid, position[i], radius);
   };
   // The first pairs are counted before they are kept; later ones are about as many as the last.
   const std::size_t before = pairs.j.size();
-  const std::size_t expected = before > 0 ? before : count_each(particles.owned, find_near);
+  const std::size_t expected = before > 0 ? before : count_each(particles.owned, find_row);
   empty_with_room(pairs.j, expected);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
-    const std::size_t n =
-        put_in_order({near.data(), find_near(i)}, static_cast<std::int32_t>(i), owned, behind, ghosts, row.data());
-    pairs.j.insert(pairs.j.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
+    find_row(i);
+    const std::span<const std::int32_t> neighbours = row.in_order(static_cast<std::int32_t>(i), owned);
+    pairs.j.insert(pairs.j.end(), neighbours.begin(), neighbours.end());
     pairs.row_begin[i + 1] = pairs.j.size();
   }
   find_slopes(pairs);
@@ -192,7 +241,7 @@ void find_slopes(Pairs<Dim>& pairs) {
         for_each(pairs.owned(), [&](std::size_t i) {
           for_each_lanes(
               pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-                const VecLanes<Dim> d = places(pairs, range, range.neighbours(pairs.j.data()), i).d;
+                const VecLanes<Dim> d = neighbour_places(pairs, range, range.neighbours(pairs.j.data()), i).d;
                 range.store(chosen.steepness(sqrt_of(max_of(d.dot(d), least_squared))), pairs.F.data() + range.begin);
               });
         });

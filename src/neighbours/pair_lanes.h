@@ -53,8 +53,8 @@ template <int Dim, class Range, std::size_t size>
 
 /// Of neighbours `j` of particle i.
 template <int Dim, class Range>
-[[gnu::always_inline]] inline PlaceLanes<Dim> places(const Pairs<Dim>& pairs, const Range& range, const LaneIndices& j,
-                                                     std::size_t i) {
+[[gnu::always_inline]] inline PlaceLanes<Dim> neighbour_places(const Pairs<Dim>& pairs, const Range& range,
+                                                               const LaneIndices& j, std::size_t i) {
   return place_lanes<Dim>(pairs, range, j.numbers(pairs.place.data()), i);
 }
 

@@ -28,7 +28,7 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, double W_0) 
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         concentration += place.volume() * kernel_at(pairs, place.d);
         const Lanes volume_F = place.volume() * range.load(pairs.F.data());
         for (int b = 0; b < Dim; ++b) {

@@ -28,7 +28,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         const Lanes weight = place.volume() * range.load(pairs.F.data());
         const VecLanes<Dim> field_j = j.template vectors<Dim>(field.data());
         for (int b = 0; b < Dim; ++b) {

@@ -58,7 +58,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     for_each_lanes(
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
-          const VecLanes<Dim> d = places(pairs, range, j, i).d;
+          const VecLanes<Dim> d = neighbour_places(pairs, range, j, i).d;
           const auto other = j.numbers(moments.data());
           const Lanes weight = range.only(other[0]) * (1.0F - d.dot(d) * inverse_square);
           for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[1 + n];

@@ -44,7 +44,7 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         const Lanes weight = place.volume_of_fluid() * (own + j(pressure.data()));
         const VecLanes<Dim> a =
             has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, place.d);

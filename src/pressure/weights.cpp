@@ -48,7 +48,7 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const float> volum
       for_each_lanes(
           first, end, [&](auto range) __attribute__((always_inline)) {
             const LaneIndices j = range.neighbours(pairs.j.data());
-            const VecLanes<Dim> d = places(pairs, range, j, i).d;
+            const VecLanes<Dim> d = neighbour_places(pairs, range, j, i).d;
             const Lanes square = d.dot(d);
             const Lanes share = share_of_morris_weight(square, spacing);
             const Lanes F = kernel_steepness<Dim>(pairs.kernel, sqrt_of(square));

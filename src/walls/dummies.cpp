@@ -16,7 +16,7 @@ double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& forc
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = places(pairs, range, j, i);
+        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         const Lanes weight = place.of_fluid(kernel_at(pairs, place.d));
         for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
       });

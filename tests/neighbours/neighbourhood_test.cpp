@@ -109,6 +109,37 @@ TYPED_TEST(NeighbourhoodTest, RowsEqualBruteForce) {
   expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius);
 }
 
+/// A lattice of edge radius / 3, as the cells have, whose places lie on their borders, and many particles in one cell.
+/// Neighbours in space are far apart in memory.
+template <int Dim>
+Particles<Dim> lattice_and_clump() {
+  constexpr int along = 5;
+  constexpr std::size_t clump = 70;
+  const std::size_t nodes = Dim == 2 ? along * along : along * along * along;
+  const std::size_t count = nodes + clump;
+  Noise noise(14);
+  std::vector<Vec<Dim>> positions(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    Vec<Dim>& position = positions[n * 7 % count];
+    if (n < nodes) {
+      std::size_t rest = n;
+      for (int d = 0; d < Dim; ++d, rest /= along) position[d] = radius / 3.0 * static_cast<double>(rest % along);
+    } else {
+      position = Vec<Dim>::Constant(0.5 * radius) + 0.1 * radius * noise.vector<Dim>();
+    }
+  }
+  return fluid_at<Dim>(positions, spacing);
+}
+
+TYPED_TEST(NeighbourhoodTest, RowsEqualBruteForceOnBordersOfCellsAndInFullCells) {
+  constexpr int Dim = TypeParam::value;
+  Particles<Dim> particles = lattice_and_clump<Dim>();
+  ASSERT_NE(particles.size() % 7, 0u) << "else some places were not given";
+  auto neighbourhood = make_neighbourhood<Dim>();
+  neighbourhood.update(particles);
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius);
+}
+
 TYPED_TEST(NeighbourhoodTest, GhostsServeUntilSomeoneMovedHalfTheSkin) {
   constexpr int Dim = TypeParam::value;
   for (const int periodic : {0, Dim}) {
@@ -241,18 +272,23 @@ TYPED_TEST(NeighbourhoodTest, PairsKeepTheirGeometryWhenParticlesJump) {
   }
 }
 
-TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhosts) {
+TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhostsEachInTheOrderOfTheGrid) {
   constexpr int Dim = TypeParam::value;
   Particles<Dim> particles = random_fluid<Dim>(400, 13);
   auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, unit_domain<Dim>(Dim));
   neighbourhood.update(particles);
   const Pairs<Dim>& pairs = neighbourhood.pairs();
+  std::vector<std::size_t> place(particles.size());
+  for (std::size_t n = 0; n < place.size(); ++n) place[neighbourhood.grid().order()[n]] = n;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    const auto kind = [&](std::int32_t j) {
-      return static_cast<int>(static_cast<std::size_t>(j) >= i) +
-             static_cast<int>(static_cast<std::size_t>(j) >= particles.owned);
+    const auto kind_and_place = [&](std::int32_t j) {
+      const auto kind = static_cast<int>(static_cast<std::size_t>(j) >= i) +
+                        static_cast<int>(static_cast<std::size_t>(j) >= particles.owned);
+      return std::pair(kind, place[j]);
     };
-    for (std::size_t k = pairs.begin(i) + 1; k < pairs.end(i); ++k) ASSERT_LE(kind(pairs.j[k - 1]), kind(pairs.j[k]));
+    for (std::size_t k = pairs.begin(i) + 1; k < pairs.end(i); ++k) {
+      ASSERT_LT(kind_and_place(pairs.j[k - 1]), kind_and_place(pairs.j[k]));
+    }
   }
 }
 

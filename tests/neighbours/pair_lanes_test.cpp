@@ -77,7 +77,7 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   for (std::size_t i = 0; i < count; ++i) {
     for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
       const LaneIndices j = range.neighbours(pairs.j.data());
-      const PlaceLanes<Dim> place = places(pairs, range, j, i);
+      const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
       const Lanes W = kernel_at(pairs, place.d);
       const Lanes F = range.load(pairs.F.data());
       const VecLanes<Dim> gradient = gradients(pairs, range, place.d);
@@ -132,8 +132,8 @@ TYPED_TEST(PairLanes, DifferencesAreAsExactFarFromTheOriginAndOppositeForBothEnd
       const LaneRange<false> one{k, 1};
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       swapped.j[k] = static_cast<std::int32_t>(i);
-      const VecLanes<Dim> d = places(pairs, one, one.neighbours(pairs.j.data()), i).d;
-      const VecLanes<Dim> back = places(swapped, one, one.neighbours(swapped.j.data()), j).d;
+      const VecLanes<Dim> d = neighbour_places(pairs, one, one.neighbours(pairs.j.data()), i).d;
+      const VecLanes<Dim> back = neighbour_places(swapped, one, one.neighbours(swapped.j.data()), j).d;
       for (int a = 0; a < Dim; ++a) {
         EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], single_eps);
         EXPECT_EQ(d.at[a][0], -back.at[a][0]);
