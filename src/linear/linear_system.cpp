@@ -23,11 +23,13 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  // At first, in one piece and of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
+  // At first, and each in one piece of the size of the pairs' slopes, which may have left such a place free
+  // (find_pairs.h).
   if (room_ < columns.size()) {
-    storage_.reset();
+    forget_weights();
     room_ = with_room(columns.size());
-    storage_ = std::make_unique_for_overwrite<std::byte[]>(room_ * (sizeof(std::int32_t) + sizeof(float)));
+    weights_ = std::make_unique_for_overwrite<float[]>(room_);
+    columns_ = std::make_unique_for_overwrite<std::int32_t[]>(room_);
   }
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
@@ -59,14 +61,12 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
       begin[i + 1] = begin[i] + static_cast<std::uint32_t>(ends[n + 1] - ends[n]);
     }
   }
-  std::byte* place = storage_.get();
-  const auto take = [&place]<class Value>(std::span<Value>& values, std::size_t count_of_part) {
-    values = {reinterpret_cast<Value*>(place), count_of_part};
-    place += values.size_bytes();
-  };
+  std::size_t place = 0;
   for (Part& part : parts_) {
-    take(part.column, part.begin.back());
-    take(part.weight, part.begin.back());
+    const std::size_t entries_of_part = part.begin.back();
+    part.column = {columns_.get() + place, entries_of_part};
+    part.weight = {weights_.get() + place, entries_of_part};
+    place += entries_of_part;
   }
   for (std::size_t i = 0; i < rows; ++i) {
     const std::int32_t* entry = row_of(i).data();
@@ -92,7 +92,8 @@ std::vector<std::int32_t> LinearSystem::columns() const {
 
 void LinearSystem::forget_weights() {
   for (Part& part : parts_) part = {};
-  storage_.reset();
+  columns_.reset();
+  weights_.reset();
   room_ = 0;
 }
 

@@ -177,9 +177,10 @@ class LinearSystem {
   ExchangePlan halo_;
   Cells cells_;
   std::array<Part, 3> parts_;
-  std::unique_ptr<std::byte[]> storage_;    ///< of columns and weights of all parts
-  std::size_t room_ = 0;                    ///< in it, in entries
-  std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
+  std::unique_ptr<std::int32_t[]> columns_;  ///< of all parts
+  std::unique_ptr<float[]> weights_;         ///< likewise
+  std::size_t room_ = 0;                     ///< in both, in entries
+  std::vector<std::int64_t> ghost_number_;   ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };

@@ -58,11 +58,12 @@ class Dummies final : public WallModel<Dim> {
 
   void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                      std::span<Vec<Dim>> velocity) const override {
+    const std::vector<Four> of_water = in_fours<Dim>(velocity);
     for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i)) return;
       velocity[i].setZero();
       if (!scene.here.is_wet[i]) return;
-      const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], velocity);
+      const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
       const auto row = scene.particles.wall_row[i];
       const Vec<Dim> own = entry_of<Dim>(V, row);
       const Vec<Dim> relative = mean - own;
@@ -75,11 +76,12 @@ class Dummies final : public WallModel<Dim> {
   /// The velocity of a no-slip mirror image, 2 V - mean_w.
   void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const override {
+    const std::vector<Four> of_water = in_fours<Dim>(velocity);
     for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i)) return;
       Vec<Dim> mean = Vec<Dim>::Zero();
       if (scene.here.is_wet[i]) {
-        mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], velocity);
+        mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
       }
       const Vec<Dim> wall_velocity = entry_of<Dim>(V, scene.particles.wall_row[i]);
       no_slip[i] = (wall_velocity - mean) + wall_velocity;

@@ -16,13 +16,13 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
 /// Shepard mean sum_f W u_f / sum_f W of the fluid in reach of wet wall particle i, whose sum of W is `fluid_weight`.
 template <int Dim>
 Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double fluid_weight,
-                                std::span<const Vec<Dim>> velocity) {
+                                std::span<const Four> velocity) {
   VecSum<Dim> sum;
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const Lanes weight = weights_of_fluid(pairs, range, j, i);
-        const VecLanes<Dim> u = j(velocity.data());
+        const VecLanes<Dim> u = j.template vectors<Dim>(velocity.data());
         for (int a = 0; a < Dim; ++a) sum.at[a] += weight * u.at[a];
       });
   return sum.total() / fluid_weight;
