@@ -92,18 +92,16 @@ class CellMultigrid {
     std::optional<Gathering> gathering;
     bool is_whole = false;            ///< this rank has all rows
     std::vector<std::uint64_t> cell;  ///< on the next level, of the rows that have one; forgotten once that is made
-    std::size_t in_cells = 0;         ///< how many have one; these come first, cell by cell
-    std::vector<int> member_begin;    ///< of each cell: its first row
+    std::vector<int> parent;          ///< rows of the next level, of the rows that have a cell: these come first
+    std::size_t cells = 0;            ///< this rank's rows of the next level
     std::vector<float> rhs;
     std::vector<float> solution;
-
-    std::size_t cells() const { return member_begin.size() - 1; }
   };
 
   std::vector<int> order_rows(std::span<const std::uint64_t> cell, std::span<const double> total, Level& level);
   void take_rows(LinearSystem& system);
   Couplings couple(const LinearSystem& system, std::vector<int>& needed, std::span<const int> place) const;
-  std::vector<int> find_parents(Level& fine, Level& next) const;
+  std::vector<int> find_parents(Level& fine, Level& next, std::span<const int> rows) const;
   void add_next_level();
   void gather(Level& level) const;
   void invert_coarsest();
