@@ -252,6 +252,18 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   level.rhs.resize(rows);
   level.solution.resize(rows);
   levels_.push_back(std::move(level));
+  scale_.reserve(rows);
+  for (const int i : row_) scale_.push_back(static_cast<float>(system.scale(i)));
+}
+
+void CellMultigrid::follow(const LinearSystem& system) {
+  Matrix& matrix = levels_.front().matrix;
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    const auto scale = static_cast<float>(system.scale(row_[i]));
+    if (scale == scale_[i] || scale_[i] == 0.0F) continue;
+    for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) matrix.entries[k].weight *= scale / scale_[i];
+    scale_[i] = scale;
+  }
 }
 
 /// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, which it sorts. These are

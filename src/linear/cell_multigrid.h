@@ -31,6 +31,10 @@ class CellMultigrid {
   /// For a system with cells. Collective.
   explicit CellMultigrid(LinearSystem& system);
 
+  /// Takes over what LinearSystem::divide_diagonal has changed since. Only the first level follows, which is enough
+  /// for a few rows near the surface (docs/theory/linear.md).
+  void follow(const LinearSystem& system);
+
   /// correction = an approximation of A^-1 residual. Collective.
   void apply(std::span<const double> residual, std::span<double> correction);
 
@@ -112,7 +116,8 @@ class CellMultigrid {
   Communicator ranks_;
   int dimension_;
   bool constant_is_free_;
-  std::vector<int> row_;  ///< of the system, for each row of the first level
+  std::vector<int> row_;      ///< of the system, for each row of the first level
+  std::vector<float> scale_;  ///< of that row
   std::vector<Level> levels_;
   Eigen::MatrixXf coarsest_inverse_;
 };

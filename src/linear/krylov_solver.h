@@ -1,5 +1,5 @@
-// Solves a LinearSystem, by BiCGStab with SSOR of our own or by methods of PETSc, whose vectors share the system's
-// arrays.
+// Solves a LinearSystem, by BiCGStab with SSOR or Orthomin with multigrid of our own, or by methods of PETSc, whose
+// vectors share the system's arrays.
 #pragma once
 
 #include <memory>
