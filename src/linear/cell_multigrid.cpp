@@ -20,7 +20,7 @@ constexpr double least_share = 0.02;
 constexpr double over_correction = 1.8;
 
 /// Rows of the level that is solved directly.
-constexpr std::size_t coarsest_rows = 64;
+constexpr std::size_t coarsest_rows = 32;
 
 /// Levels with fewer rows than this are gathered on all ranks, which costs less than the messages of all coarser ones.
 constexpr std::int64_t gathered_rows = 4096;
