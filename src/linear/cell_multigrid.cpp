@@ -256,14 +256,17 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   for (const int i : row_) scale_.push_back(static_cast<float>(system.scale(i)));
 }
 
-void CellMultigrid::follow(const LinearSystem& system) {
+bool CellMultigrid::follow(const LinearSystem& system) {
+  bool has_changed = false;
   Matrix& matrix = levels_.front().matrix;
   for (std::size_t i = 0; i < row_.size(); ++i) {
     const auto scale = static_cast<float>(system.scale(row_[i]));
     if (scale == scale_[i] || scale_[i] == 0.0F) continue;
     for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) matrix.entries[k].weight *= scale / scale_[i];
     scale_[i] = scale;
+    has_changed = true;
   }
+  return has_changed;
 }
 
 /// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, which it sorts. These are
@@ -298,9 +301,9 @@ CellMultigrid::Couplings CellMultigrid::couple(const LinearSystem& system, std::
   return couplings;
 }
 
-/// Divides the rows of `fine`, of which `rows` are those with a cell, cell by cell, among the rows of `next`. Returns of
-/// each row and ghost its row there: a column of the next level, or that it has none. Ranks agree on the next level's
-/// ghosts without asking: they are the cells of this level's, each when it comes up first.
+/// Divides the rows of `fine`, of which `rows` are those with a cell, cell by cell, among the rows of `next`. Returns
+/// of each row and ghost its row there: a column of the next level, or that it has none. Ranks agree on the next
+/// level's ghosts without asking: they are the cells of this level's, each when it comes up first.
 std::vector<int> CellMultigrid::find_parents(Level& fine, Level& next, std::span<const int> rows) const {
   std::vector<int> parent(fine.matrix.size());
   for (std::size_t i = rows.size(); i < parent.size(); ++i) {

@@ -31,9 +31,9 @@ class CellMultigrid {
   /// For a system with cells. Collective.
   explicit CellMultigrid(LinearSystem& system);
 
-  /// Takes over what LinearSystem::divide_diagonal has changed since. Only the first level follows, which is enough
-  /// for a few rows near the surface (docs/theory/linear.md).
-  void follow(const LinearSystem& system);
+  /// Takes over what LinearSystem::divide_diagonal has changed since, and returns whether it did. Only the first level
+  /// follows, which is enough for a few rows near the surface (docs/theory/linear.md).
+  bool follow(const LinearSystem& system);
 
   /// correction = an approximation of A^-1 residual. Collective.
   void apply(std::span<const double> residual, std::span<double> correction);

@@ -87,16 +87,23 @@ void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vect
 /// Below this tolerance rounding may show in the residual that our own methods keep, and it is computed from x.
 constexpr double least_sure_tolerance = 1e-7;
 
-SystemTraits traits_of(const LinearSystem& system, double rows_deep) {
-  return {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free(), .has_cells = system.has_cells()};
+SystemTraits traits_of(const LinearSystem& system, SystemTraits water) {
+  water.constant_is_free = system.constant_is_free();
+  water.has_cells = system.has_cells();
+  return water;
 }
+
+/// Relative residual above which a multigrid that has followed its system is set up anew. To reach 1e-4 from there it
+/// would take three times as many iterations as a new one (docs/theory/linear.md#the-multigrid-on-cells).
+constexpr double most_to_follow = 0.1;
 
 enum class Implementation { swept_bicgstab, orthomin, petsc };
 
 /// Our own methods serve what the rule chooses. Options go to PETSc, and so do systems with a free constant and SSOR.
-Implementation implementation_for(const PressureSolverTable& settings, double rows_deep, const LinearSystem& system) {
+Implementation implementation_for(const PressureSolverTable& settings, const SystemTraits& water,
+                                  const LinearSystem& system) {
   if (!settings.petsc_options.empty()) return Implementation::petsc;
-  const SolverChoice choice = choose_solver(settings, traits_of(system, rows_deep));
+  const SolverChoice choice = choose_solver(settings, traits_of(system, water));
   if (choice.preconditioner == PreconditionerName::cell_multigrid) {
     return settings.method == KrylovMethod::automatic && system.has_cells() ? Implementation::orthomin
                                                                             : Implementation::petsc;
@@ -177,13 +184,13 @@ struct KrylovSolver::Petsc {
 
   /// Prepares for attempts. A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over
   /// from the old one, and a run that goes on from a checkpoint has no old one.
-  void take(LinearSystem& system, const PressureSolverTable& settings, double rows_deep) {
+  void take(LinearSystem& system, const PressureSolverTable& settings, const SystemTraits& water) {
     const bool pattern_is_new = take_matrix(system);
     const Communicator& ranks = system.ranks();
     if (ranks.any(pattern_is_new || solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
-      configure(solver.get(), settings, traits_of(system, rows_deep), ranks.is_alone());
+      configure(solver.get(), settings, traits_of(system, water), ranks.is_alone());
     }
     wrap_multigrid(system);
     // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
@@ -206,13 +213,13 @@ struct KrylovSolver::Petsc {
     return is_one;
   }
 
-  /// Our own multigrid for the system, set up if the pattern is new.
-  CellMultigrid& multigrid_for(LinearSystem& system) {
-    if (system.ranks().any(!multigrid || multigrid_number != system.pattern_number())) {
+  /// Our own multigrid for a solve that begins with this residual, set up if the pattern is new. Otherwise it follows
+  /// what has changed, unless that has brought back most of the residual: then a new one pays.
+  CellMultigrid& multigrid_for(LinearSystem& system, double residual) {
+    const bool is_new = !multigrid || multigrid_number != system.pattern_number();
+    if (system.ranks().any(is_new || (multigrid->follow(system) && residual > most_to_follow))) {
       multigrid.emplace(system);
       multigrid_number = system.pattern_number();
-    } else {
-      multigrid->follow(system);
     }
     return *multigrid;
   }
@@ -224,7 +231,7 @@ struct KrylovSolver::Petsc {
     check_petsc(KSPGetPC(solver.get(), &preconditioner));
     check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
     if (!is_ours || !system.has_cells()) return;
-    check_petsc(PCShellSetContext(preconditioner, &multigrid_for(system)));
+    check_petsc(PCShellSetContext(preconditioner, &multigrid_for(system, 0.0)));
     check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
   }
 
@@ -253,14 +260,15 @@ struct KrylovSolver::Petsc {
   }
 };
 
-KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep)
-    : settings_(settings), rows_deep_(rows_deep), petsc_(std::make_unique<Petsc>()) {
+KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep, int dimension)
+    : settings_(settings), water_{.rows_deep = rows_deep, .dimension = dimension}, petsc_(std::make_unique<Petsc>()) {
   take_petsc_options(settings_);
 }
 
 bool KrylovSolver::needs_cells() const {
-  const SolverChoice choice = choose_solver(settings_, {.rows_deep = rows_deep_, .has_cells = true});
-  return choice.preconditioner == PreconditionerName::cell_multigrid;
+  SystemTraits system = water_;
+  system.has_cells = true;
+  return choose_solver(settings_, system).preconditioner == PreconditionerName::cell_multigrid;
 }
 
 KrylovSolver::~KrylovSolver() = default;
@@ -295,8 +303,8 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   if (report.residual > hopeless_guess) begin_at_zero();
   if (report.residual <= tolerance_wanted) return report;
 
-  Implementation implementation = implementation_for(settings_, rows_deep_, system);
-  if (implementation == Implementation::petsc) petsc_->take(system, settings_, rows_deep_);
+  Implementation implementation = implementation_for(settings_, water_, system);
+  if (implementation == Implementation::petsc) petsc_->take(system, settings_, water_);
   double tolerance = tolerance_wanted;
   const auto attempt_once = [&] {
     const double target = tolerance * rhs_norm;
@@ -305,7 +313,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
       case Implementation::swept_bicgstab:
         return attempt_of(SweptBicgstab(system).solve(residual, target, most_iterations, solution), target);
       case Implementation::orthomin: {
-        Orthomin method(system, petsc_->multigrid_for(system));
+        Orthomin method(system, petsc_->multigrid_for(system, report.residual));
         return attempt_of(method.solve(residual, target, most_iterations, solution), target);
       }
       case Implementation::petsc:
@@ -329,7 +337,7 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
       tolerance *= 0.5 * tolerance_wanted / report.residual;
     } else if (is_breakdown(attempt.reason) && report.restarts == 0) {
       ++report.restarts;
-      if (implementation != Implementation::petsc) petsc_->take(system, settings_, rows_deep_);
+      if (implementation != Implementation::petsc) petsc_->take(system, settings_, water_);
       implementation = Implementation::petsc;
       petsc_->change_method();
       begin_at_zero();

@@ -15,8 +15,8 @@ class SweptBicgstab {
  public:
   explicit SweptBicgstab(const LinearSystem& system) : system_(system), sweeps_(system) {}
 
-  /// Improves x, whose b - A x is `residual`, until its norm is `target` or less, or for so many iterations. Breaks down
-  /// where it would divide by a number that happens to vanish, or where the residual explodes. Collective.
+  /// Improves x, whose b - A x is `residual`, until its norm is `target` or less, or for so many iterations. Breaks
+  /// down where it would divide by a number that happens to vanish, or where the residual explodes. Collective.
   KrylovOutcome solve(std::span<const double> residual, double target, int most_iterations, std::span<double> x);
 
  private:
