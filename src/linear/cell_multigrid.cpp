@@ -74,7 +74,7 @@ std::span<const float> weights_of(const LinearSystem::Part& part, int i) {
 }
 
 /// Four partial sums, so that an addition need not wait for the one before it.
-double sum_of(std::span<const float> weights) {
+double sum_of_weights(std::span<const float> weights) {
   std::array<double, 4> partial{};
   std::size_t k = 0;
   for (; k + 4 <= weights.size(); k += 4) {
@@ -203,7 +203,7 @@ void CellMultigrid::take_rows(LinearSystem& system) {
     if (system.scale(i) == 0.0) continue;
     std::size_t length = 0;
     for (const LinearSystem::Part* part : parts) {
-      total[i] += sum_of(weights_of(*part, i));
+      total[i] += sum_of_weights(weights_of(*part, i));
       length += part->begin[i + 1] - part->begin[i];
     }
     const auto least = static_cast<float>(least_share * total[i]);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/fp_traps.h"
 #include "linear/cell_multigrid.h"
+#include "linear/dot.h"
 #include "linear/orthomin.h"
 #include "linear/petsc_rows.h"
 #include "linear/petsc_solver.h"
@@ -137,7 +138,7 @@ std::vector<double> residual_of(const LinearSystem& system, std::span<const doub
 }
 
 double norm_of(const Communicator& ranks, std::span<const double> x) {
-  return std::sqrt(ranks.sum(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)));
+  return std::sqrt(ranks.sum(dot(x, x)));
 }
 
 /// An attempt by a method of our own.

@@ -1,8 +1,9 @@
 #include "linear/orthomin.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "linear/dot.h"
 
 namespace tailwater {
 namespace {
@@ -13,10 +14,6 @@ constexpr int patience = 10;
 
 /// Directions that are kept. With two, systems whose first directions make the residual hardly smaller get stuck.
 constexpr std::size_t most_kept = 5;
-
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 }  // namespace
 

@@ -1,18 +1,14 @@
 #include "linear/swept_bicgstab.h"
 
 #include <cmath>
-#include <numeric>
+
+#include "linear/dot.h"
 
 namespace tailwater {
 namespace {
 
 /// A residual so many times that of the start will not come down again.
 constexpr double explosion = 1e5;
-
-/// Of the entries of this rank.
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 }  // namespace
 
