@@ -137,9 +137,7 @@ std::vector<double> residual_of(const LinearSystem& system, std::span<const doub
   return residual;
 }
 
-double norm_of(const Communicator& ranks, std::span<const double> x) {
-  return std::sqrt(ranks.sum(dot(x, x)));
-}
+double norm_of(const Communicator& ranks, std::span<const double> x) { return std::sqrt(ranks.sum(dot(x, x))); }
 
 /// An attempt by a method of our own.
 Attempt attempt_of(KrylovOutcome outcome, double target) {

@@ -8,8 +8,8 @@
 namespace tailwater {
 namespace {
 
-/// So many iterations must halve the residual. A cycle of multigrid takes nine tenths of it, so less means that two
-/// directions do not do for this system.
+/// So many iterations must halve the residual. A cycle of multigrid takes most of it, so less means that the
+/// directions that are kept do not do for this system.
 constexpr int patience = 10;
 
 /// Directions that are kept. With two, systems whose first directions make the residual hardly smaller get stuck.
