@@ -15,7 +15,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/tailwater"
-SOLVERS = [("bicgstab", "ssor"), ("fgmres", "cell-multigrid"), ("gmres", "boomeramg")]
+SOLVERS = [("bicgstab", "ssor"), ("auto", "cell-multigrid"), ("gmres", "boomeramg")]
 STEPS = 20
 COURANT = 0.25
 DX_3D = 0.01  # m

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,7 +20,7 @@ constexpr double least_share = 0.02;
 constexpr double over_correction = 1.8;
 
 /// Rows of the level that is solved directly.
-constexpr std::size_t coarsest_rows = 64;
+constexpr std::size_t coarsest_rows = 32;
 
 /// Levels with fewer rows than this are gathered on all ranks, which costs less than the messages of all coarser ones.
 constexpr std::int64_t gathered_rows = 4096;
@@ -67,6 +68,50 @@ class RowSum {
   std::vector<double> values_;
 };
 
+/// The weights of row i in a part.
+std::span<const float> weights_of(const LinearSystem::Part& part, int i) {
+  return {part.weight.data() + part.begin[i], part.weight.data() + part.begin[i + 1]};
+}
+
+/// Four partial sums, so that an addition need not wait for the one before it.
+double sum_of_weights(std::span<const float> weights) {
+  std::array<double, 4> partial{};
+  std::size_t k = 0;
+  for (; k + 4 <= weights.size(); k += 4) {
+    for (std::size_t lane = 0; lane < 4; ++lane) partial[lane] += weights[k + lane];
+  }
+  for (; k < weights.size(); ++k) partial[0] += weights[k];
+  return (partial[0] + partial[1]) + (partial[2] + partial[3]);
+}
+
+std::size_t count_from(float least, std::span<const float> weights) {
+  unsigned count = 0;
+  for (const float weight : weights) count += weight >= least ? 1 : 0;
+  return count;
+}
+
+/// The rows cell by cell. Sorts by some bits at a time, the lowest first, and passes over bits in
+/// which all cells agree.
+std::vector<int> rows_by_cell(std::span<const std::uint64_t> cell) {
+  constexpr int bits = 8;
+  constexpr std::uint64_t mask = (1U << bits) - 1;
+  std::vector<int> rows(cell.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  if (std::is_sorted(cell.begin(), cell.end())) return rows;
+  std::uint64_t differs = 0;
+  for (const std::uint64_t number : cell) differs |= number ^ cell.front();
+  std::vector<int> sorted(rows.size());
+  for (int shift = 0; shift < 64; shift += bits) {
+    if ((differs >> shift & mask) == 0) continue;
+    std::array<std::size_t, mask + 2> begin{};
+    for (const int i : rows) ++begin[(cell[i] >> shift & mask) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (const int i : rows) sorted[begin[cell[i] >> shift & mask]++] = i;
+    rows.swap(sorted);
+  }
+  return rows;
+}
+
 /// Plan by which each rank gets the entries of all, by rank.
 ExchangePlan gather_on_all(const Communicator& ranks, std::size_t count) {
   std::vector<std::int32_t> entries(count);
@@ -96,13 +141,18 @@ void CellMultigrid::Matrix::reserve(std::size_t rows, std::size_t entries_of_all
 
 void CellMultigrid::Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
   const auto i = static_cast<int>(size());
+  const std::size_t first = entries.size();
+  entries.resize(first + row.size());
+  Entry* next = entries.data() + first;
+  // Each entry is written where the next one of its side belongs, and stays if it is of that side.
   for (const Entry& entry : row) {
-    if (entry.column < i) entries.push_back(entry);
+    if (entry.column < i) *next++ = entry;
   }
-  middle.push_back(static_cast<int>(entries.size()));
+  middle.push_back(static_cast<int>(next - entries.data()));
   for (const Entry& entry : row) {
-    if (entry.column > i) entries.push_back(entry);
+    if (entry.column > i) *next++ = entry;
   }
+  entries.resize(next - entries.data());
   begin.push_back(static_cast<int>(entries.size()));
   diagonal.push_back(static_cast<float>(diagonal_of_row));
   inverse.push_back(diagonal_of_row > 0.0 ? static_cast<float>(1.0 / diagonal_of_row) : 0.0F);
@@ -118,26 +168,19 @@ CellMultigrid::CellMultigrid(LinearSystem& system)
   invert_coarsest();
 }
 
-/// Puts the system's rows in order: cell by cell, then those without a cell or without weights, whose sums are `total`.
-/// Returns the place of each row.
+/// Puts the system's rows in order: those that have a cell, then those without one or without weights, whose sums are
+/// `total`. Returns the place of each row.
 std::vector<int> CellMultigrid::order_rows(std::span<const std::uint64_t> cell, std::span<const double> total,
                                            Level& level) {
-  struct Row {
-    std::uint64_t cell;
-    int number;
-    auto operator<=>(const Row&) const = default;
-  };
-  std::vector<Row> order;
-  order.reserve(total.size());
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    order.push_back({total[i] > 0.0 ? cell[i] : Cells::none, static_cast<int>(i)});
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<int> place(order.size());
-  for (const Row& row : order) {
-    place[row.number] = static_cast<int>(row_.size());
-    row_.push_back(row.number);
-    if (row.cell != Cells::none) level.cell.push_back(row.cell);
+  std::vector<int> place(cell.size());
+  row_.reserve(cell.size());
+  for (const bool in_cells : {true, false}) {
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      if ((total[i] > 0.0 && cell[i] != Cells::none) != in_cells) continue;
+      place[i] = static_cast<int>(row_.size());
+      row_.push_back(static_cast<int>(i));
+      if (in_cells) level.cell.push_back(cell[i]);
+    }
   }
   return place;
 }
@@ -152,20 +195,20 @@ void CellMultigrid::take_rows(LinearSystem& system) {
     const std::int64_t own = number - system.first_number();
     return own >= 0 && own < rows ? static_cast<int>(own) : rows + static_cast<int>(number);
   };
-  // Calls body(column, weight).
-  const auto for_each_weight = [&](int i, auto&& body) {
-    for (const LinearSystem::Part* part : {&system.before(), &system.behind(), &system.ghosts()}) {
-      for (std::size_t k = part->begin[i]; k < part->begin[i + 1]; ++k)
-        body(column_of(part->column[k]), system.scale(i) * part->weight[k]);
-    }
-  };
-  std::vector<double> total(rows);  // of the weights
+  const std::array parts{&system.before(), &system.behind(), &system.ghosts()};
+  std::vector<double> total(rows);  // of the weights, before scaling; 0 for rows x_i = 0
   std::size_t large = 0;
+  std::size_t longest = 0;
   for (int i = 0; i < rows; ++i) {
-    double sum = 0.0;
-    for_each_weight(i, [&](int, double weight) { sum += weight; });
-    total[i] = sum;
-    if (sum > 0.0) for_each_weight(i, [&](int, double weight) { large += weight >= least_share * sum; });
+    if (system.scale(i) == 0.0) continue;
+    std::size_t length = 0;
+    for (const LinearSystem::Part* part : parts) {
+      total[i] += sum_of_weights(weights_of(*part, i));
+      length += part->begin[i + 1] - part->begin[i];
+    }
+    const auto least = static_cast<float>(least_share * total[i]);
+    for (const LinearSystem::Part* part : parts) large += count_from(least, weights_of(*part, i));
+    longest = std::max(longest, length);
   }
 
   Level level;
@@ -173,25 +216,30 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   const std::vector<int> place = order_rows(system.cells().number, total, level);
   level.matrix.reserve(rows, large);
   std::vector<int> needed;  // of other ranks
-  std::vector<Entry> kept;
+  std::vector<Entry> kept(longest + 1);
   for (const int i : row_) {
-    kept.clear();
-    double sum = 0.0;
-    const auto keep_from = [&](double least) {
-      for_each_weight(i, [&](int column, double weight) {
-        if (weight < least) return;
-        sum += weight;
-        if (column >= rows) needed.push_back(column - rows);
-        kept.push_back({column < rows ? place[column] : column, static_cast<float>(weight)});
-      });
+    std::size_t count = 0;
+    const auto keep_from = [&](float least) {
+      for (const LinearSystem::Part* part : parts) {
+        for (std::size_t k = part->begin[i]; k < part->begin[i + 1]; ++k) {
+          kept[count] = {part->column[k], part->weight[k]};  // the next one's place, unless it is kept
+          count += part->weight[k] >= least;
+        }
+      }
     };
     if (total[i] > 0.0) {
-      keep_from(least_share * total[i]);
-      if (kept.empty()) keep_from(std::numeric_limits<double>::min());  // many weights, all of them small
-      const auto raise = static_cast<float>(total[i] / sum);
-      for (Entry& entry : kept) entry.weight *= raise;
+      keep_from(static_cast<float>(least_share * total[i]));
+      if (count == 0) keep_from(std::numeric_limits<float>::min());  // many weights, all of them small
+      double sum = 0.0;
+      for (std::size_t k = 0; k < count; ++k) sum += kept[k].weight;
+      const auto raise = static_cast<float>(system.scale(i) * total[i] / sum);
+      for (std::size_t k = 0; k < count; ++k) {
+        const int column = column_of(kept[k].column);
+        if (column >= rows) needed.push_back(column - rows);
+        kept[k] = {column < rows ? place[column] : column, raise * kept[k].weight};
+      }
     }
-    level.matrix.add_row(kept, 1.0);
+    level.matrix.add_row(std::span(kept).first(count), 1.0);
   }
   if (!ranks_.is_alone()) {
     level.couplings = couple(system, needed, place);
@@ -204,6 +252,21 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   level.rhs.resize(rows);
   level.solution.resize(rows);
   levels_.push_back(std::move(level));
+  scale_.reserve(rows);
+  for (const int i : row_) scale_.push_back(static_cast<float>(system.scale(i)));
+}
+
+bool CellMultigrid::follow(const LinearSystem& system) {
+  bool has_changed = false;
+  Matrix& matrix = levels_.front().matrix;
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    const auto scale = static_cast<float>(system.scale(row_[i]));
+    if (scale == scale_[i] || scale_[i] == 0.0F) continue;
+    for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) matrix.entries[k].weight *= scale / scale_[i];
+    scale_[i] = scale;
+    has_changed = true;
+  }
+  return has_changed;
 }
 
 /// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, which it sorts. These are
@@ -238,24 +301,21 @@ CellMultigrid::Couplings CellMultigrid::couple(const LinearSystem& system, std::
   return couplings;
 }
 
-/// Divides the rows of `fine` among cells, the rows of `next`. Returns the cell of each row and ghost: a column of the
-/// next level, or that it has none. Ranks agree on the next level's ghosts without asking: they are the cells of this
-/// level's, each when it comes up first.
-std::vector<int> CellMultigrid::find_parents(Level& fine, Level& next) const {
+/// Divides the rows of `fine`, of which `rows` are those with a cell, cell by cell, among the rows of `next`. Returns
+/// of each row and ghost its row there: a column of the next level, or that it has none. Ranks agree on the next
+/// level's ghosts without asking: they are the cells of this level's, each when it comes up first.
+std::vector<int> CellMultigrid::find_parents(Level& fine, Level& next, std::span<const int> rows) const {
   std::vector<int> parent(fine.matrix.size());
-  fine.in_cells = fine.cell.size();
-  for (std::size_t i = 0; i < parent.size(); ++i) {
-    if (i >= fine.cell.size()) {
-      parent[i] = fine.matrix.row(i).empty() ? stands_for_itself : follows;
-      continue;
-    }
-    if (i == 0 || fine.cell[i] != fine.cell[i - 1]) {
-      fine.member_begin.push_back(static_cast<int>(i));
-      next.cell.push_back(fine.cell[i] >> dimension_);
-    }
-    parent[i] = static_cast<int>(fine.member_begin.size()) - 1;
+  for (std::size_t i = rows.size(); i < parent.size(); ++i) {
+    parent[i] = fine.matrix.row(i).empty() ? stands_for_itself : follows;
   }
-  fine.member_begin.push_back(static_cast<int>(fine.cell.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::uint64_t cell = fine.cell[rows[k]];
+    if (k == 0 || cell != fine.cell[rows[k - 1]]) next.cell.push_back(cell >> dimension_);
+    parent[rows[k]] = static_cast<int>(next.cell.size()) - 1;
+  }
+  fine.cells = next.cell.size();
+  fine.parent.assign(parent.begin(), parent.begin() + static_cast<std::ptrdiff_t>(rows.size()));
   if (fine.is_whole) return parent;
 
   fine.couplings.plan.exchange(parent);
@@ -290,12 +350,13 @@ void CellMultigrid::add_next_level() {
   Level& fine = levels_.back();
   Level next;
   next.is_whole = fine.is_whole;
-  const std::vector<int> parent = find_parents(fine, next);
+  const std::vector<int> rows = rows_by_cell(fine.cell);
+  const std::vector<int> parent = find_parents(fine, next, rows);
   const Matrix& matrix = fine.matrix;
   const std::size_t columns = next.cell.size() + next.couplings.plan.ghosts();
 
   // Rows that follow from others: the cells whose corrections reach them, and with which shares.
-  const std::size_t first_without = fine.cell.size();
+  const std::size_t first_without = rows.size();
   std::vector<std::size_t> shares_begin{0};
   std::vector<Entry> shares;
   RowSum sum(columns);
@@ -321,10 +382,11 @@ void CellMultigrid::add_next_level() {
     }
   };
   std::vector<Entry> row;
+  auto next_row = rows.begin();
   for (int cell = 0; cell < static_cast<int>(next.cell.size()); ++cell) {
-    for (int i = fine.member_begin[cell]; i < fine.member_begin[cell + 1]; ++i) {
-      sum.add(cell, matrix.diagonal[i]);
-      for (const Entry& entry : matrix.row(i)) add(cell, entry);
+    for (; next_row != rows.end() && parent[*next_row] == cell; ++next_row) {
+      sum.add(cell, matrix.diagonal[*next_row]);
+      for (const Entry& entry : matrix.row(*next_row)) add(cell, entry);
     }
     double diagonal = 0.0;
     row.clear();
@@ -441,7 +503,7 @@ void CellMultigrid::cycle(std::size_t k) {
   correct_by_next(k);
   if (!level.is_whole) level.couplings.plan.exchange(x);
   for (std::size_t i = matrix.size(); i-- > 0;) relax(i);
-  for (std::size_t i = level.in_cells; i < matrix.size(); ++i) relax(i);
+  for (std::size_t i = level.parent.size(); i < matrix.size(); ++i) relax(i);
 }
 
 /// Adds to the solution of level k, after its first sweep, a correction from the next level.
@@ -450,13 +512,9 @@ void CellMultigrid::correct_by_next(std::size_t k) {
   Level& next = levels_[k + 1];
   std::vector<float>& x = level.solution;
   if (!level.is_whole) level.couplings.plan.exchange(x);
-  std::vector<float> part(level.cells());
-  for (std::size_t cell = 0; cell < part.size(); ++cell) {
-    float residual = 0.0F;  // the sweep has left over what is right of the diagonal
-    for (int i = level.member_begin[cell]; i < level.member_begin[cell + 1]; ++i) {
-      residual += level.matrix.sum_right(i, x);
-    }
-    part[cell] = residual;
+  std::vector<float> part(level.cells, 0.0F);
+  for (std::size_t i = 0; i < level.parent.size(); ++i) {
+    part[level.parent[i]] += level.matrix.sum_right(i, x);  // the sweep has left over what is right of the diagonal
   }
   if (next.gathering) {
     const std::vector<float> all = gathered(next.gathering->plan, std::move(part));
@@ -479,9 +537,9 @@ void CellMultigrid::correct_by_next(std::size_t k) {
   }
 
   const int* row = next.gathering ? next.gathering->row.data() + next.gathering->first_own : nullptr;
-  for (std::size_t cell = 0; cell < level.cells(); ++cell) {
-    const float correction = next.solution[row == nullptr ? cell : row[cell]];
-    for (int i = level.member_begin[cell]; i < level.member_begin[cell + 1]; ++i) x[i] += correction;
+  for (std::size_t i = 0; i < level.parent.size(); ++i) {
+    const int cell = level.parent[i];
+    x[i] += next.solution[row == nullptr ? cell : row[cell]];
   }
 }
 

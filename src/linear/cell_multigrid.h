@@ -31,6 +31,10 @@ class CellMultigrid {
   /// For a system with cells. Collective.
   explicit CellMultigrid(LinearSystem& system);
 
+  /// Takes over what LinearSystem::divide_diagonal has changed since, and returns whether it did. Only the first level
+  /// follows, which is enough for a few rows near the surface (docs/theory/linear.md).
+  bool follow(const LinearSystem& system);
+
   /// correction = an approximation of A^-1 residual. Collective.
   void apply(std::span<const double> residual, std::span<double> correction);
 
@@ -92,18 +96,16 @@ class CellMultigrid {
     std::optional<Gathering> gathering;
     bool is_whole = false;            ///< this rank has all rows
     std::vector<std::uint64_t> cell;  ///< on the next level, of the rows that have one; forgotten once that is made
-    std::size_t in_cells = 0;         ///< how many have one; these come first, cell by cell
-    std::vector<int> member_begin;    ///< of each cell: its first row
+    std::vector<int> parent;          ///< rows of the next level, of the rows that have a cell: these come first
+    std::size_t cells = 0;            ///< this rank's rows of the next level
     std::vector<float> rhs;
     std::vector<float> solution;
-
-    std::size_t cells() const { return member_begin.size() - 1; }
   };
 
   std::vector<int> order_rows(std::span<const std::uint64_t> cell, std::span<const double> total, Level& level);
   void take_rows(LinearSystem& system);
   Couplings couple(const LinearSystem& system, std::vector<int>& needed, std::span<const int> place) const;
-  std::vector<int> find_parents(Level& fine, Level& next) const;
+  std::vector<int> find_parents(Level& fine, Level& next, std::span<const int> rows) const;
   void add_next_level();
   void gather(Level& level) const;
   void invert_coarsest();
@@ -114,7 +116,8 @@ class CellMultigrid {
   Communicator ranks_;
   int dimension_;
   bool constant_is_free_;
-  std::vector<int> row_;  ///< of the system, for each row of the first level
+  std::vector<int> row_;      ///< of the system, for each row of the first level
+  std::vector<float> scale_;  ///< of that row
   std::vector<Level> levels_;
   Eigen::MatrixXf coarsest_inverse_;
 };

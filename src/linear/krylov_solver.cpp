@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/fp_traps.h"
 #include "linear/cell_multigrid.h"
+#include "linear/dot.h"
+#include "linear/orthomin.h"
 #include "linear/petsc_rows.h"
 #include "linear/petsc_solver.h"
 #include "linear/swept_bicgstab.h"
@@ -83,18 +85,32 @@ void wrap(const Communicator& ranks, std::span<double> values, PetscVector& vect
                   : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
 }
 
-/// Below this tolerance rounding may show in the residual that our BiCGStab keeps, and it is computed from x.
+/// Below this tolerance rounding may show in the residual that our own methods keep, and it is computed from x.
 constexpr double least_sure_tolerance = 1e-7;
 
-SystemTraits traits_of(const LinearSystem& system, double rows_deep) {
-  return {.rows_deep = rows_deep, .constant_is_free = system.constant_is_free(), .has_cells = system.has_cells()};
+SystemTraits traits_of(const LinearSystem& system, SystemTraits water) {
+  water.constant_is_free = system.constant_is_free();
+  water.has_cells = system.has_cells();
+  return water;
 }
 
-/// Whether our own BiCGStab is asked for. Options go to PETSc's, and so do systems with a free constant.
-bool can_be_swept(const PressureSolverTable& settings, double rows_deep, const LinearSystem& system) {
-  const SolverChoice choice = choose_solver(settings, traits_of(system, rows_deep));
-  return choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor &&
-         settings.petsc_options.empty() && !system.constant_is_free();
+/// Relative residual above which a multigrid that has followed its system is set up anew. To reach 1e-4 from there it
+/// would take three times as many iterations as a new one (docs/theory/linear.md#the-multigrid-on-cells).
+constexpr double most_to_follow = 0.1;
+
+enum class Implementation { swept_bicgstab, orthomin, petsc };
+
+/// Our own methods serve what the rule chooses. Options go to PETSc, and so do systems with a free constant and SSOR.
+Implementation implementation_for(const PressureSolverTable& settings, const SystemTraits& water,
+                                  const LinearSystem& system) {
+  if (!settings.petsc_options.empty()) return Implementation::petsc;
+  const SolverChoice choice = choose_solver(settings, traits_of(system, water));
+  if (choice.preconditioner == PreconditionerName::cell_multigrid) {
+    return settings.method == KrylovMethod::automatic && system.has_cells() ? Implementation::orthomin
+                                                                            : Implementation::petsc;
+  }
+  const bool is_swept = choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor;
+  return is_swept && !system.constant_is_free() ? Implementation::swept_bicgstab : Implementation::petsc;
 }
 
 /// One run of a Krylov method.
@@ -121,16 +137,11 @@ std::vector<double> residual_of(const LinearSystem& system, std::span<const doub
   return residual;
 }
 
-double norm_of(const Communicator& ranks, std::span<const double> x) {
-  return std::sqrt(ranks.sum(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)));
-}
+double norm_of(const Communicator& ranks, std::span<const double> x) { return std::sqrt(ranks.sum(dot(x, x))); }
 
-/// Our own BiCGStab with SSOR.
-Attempt attempt_by_sweeps(const LinearSystem& system, std::span<const double> residual, double target,
-                          int most_iterations, std::span<double> x) {
-  SweptBicgstab method(system);
-  const SweptBicgstab::Outcome outcome = method.solve(residual, target, most_iterations, x);
-  Attempt attempt{.iterations = outcome.iterations, .history = method.history()};
+/// An attempt by a method of our own.
+Attempt attempt_of(KrylovOutcome outcome, double target) {
+  Attempt attempt{.iterations = outcome.iterations, .history = std::move(outcome.history)};
   if (outcome.broke_down) {
     attempt.reason = KSP_DIVERGED_BREAKDOWN;
   } else {
@@ -142,7 +153,7 @@ Attempt attempt_by_sweeps(const LinearSystem& system, std::span<const double> re
 
 }  // namespace
 
-/// PETSc's objects, and the system they belong to.
+/// PETSc's objects and the multigrid, and the system they belong to.
 struct KrylovSolver::Petsc {
   PetscMatrix matrix;  ///< a shell around the system
   PetscRows rows;      ///< only for preconditioners that need them
@@ -152,6 +163,7 @@ struct KrylovSolver::Petsc {
   PetscNullSpace constants;
   std::optional<CellMultigrid> multigrid;
   std::uint64_t pattern_number = 0;        ///< of the matrix
+  std::uint64_t multigrid_number = 0;      ///< of the pattern for which the multigrid was set up
   std::optional<std::size_t> solver_size;  ///< rows of this rank; none after a restart with another method
 
   /// Returns whether the pattern is new.
@@ -171,15 +183,15 @@ struct KrylovSolver::Petsc {
 
   /// Prepares for attempts. A solver is made anew for a new pattern: multigrid would carry bounds of the spectrum over
   /// from the old one, and a run that goes on from a checkpoint has no old one.
-  void take(LinearSystem& system, const PressureSolverTable& settings, double rows_deep) {
+  void take(LinearSystem& system, const PressureSolverTable& settings, const SystemTraits& water) {
     const bool pattern_is_new = take_matrix(system);
     const Communicator& ranks = system.ranks();
     if (ranks.any(pattern_is_new || solver_size != system.size())) {
       check_petsc(KSPCreate(ranks.handle(), solver.create()));
       solver_size = system.size();
-      configure(solver.get(), settings, traits_of(system, rows_deep), ranks.is_alone());
-      take_multigrid(system);
+      configure(solver.get(), settings, traits_of(system, water), ranks.is_alone());
     }
+    wrap_multigrid(system);
     // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
     check_petsc(KSPSetReusePreconditioner(solver.get(), pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
     if (is_ours()) {
@@ -200,15 +212,25 @@ struct KrylovSolver::Petsc {
     return is_one;
   }
 
-  /// Sets up our own multigrid if the solver has it.
-  void take_multigrid(LinearSystem& system) {
+  /// Our own multigrid for a solve that begins with this residual, set up if the pattern is new. Otherwise it follows
+  /// what has changed, unless that has brought back most of the residual: then a new one pays.
+  CellMultigrid& multigrid_for(LinearSystem& system, double residual) {
+    const bool is_new = !multigrid || multigrid_number != system.pattern_number();
+    if (system.ranks().any(is_new || (multigrid->follow(system) && residual > most_to_follow))) {
+      multigrid.emplace(system);
+      multigrid_number = system.pattern_number();
+    }
+    return *multigrid;
+  }
+
+  /// Gives our own multigrid to PETSc's solver if that is to have it.
+  void wrap_multigrid(LinearSystem& system) {
     PC preconditioner = nullptr;
     PetscBool is_ours = PETSC_FALSE;
     check_petsc(KSPGetPC(solver.get(), &preconditioner));
     check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
     if (!is_ours || !system.has_cells()) return;
-    multigrid.emplace(system);
-    check_petsc(PCShellSetContext(preconditioner, &*multigrid));
+    check_petsc(PCShellSetContext(preconditioner, &multigrid_for(system, 0.0)));
     check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
   }
 
@@ -237,14 +259,15 @@ struct KrylovSolver::Petsc {
   }
 };
 
-KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep)
-    : settings_(settings), rows_deep_(rows_deep), petsc_(std::make_unique<Petsc>()) {
+KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep, int dimension)
+    : settings_(settings), water_{.rows_deep = rows_deep, .dimension = dimension}, petsc_(std::make_unique<Petsc>()) {
   take_petsc_options(settings_);
 }
 
 bool KrylovSolver::needs_cells() const {
-  const SolverChoice choice = choose_solver(settings_, {.rows_deep = rows_deep_, .has_cells = true});
-  return choice.preconditioner == PreconditionerName::cell_multigrid;
+  SystemTraits system = water_;
+  system.has_cells = true;
+  return choose_solver(settings_, system).preconditioner == PreconditionerName::cell_multigrid;
 }
 
 KrylovSolver::~KrylovSolver() = default;
@@ -279,14 +302,27 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   if (report.residual > hopeless_guess) begin_at_zero();
   if (report.residual <= tolerance_wanted) return report;
 
-  bool is_swept = can_be_swept(settings_, rows_deep_, system);
-  if (!is_swept) petsc_->take(system, settings_, rows_deep_);
+  Implementation implementation = implementation_for(settings_, water_, system);
+  if (implementation == Implementation::petsc) petsc_->take(system, settings_, water_);
   double tolerance = tolerance_wanted;
+  const auto attempt_once = [&] {
+    const double target = tolerance * rhs_norm;
+    const int most_iterations = settings_.max_iterations - report.iterations;
+    switch (implementation) {
+      case Implementation::swept_bicgstab:
+        return attempt_of(SweptBicgstab(system).solve(residual, target, most_iterations, solution), target);
+      case Implementation::orthomin: {
+        Orthomin method(system, petsc_->multigrid_for(system, report.residual));
+        return attempt_of(method.solve(residual, target, most_iterations, solution), target);
+      }
+      case Implementation::petsc:
+        break;
+    }
+    return petsc_->attempt(system, tolerance, solution);
+  };
   while (report.residual > tolerance_wanted) {
     const double residual_before = report.residual;
-    const Attempt attempt = is_swept ? attempt_by_sweeps(system, residual, tolerance * rhs_norm,
-                                                         settings_.max_iterations - report.iterations, solution)
-                                     : petsc_->attempt(system, tolerance, solution);
+    const Attempt attempt = attempt_once();
     report.iterations += attempt.iterations;
     if (attempt.residual && tolerance_wanted >= least_sure_tolerance) {
       report.residual = *attempt.residual / rhs_norm;
@@ -295,12 +331,13 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
       report.residual = norm_of(ranks, residual) / rhs_norm;
     }
     if (attempt.reason > 0) {
-      // PETSc measures the preconditioned residual. If that made it stop too early, it continues from there.
+      // PETSc measures the preconditioned residual. If that, or rounding, made it stop too early, it continues from
+      // there.
       tolerance *= 0.5 * tolerance_wanted / report.residual;
     } else if (is_breakdown(attempt.reason) && report.restarts == 0) {
       ++report.restarts;
-      if (is_swept) petsc_->take(system, settings_, rows_deep_);
-      is_swept = false;
+      if (implementation != Implementation::petsc) petsc_->take(system, settings_, water_);
+      implementation = Implementation::petsc;
       petsc_->change_method();
       begin_at_zero();
     } else {

@@ -1,5 +1,5 @@
-// Solves a LinearSystem, by BiCGStab with SSOR of our own or by methods of PETSc, whose vectors share the system's
-// arrays.
+// Solves a LinearSystem, by BiCGStab with SSOR or Orthomin with multigrid of our own, or by methods of PETSc, whose
+// vectors share the system's arrays.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 
 #include "case/spec.h"
 #include "linear/linear_system.h"
+#include "linear/solver_choice.h"
 
 namespace tailwater {
 
@@ -21,7 +22,7 @@ class KrylovSolver {
  public:
   /// For water so many rows of particles deep, by which `auto` chooses. Throws InputError for petsc_options that PETSc
   /// does not know.
-  explicit KrylovSolver(const PressureSolverTable& settings, double rows_deep = 0.0);
+  explicit KrylovSolver(const PressureSolverTable& settings, double rows_deep = 0.0, int dimension = 2);
   ~KrylovSolver();
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
@@ -46,7 +47,7 @@ class KrylovSolver {
   struct Petsc;
 
   PressureSolverTable settings_;
-  double rows_deep_;
+  SystemTraits water_;  ///< what is known of every system
   std::unique_ptr<Petsc> petsc_;
 };
 

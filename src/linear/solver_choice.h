@@ -9,7 +9,8 @@ namespace tailwater {
 
 /// What the rule knows about a system.
 struct SystemTraits {
-  double rows_deep = 0.0;         ///< how many particles lie between the surface and the bottom
+  double rows_deep = 0.0;  ///< how many particles lie between the surface and the bottom
+  int dimension = 2;
   bool constant_is_free = false;  ///< only differences are determined
   bool has_cells = false;         ///< as the multigrid on cells needs
 };

@@ -1,7 +1,8 @@
 #include "linear/swept_bicgstab.h"
 
 #include <cmath>
-#include <numeric>
+
+#include "linear/dot.h"
 
 namespace tailwater {
 namespace {
@@ -9,15 +10,10 @@ namespace {
 /// A residual so many times that of the start will not come down again.
 constexpr double explosion = 1e5;
 
-/// Of the entries of this rank.
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
 }  // namespace
 
-SweptBicgstab::Outcome SweptBicgstab::solve(std::span<const double> residual, double target, int most_iterations,
-                                            std::span<double> x) {
+KrylovOutcome SweptBicgstab::solve(std::span<const double> residual, double target, int most_iterations,
+                                   std::span<double> x) {
   const Communicator& ranks = system_.ranks();
   const std::size_t size = x.size();
   first_.resize(size);
@@ -33,8 +29,9 @@ SweptBicgstab::Outcome SweptBicgstab::solve(std::span<const double> residual, do
   ranks.sum_each(square, rho);
   const double start = std::sqrt(rho);
   double ratio = std::sqrt(square) / start;  // of residuals before and after preconditioning
-  Outcome outcome{.residual = std::sqrt(square)};
-  history_.assign(1, outcome.residual);
+  KrylovOutcome outcome;
+  outcome.residual = std::sqrt(square);
+  outcome.history.push_back(outcome.residual);  // the others are estimated from the preconditioned residual
 
   while (outcome.residual > target && outcome.iterations < most_iterations) {
     sweeps_.eisenstat(ssor_factor, direction_, image_);
@@ -65,7 +62,7 @@ SweptBicgstab::Outcome SweptBicgstab::solve(std::span<const double> residual, do
       outcome.residual = std::sqrt(ranks.sum(dot(image_of_residual_, image_of_residual_)));
       ratio = outcome.residual / norm;
     }
-    history_.push_back(outcome.residual);
+    outcome.history.push_back(outcome.residual);
     if (outcome.residual <= target) break;
 
     const double beta = next_rho / rho * alpha / length;

@@ -158,7 +158,6 @@ TEST(CellMultigridOfRanks, IterationsDoNotGrowWithRanksAndResultsAreRepeatable) 
   constexpr int edge = 160;
   const Communicator ranks = Communicator::world();
   PressureSolverTable settings;
-  settings.method = KrylovMethod::fgmres;
   settings.preconditioner = PreconditionerName::cell_multigrid;
   settings.tolerance = 1e-6;
   const Share share = make_share(

@@ -83,7 +83,11 @@ TEST(DensitySource, GivesNoEnergyToAStartThatHitsItsWalls) {
   apply_formulation(spec.scheme);
   for (double& corner : spec.fluid[0].min) corner += 0.5 * dx;  // off the walls, which it hits after some steps
   for (double& corner : spec.fluid[0].max) corner += 0.5 * dx;
-  EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4);  // the energy_slack, as above
+  // What the second projection leaves, and gives to the water, depends on the solver.
+  for (const PreconditionerName preconditioner : {PreconditionerName::ssor, PreconditionerName::cell_multigrid}) {
+    spec.pressure_solver.preconditioner = preconditioner;
+    EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4) << name_of(preconditioner);  // the energy_slack, as above
+  }
 }
 
 TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
