@@ -18,6 +18,7 @@ DOUBLE, SINGLE, INDEX = 8, 4, 4  # bytes
 # Products of all solves of a step that multigrid should do with: 5 iterations of conjugate gradients, each one product,
 # two sweeps and a residual, on levels that add up to a third more than the finest.
 FLOOR_PRODUCTS = 5 * 4 * 4 / 3
+SET_UP, CYCLE = {2: 15, 3: 4}, {2: 2.6, 3: 0.6}  # products of the multigrid (docs/theory/linear.md)
 FIELDS_HELD = 40  # doubles of a particle that must be kept: state, its values before the step, moments, the solver's
 FIELDS = 6  # doubles of a particle's own that a pass reads or writes, about
 
@@ -50,27 +51,27 @@ def pair_vector(d):
 # At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
 # to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
-    Pass("search", lambda d: 2 * INDEX + DOUBLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + SLOPE),
-    Pass("kernel sums", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3),
+    Pass("search", lambda d: 2 * INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + SLOPE),
+    Pass("kernel sums", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 3 * d + 3),
     Pass("interior", lambda d: INDEX, lambda d: INDEX, lambda d: 4),
     Pass("moment correction", lambda d: INDEX, lambda d: INDEX, lambda d: 2 * d**2 + 2 * d + 5),
-    Pass("closing: pose", lambda d: INDEX + DOUBLE, lambda d: INDEX,
+    Pass("closing: pose", lambda d: INDEX + SINGLE, lambda d: INDEX,
          lambda d: 3 * d**2 + 2 * d + 3),
-    Pass("closing: two sweeps", lambda d: 2 * (INDEX + DOUBLE), lambda d: 2 * INDEX, lambda d: 2 * (2 * d + 1)),
-    Pass("closing: close", lambda d: INDEX + DOUBLE, lambda d: INDEX,
+    Pass("closing: two sweeps", lambda d: 2 * (INDEX + SINGLE), lambda d: 2 * INDEX, lambda d: 2 * (2 * d + 1)),
+    Pass("closing: close", lambda d: INDEX + SINGLE, lambda d: INDEX,
          lambda d: 5 * d + pair_vector(d)),
-    Pass("velocity gradient", lambda d: INDEX + DOUBLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
-    Pass("viscosity and noise", lambda d: INDEX + DOUBLE, lambda d: INDEX,
+    Pass("velocity gradient", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
+    Pass("viscosity and noise", lambda d: INDEX + SINGLE, lambda d: INDEX,
          lambda d: 5 * d**2 + 18 * d + 11 + pair_vector(d)),
     Pass("pattern", lambda d: 2 * INDEX, lambda d: 2 * INDEX, lambda d: 0),
-    Pass("divergence, source; weights", lambda d: 2 * INDEX + DOUBLE + SINGLE,
+    Pass("divergence, source; weights", lambda d: 2 * INDEX + 2 * SINGLE,
          lambda d: INDEX + SINGLE, lambda d: 5 * d + 4 + pair_vector(d) + SLOPE),
     # The matrix has had the place of F, and its columns were the neighbours.
-    Pass("pairs, given back", lambda d: 3 * INDEX + DOUBLE, lambda d: 0, lambda d: 3 * d + SLOPE),
-    Pass("gradient", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
-    Pass("divergence, reported", lambda d: (INDEX + DOUBLE) / 8, lambda d: 0,
+    Pass("pairs, given back", lambda d: 3 * INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + SLOPE),
+    Pass("gradient", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
+    Pass("divergence, reported", lambda d: (INDEX + SINGLE) / 8, lambda d: 0,
          lambda d: (3 * d + 1 + pair_vector(d)) / 8, 2),
-    Pass("shift", lambda d: INDEX + DOUBLE, lambda d: INDEX, lambda d: 2 * d + 12),
+    Pass("shift", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 12),
 )
 AT_BEST_NEVER = {"divergence, reported", "pairs, given back"}
 
@@ -105,10 +106,9 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
         operations, floor = pairs * one.operations(d), one.floor(d)
         add(one.name, one.times * (pairs * one.now(d) + own), best_times(one) * (pairs * floor + (own if floor else 0)),
             one.times * operations, best_times(one) * operations)
-    # BiCGStab with SSOR in Eisenstat's form applies the matrix twice an iteration; the residual at the start, a sweep
-    # before, one after and the residual at the end make two and a half more for each of two solves.
+    # Orthomin applies the matrix and the multigrid once an iteration, and the matrix once more in each of two solves.
     entries, vectors = pairs * (SINGLE + INDEX), 2 * DOUBLE
-    products = 2 * iterations + 5
+    products = SET_UP[d] + 2 + (1 + CYCLE[d]) * iterations
     best_products = min(products, FLOOR_PRODUCTS)
     add("pressure solves", products * (entries + vectors), best_products * (entries / 2 + vectors),
         products * 2 * pairs, best_products * 2 * pairs)
