@@ -14,7 +14,7 @@ namespace tailwater {
 template <int Dim>
 struct Surroundings {
   std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
-  std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m
+  std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m; only where something asks for it
   std::vector<Mat<Dim>> first_moment;            ///< M of concentration.h; I for walls; ghosts too
   std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
   std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
@@ -25,9 +25,9 @@ struct Surroundings {
   PairVectorField<Dim> pair_vectors;             ///< what they are made of (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
 
-  void resize(std::size_t count, bool with_tensors) {
+  void resize(std::size_t count, bool with_tensors, bool with_gradient) {
     concentration.resize(count);
-    concentration_gradient.resize(count);
+    if (with_gradient) concentration_gradient.resize(count);
     first_moment.resize(count);
     wall_fluid_weight.resize(count);
     is_wet.resize(count);

@@ -9,19 +9,20 @@
 namespace tailwater {
 namespace {
 
-/// C/C_0 of owned particles, and for fluid the gradient of C and the first moment.
+/// C/C_0 of owned particles, and for fluid the first moment and, where it is asked for, the gradient of C.
 template <int Dim>
 void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Particles<Dim>& particles = flow.state.particles;
+  const bool with_gradient = flow.setup.uses_concentration_gradient();
   for_each(particles.owned, [&](std::size_t i) {
     here.concentration[i] = 1.0;
-    here.concentration_gradient[i].setZero();
+    if (with_gradient) here.concentration_gradient[i].setZero();
     here.first_moment[i].setIdentity();
     if (!flow.has_equation(i)) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.W_0);
     here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;
-    here.concentration_gradient[i] = sums.gradient;
+    if (with_gradient) here.concentration_gradient[i] = sums.gradient;
     here.first_moment[i] = sums.first_moment;
   });
 }
@@ -78,7 +79,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   Surroundings<Dim>& here = flow.here;
-  here.resize(particles.size(), setup.uses_tensors());
+  here.resize(particles.size(), setup.uses_tensors(), setup.uses_concentration_gradient());
 
   find_wet_walls<Dim>(pairs, particles, setup.W_0, here.wall_fluid_weight, here.is_wet);
   for_each(particles.owned, [&](std::size_t i) { here.takes_part[i] = particles.is_fluid(i) || here.is_wet[i]; });

@@ -184,6 +184,11 @@ bool Setup<Dim>::uses_velocity_gradient() const {
          (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
 }
 
+template <int Dim>
+bool Setup<Dim>::uses_concentration_gradient() const {
+  return scheme.surface == SurfaceTreatment::cone || scheme.pair_vectors == PairVectors::kernel;
+}
+
 template struct Drawing<2>;
 template struct Drawing<3>;
 template struct Setup<2>;

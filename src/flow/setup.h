@@ -82,6 +82,7 @@ struct Setup {
   bool uses_tensors() const;
   bool uses_pair_vectors() const;
   bool uses_velocity_gradient() const;
+  bool uses_concentration_gradient() const;
 };
 
 }  // namespace tailwater

@@ -67,13 +67,13 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   const double unit = flow.setup.density / dt;
   const bool with_divergence = flow.setup.scheme.source != SourceKind::density;
   std::vector<double> source(flow.state.particles.owned, 0.0);
-  const Divergence<Dim> divergence(flow, predicted.velocity);
   const auto is_sought = [&flow](std::size_t i) { return flow.has_equation(i) && !flow.is_in_end_stretch(i); };
-  for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (with_divergence && is_sought(i)) {
-      source[i] -= unit * (divergence(i) - target[i]);
-    }
-  });
+  if (with_divergence) {
+    const Divergence<Dim> divergence(flow, predicted.velocity);
+    for_each(flow.state.particles.owned, [&](std::size_t i) {
+      if (is_sought(i)) source[i] -= unit * (divergence(i) - target[i]);
+    });
+  }
   if (lends_slopes(flow)) flow.neighbourhood.forget_slopes();
   equation.fallback_rows = assemble_weights(flow, drive);
   for_each(flow.state.particles.owned, [&](std::size_t i) {

@@ -33,7 +33,7 @@ struct WettedWall {
   WettedWall(const Mat<Dim>& blocked, double friction, WallTreatment treatment)
       : set(particles(), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx),
         model(make_wall_model<Dim>(treatment)) {
-    here.resize(set.size(), false);
+    here.resize(set.size(), false, false);
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (set.particles.is_fluid(i)) continue;
       walls.particles.position.push_back(set.position(i));
