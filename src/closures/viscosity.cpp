@@ -38,7 +38,8 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
   return ends;
 }
 
-/// What viscous forces need of several pairs of particle i.
+/// What viscous forces need of several pairs of particle i. They are found over both volumes, which is opposite for the
+/// two particles to the last bit.
 template <int Dim>
 struct PairLanes {
   PlaceLanes<Dim> place;
@@ -47,11 +48,12 @@ struct PairLanes {
   Lanes viscosity;           ///< m^2/s; mean of both
   MatLanes<Dim> gradients;   ///< 1/s; sum of both velocity gradients
   Lanes squared;             ///< m^2; d.d
-  Lanes share_of_volume;     ///< m^Dim; of w_j in the weights of the Morris Laplacian
+  Lanes volumes;             ///< m^(2 Dim); w_i w_j, 0 of walls
+  Lanes share_of_volumes;    ///< m^(2 Dim); in the weights of the Morris Laplacian
   Lanes layer_viscosity;     ///< m^2/s; of j if i belongs to a boundary layer, else 0
 
   PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
-            std::span<const ViscousEnd<Dim>> ends, double spacing, std::size_t i)
+            const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends, double spacing, std::size_t i)
       : place(place_of_pairs), F(F_of_pairs) {
     const auto other = j.numbers(ends.data());
     const ViscousEnd<Dim>& own = ends[i];
@@ -60,7 +62,8 @@ struct PairLanes {
     layer_viscosity = own.layer_viscosity > 0.0F ? other[Dim + 1] : Lanes{};
     for (int n = 0; n < Dim * Dim; ++n) gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + other[Dim + 2 + n];
     squared = place.d.dot(place.d);
-    share_of_volume = place.volume_of_fluid() * share_of_morris_weight(squared, spacing);
+    volumes = in_all_lanes(particles.volume[i]) * place.volume_of_fluid();
+    share_of_volumes = volumes * share_of_morris_weight(squared, spacing);
   }
 
   /// Adds `viscosity` times the acceleration by the noise in the difference of velocity. The shear of a boundary layer,
@@ -78,7 +81,7 @@ struct PairLanes {
     for (int a = 0; a < Dim; ++a) noise.at[a] -= left_alone * explained.at[a];
     const Lanes work = min_of(Lanes{}, noise.dot(difference));
     const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
-    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * share_of_volume * F;
+    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * share_of_volumes * F;
     for (int a = 0; a < Dim; ++a) terms.at[a] += weight * (noise.at[a] - given * difference.at[a]);
   }
 };
@@ -112,20 +115,19 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
           const PairVectorLanes<Dim> vectors = pair_vectors(pairs, range, j, i);
-          const PairLanes<Dim> pair(vectors.place, vectors.F, j, ends, spacing, i);
+          const PairLanes<Dim> pair(vectors.place, vectors.F, j, particles, ends, spacing, i);
           // Only of pairs that nearly coincide may the corrections turn the sign.
           const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
-          const Lanes laplacian = 2.0F * pair.share_of_volume * F;
-          const Lanes volume = pair.place.volume_of_fluid();
+          const Lanes laplacian = 2.0F * pair.share_of_volumes * F;
           VecLanes<Dim> terms;
           for (int d = 0; d < Dim; ++d) {
-            terms.at[d] =
-                pair.viscosity * (laplacian * pair.difference.at[d] + volume * pair.gradients.column[d].dot(vectors.a));
+            terms.at[d] = pair.viscosity *
+                          (laplacian * pair.difference.at[d] + pair.volumes * pair.gradients.column[d].dot(vectors.a));
           }
           if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, terms);
           for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
         });
-    acceleration[i] += sum.total();
+    acceleration[i] += sum.total() / particles.volume[i];
   });
 }
 
@@ -164,11 +166,12 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
           VecLanes<Dim> terms{};
-          PairLanes<Dim>(neighbour_places(pairs, range, j, i), range.load(pairs.F.data()), j, ends, spacing, i)
+          PairLanes<Dim>(neighbour_places(pairs, range, j, i), range.load(pairs.F.data()), j, particles, ends, spacing,
+                         i)
               .add_noise_force(viscosity, terms);
           for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
         });
-    acceleration[i] += sum.total();
+    acceleration[i] += sum.total() / particles.volume[i];
   });
 }
 

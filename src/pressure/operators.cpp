@@ -16,7 +16,7 @@ template <int Dim>
 Vec<Dim> gradient_at(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure) {
   const std::vector<double>& volume = flow.state.particles.volume;
   if (flow.setup.scheme.gradient == GradientKind::conservative) {
-    return conservative_gradient<Dim>(flow.pairs(), i, flow.here.pair_vectors, pressure);
+    return conservative_gradient<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, pressure);
   }
   if (flow.setup.scheme.gradient == GradientKind::density_weighted) {
     return density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.here.concentration, pressure);
@@ -40,17 +40,18 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   }
   const bool has_pair_vectors = flow.setup.uses_pair_vectors();
   VecSum<Dim> sum;
+  const Lanes own_volume = in_all_lanes(volume[i]);
   const Lanes own = in_all_lanes(pressure[i]);
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes weight = place.volume_of_fluid() * (own + j(pressure.data()));
+        const Lanes weight = own_volume * place.volume_of_fluid() * (own + j(pressure.data()));
         const VecLanes<Dim> a =
             has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, place.d);
         for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
       });
-  return sum.total();
+  return sum.total() / volume[i];
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "operators/gradient_corrected.h"
@@ -39,8 +40,10 @@ TEST(ViscosityLaw, TakesTheLargerOfSpeedAndFloor) {
 
 TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  Particles<Dim> particles = fluid_at<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3), dx);
   Noise noise(41);
+  for (double& volume : particles.volume) volume *= 1.0 + 0.3 * noise();
+  const ParticleSet<Dim> set(std::move(particles), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx);
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   std::vector<double> viscosity(set.size());
   effective_viscosity<Dim>({.molecular = 1e-6, .artificial = 0.02, .floor = 0.001}, velocity, viscosity);

@@ -85,7 +85,7 @@ TYPED_TEST(DensityWeightedTest, IsTheConservativeGradientAtFullDensity) {
       terms += 2.0 * set.particles.volume[set.pairs().j[k]] * std::abs(set.pairs().slope(i, k));  // |p| < 1
     }
     EXPECT_LT((density_weighted_gradient<Dim>(set.pairs(), i, set.particles.volume, density, pressure) -
-               conservative_gradient<Dim>(set.pairs(), i, vectors, pressure))
+               conservative_gradient<Dim>(set.pairs(), i, set.particles.volume, vectors, pressure))
                   .norm(),
               4.0 * single_eps * terms);
   }

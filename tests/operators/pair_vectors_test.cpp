@@ -104,7 +104,7 @@ TYPED_TEST(PairVectorsTest, MomentumAndWorkAreExactAcrossPeriodicEdges) {
   double work = 0.0;
   double terms = 0.0;
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    const Vec<Dim> gradient = conservative_gradient<Dim>(pairs, i, vectors, pressure);
+    const Vec<Dim> gradient = conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, pressure);
     force += volume[i] * gradient;
     work += volume[i] * velocity[i].dot(gradient);
     work += volume[i] * pressure[i] * standard_divergence<Dim>(pairs, i, vectors, in_single);
@@ -141,7 +141,7 @@ TYPED_TEST(PairVectorsTest, AreOfFirstOrderOnAStrainedLattice) {
   const Pairs<Dim>& pairs = set.pairs();
   const double bound = 100.0 * single_eps;
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    EXPECT_LT((conservative_gradient<Dim>(pairs, i, vectors, pressure) - slope).norm(), bound);
+    EXPECT_LT((conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, pressure) - slope).norm(), bound);
     EXPECT_NEAR(standard_divergence<Dim>(pairs, i, vectors, velocity), G.trace(), bound);
     // The kernel's gradients take the strain for a compression.
     EXPECT_GT(std::abs(standard_divergence<Dim>(pairs, i, gradients, velocity) - G.trace()), 0.01);
