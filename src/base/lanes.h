@@ -1,6 +1,7 @@
 // Several numbers side by side, on which the processor works at once. A loop over the pairs of a row that takes them in
 // lanes reads as the one pair by pair. Compilers do not turn one into the other: that would change the order of sums.
-// Pairs are computed in single precision, and sums are kept in double: docs/theory/neighbours.md says what that costs.
+// Pairs are computed in single precision; what is conserved or nearly cancels is summed in double
+// (docs/theory/neighbours.md).
 // The instructions that gather are not used, because on many processors they are slower than single loads.
 #pragma once
 
@@ -39,7 +40,6 @@ using IntegerLanes = std::uint32_t __attribute__((vector_size(4 * lane_count)));
 /// The same in double precision, half as many.
 inline constexpr int double_lane_count = lane_count / 2;
 using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
-using DoubleTruths = decltype(DoubleLanes{} < DoubleLanes{});
 
 /// What one lane of a number, or of several, holds.
 template <class Number>
@@ -95,24 +95,21 @@ inline Lanes sqrt_of(Lanes lanes) {
 }
 inline double sqrt_of(double number) { return std::sqrt(number); }
 
-/// Bit n is set where a comparison holds in lane n.
-inline unsigned bits_of(LaneTruths holds) {
+/// Bit n is set where a comparison holds in lane n, of lanes of any kind and number.
+template <class Truths>
+unsigned bits_of(Truths holds) {
 #if defined(__AVX__)
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
-#else
-  unsigned bits = 0;
-  for (int n = 0; n < lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
-  return bits;
+  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 4) {
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
+  }
+  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 8) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
+  }
 #endif
-}
-inline unsigned bits_of(DoubleTruths holds) {
-#if defined(__AVX__)
-  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
-#else
+  constexpr int count = sizeof(Truths) / sizeof(holds[0]);
   unsigned bits = 0;
-  for (int n = 0; n < double_lane_count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  for (int n = 0; n < count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
   return bits;
-#endif
 }
 
 /// Whether a comparison holds in some lane.
@@ -281,8 +278,8 @@ class LaneIndices {
   std::array<std::int32_t, lane_count> index_;
 };
 
-/// Some entries of a row: as many as there are lanes, or the rest of a row. Then the last entry is in the lanes left
-/// over too, so that they hold numbers with which one can calculate.
+/// Some entries of a row: as many as there are lanes, or the rest of a row. Then lanes left over have the last entry's
+/// neighbour, so that they hold numbers with which one can calculate, and 0 where a weight is loaded.
 template <bool is_full>
 struct LaneRange {
   std::size_t begin;
@@ -293,7 +290,8 @@ struct LaneRange {
   /// The neighbours of the entries.
   LaneIndices neighbours(const std::int32_t* j) const {
     auto indices = load<IntegerLanes>(j);
-    if constexpr (!is_full) indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count)]);
+    if constexpr (!is_full)
+      indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count - 1)]);
     return LaneIndices(indices);
   }
   /// 0 in lanes left over.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "closures/fluid_pairs.h"
 #include "neighbours/pair_lanes.h"
 
 namespace tailwater {

@@ -66,7 +66,7 @@ struct PairLanes {
     share_of_volumes = volumes * share_of_morris_weight(squared, spacing);
   }
 
-  /// Adds `viscosity` times the acceleration by the noise in the difference of velocity. The shear of a boundary layer,
+  /// Adds `noise_viscosity` times the force by the noise in the difference of velocity. The shear of a boundary layer,
   /// to which both particles belong, is left alone.
   [[gnu::always_inline]] void add_noise_force(double noise_viscosity, VecLanes<Dim>& terms) const {
     constexpr double least = std::numeric_limits<float>::min();  // prevents 0/0

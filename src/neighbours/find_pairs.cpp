@@ -57,14 +57,7 @@ inline std::int32_t* write_chosen(const std::int32_t* indices, unsigned bits, st
 inline unsigned bits_between(const std::int32_t* indices, std::int32_t begin, std::int32_t end) {
   IndexBatch all;
   std::memcpy(&all, indices, sizeof(all));
-  const IndexBatch holds = (all >= begin) & (all < end);
-#if defined(__AVX2__)
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
-#else
-  unsigned bits = 0;
-  for (int n = 0; n < batch; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
-  return bits;
-#endif
+  return bits_of((all >= begin) & (all < end));
 }
 
 /// The particles in the order of a grid, their positions coordinate by coordinate, so that those of a range of cells

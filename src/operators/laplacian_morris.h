@@ -6,7 +6,6 @@
 // only for fields linear on a symmetric set; on a disordered set it does not converge with dx at fixed h/dx.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/lanes.h"

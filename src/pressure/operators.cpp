@@ -45,11 +45,15 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes weight = own_volume * place.volume_of_fluid() * (own + j(pressure.data()));
-        const VecLanes<Dim> a =
-            has_pair_vectors ? flow.here.pair_vectors(pairs, range, j, i).a : gradients(pairs, range, place.d);
-        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * a.at[d];
+        PairVectorLanes<Dim> pair;
+        if (has_pair_vectors) {
+          pair = flow.here.pair_vectors(pairs, range, j, i);
+        } else {
+          pair.place = neighbour_places(pairs, range, j, i);
+          pair.a = gradients(pairs, range, pair.place.d);
+        }
+        const Lanes weight = own_volume * pair.place.volume_of_fluid() * (own + j(pressure.data()));
+        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * pair.a.at[d];
       });
   return sum.total() / volume[i];
 }
