@@ -35,7 +35,7 @@ void add_memory(const Stage<Dim>& stage, double bytes_before) {
   add_context("bytes.pairs", bytes_of(pairs.j) + bytes_of(pairs.F));
   add_context("bytes.pair_vectors", bytes_of(stage.flow.here.pair_vectors.ends));
   const auto entries = static_cast<double>(stage.flow.pressure_rows.entries());
-  add_context("bytes.matrix", entries * (sizeof(std::int32_t) + sizeof(float)));
+  add_context("bytes.matrix", entries * sizeof(float));  // its columns are those of the pairs
 }
 
 template <int Dim>

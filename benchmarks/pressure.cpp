@@ -23,7 +23,7 @@ struct WholeRows {
   }
 
   void add(const LinearSystem& system, const LinearSystem::Part& part, std::size_t i) {
-    for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) {
+    for (std::size_t k = part.begin[i]; k < part.end[i]; ++k) {
       column.push_back(part.column[k]);
       value.push_back(-system.scale(i) * part.weight[k]);
     }

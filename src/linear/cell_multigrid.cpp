@@ -68,11 +68,6 @@ class RowSum {
   std::vector<double> values_;
 };
 
-/// The weights of row i in a part.
-std::span<const float> weights_of(const LinearSystem::Part& part, int i) {
-  return {part.weight.data() + part.begin[i], part.weight.data() + part.begin[i + 1]};
-}
-
 /// Four partial sums, so that an addition need not wait for the one before it.
 double sum_of_weights(std::span<const float> weights) {
   std::array<double, 4> partial{};
@@ -195,20 +190,16 @@ void CellMultigrid::take_rows(LinearSystem& system) {
     const std::int64_t own = number - system.first_number();
     return own >= 0 && own < rows ? static_cast<int>(own) : rows + static_cast<int>(number);
   };
-  const std::array parts{&system.before(), &system.behind(), &system.ghosts()};
+  const LinearSystem::Part part = system.whole();
   std::vector<double> total(rows);  // of the weights, before scaling; 0 for rows x_i = 0
   std::size_t large = 0;
   std::size_t longest = 0;
   for (int i = 0; i < rows; ++i) {
     if (system.scale(i) == 0.0) continue;
-    std::size_t length = 0;
-    for (const LinearSystem::Part* part : parts) {
-      total[i] += sum_of_weights(weights_of(*part, i));
-      length += part->begin[i + 1] - part->begin[i];
-    }
-    const auto least = static_cast<float>(least_share * total[i]);
-    for (const LinearSystem::Part* part : parts) large += count_from(least, weights_of(*part, i));
-    longest = std::max(longest, length);
+    const std::span weights(part.weight + part.begin[i], part.weight + part.end[i]);
+    total[i] = sum_of_weights(weights);
+    large += count_from(static_cast<float>(least_share * total[i]), weights);
+    longest = std::max(longest, weights.size());
   }
 
   Level level;
@@ -220,11 +211,9 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   for (const int i : row_) {
     std::size_t count = 0;
     const auto keep_from = [&](float least) {
-      for (const LinearSystem::Part* part : parts) {
-        for (std::size_t k = part->begin[i]; k < part->begin[i + 1]; ++k) {
-          kept[count] = {part->column[k], part->weight[k]};  // the next one's place, unless it is kept
-          count += part->weight[k] >= least;
-        }
+      for (std::size_t k = part.begin[i]; k < part.end[i]; ++k) {
+        kept[count] = {part.column[k], part.weight[k]};  // the next one's place, unless it is kept
+        count += part.weight[k] >= least;
       }
     };
     if (total[i] > 0.0) {

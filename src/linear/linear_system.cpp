@@ -23,13 +23,11 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  // At first, and each in one piece of the size of the pairs' slopes, which may have left such a place free
-  // (find_pairs.h).
+  // At first, and in one piece of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
   if (room_ < columns.size()) {
     forget_weights();
     room_ = with_room(columns.size());
     weights_ = std::make_unique_for_overwrite<float[]>(room_);
-    columns_ = std::make_unique_for_overwrite<std::int32_t[]>(room_);
   }
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
@@ -45,54 +43,28 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   cells_ = {};
   rhs_.assign(rows, 0.0);
   scale_.assign(rows, 1.0);
-  const auto row_of = [&](std::size_t i) { return columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]); };
-  for (Part& part : parts_) part.begin.assign(rows + 1, 0);
+  columns_ = columns;
+  row_begin_.assign(row_begin.begin(), row_begin.end());
+  behind_begin_.resize(rows);
+  ghosts_begin_.resize(rows);
+  std::size_t ghosts = 0;
   for (std::size_t i = 0; i < rows; ++i) {
-    const std::span<const std::int32_t> row = row_of(i);
+    const std::span<const std::int32_t> row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
     const auto is_before = [i](std::int32_t j) { return static_cast<std::size_t>(j) < i; };
     const auto is_own = [rows](std::int32_t j) { return static_cast<std::size_t>(j) < rows; };
     TAILWATER_ASSERT(std::ranges::is_partitioned(row, is_before) && std::ranges::is_partitioned(row, is_own),
                      "the columns of a row are in order");
     const auto diagonal = std::ranges::partition_point(row, is_before);
     const auto ghost = std::ranges::partition_point(row, is_own);
-    const std::array ends{row.begin(), diagonal, ghost, row.end()};
-    for (std::size_t n = 0; n < parts_.size(); ++n) {
-      std::vector<std::uint32_t>& begin = parts_[n].begin;
-      begin[i + 1] = begin[i] + static_cast<std::uint32_t>(ends[n + 1] - ends[n]);
-    }
+    behind_begin_[i] = row_begin_[i] + static_cast<std::uint32_t>(diagonal - row.begin());
+    ghosts_begin_[i] = row_begin_[i] + static_cast<std::uint32_t>(ghost - row.begin());
+    ghosts += row.end() - ghost;
   }
-  std::size_t place = 0;
-  for (Part& part : parts_) {
-    const std::size_t entries_of_part = part.begin.back();
-    part.column = {columns_.get() + place, entries_of_part};
-    part.weight = {weights_.get() + place, entries_of_part};
-    place += entries_of_part;
-  }
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::int32_t* entry = row_of(i).data();
-    for (Part& part : parts_) {
-      const std::size_t entries = part.begin[i + 1] - part.begin[i];
-      std::copy_n(entry, entries, part.column.data() + part.begin[i]);
-      entry += entries;
-    }
-  }
-  has_ghosts_ = ranks_.any(!ghosts().column.empty());
-}
-
-std::vector<std::int32_t> LinearSystem::columns() const {
-  std::vector<std::int32_t> columns;
-  empty_with_room(columns, entries());
-  for (std::size_t i = 0; i < size(); ++i) {
-    for (const Part& part : parts_) {
-      columns.insert(columns.end(), part.column.data() + part.begin[i], part.column.data() + part.begin[i + 1]);
-    }
-  }
-  return columns;
+  has_ghosts_ = ranks_.any(ghosts > 0);
 }
 
 void LinearSystem::forget_weights() {
-  for (Part& part : parts_) part = {};
-  columns_.reset();
+  columns_ = {};
   weights_.reset();
   room_ = 0;
 }
@@ -105,9 +77,7 @@ void LinearSystem::Row::finish(double diagonal, double rhs) {
 }
 
 void LinearSystem::Row::finish_as_zero() {
-  for (Part& part : system_.parts_) {
-    std::fill(part.weight.data() + part.begin[i_], part.weight.data() + part.begin[i_ + 1], 0.0F);
-  }
+  set_weights([](std::size_t) { return 0.0F; });
   system_.rhs_[i_] = 0.0;
   system_.scale_[i_] = 0.0;
 }
@@ -132,13 +102,13 @@ void LinearSystem::make_rhs_consistent() {
 }
 
 void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {
-  for (std::size_t i = 0; i < size(); ++i) {
-    y[i] = x[i] - scale_[i] * (before().sum(i, x.data()) + behind().sum(i, x.data()));
-  }
+  const Part own = this->own();
+  for (std::size_t i = 0; i < size(); ++i) y[i] = x[i] - scale_[i] * own.sum(i, x.data());
   if (!has_ghosts_) return;
   std::vector<double> with_ghosts(x.begin(), x.end());
   exchange(with_ghosts);
-  for (std::size_t i = 0; i < size(); ++i) y[i] -= scale_[i] * ghosts().sum(i, with_ghosts.data());
+  const Part ghosts = this->ghosts();
+  for (std::size_t i = 0; i < size(); ++i) y[i] -= scale_[i] * ghosts.sum(i, with_ghosts.data());
 }
 
 }  // namespace tailwater

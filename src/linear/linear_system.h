@@ -2,13 +2,12 @@
 // particle. The pattern is set when neighbours change; weights are written in place. Rows are scaled to unit diagonal,
 // so that wall rows and fluid rows have equal weight. Each rank writes its own rows, and no entry is sent.
 //
-// A row is kept in three parts, each in an array of its own: the unknowns of this rank before the diagonal, those
-// behind it, and ghosts. Solvers sweep over one part at a time, and wait for memory, not for arithmetic. So weights are
-// kept in single precision, and all sums are made in double. The diagonal is told with the weights as they are kept:
-// sums of rows, and with them the symmetry of two-point weights, are exact.
+// A row is the columns of the pattern, which may be those of the pairs themselves, and a weight for each. Its parts
+// follow each other: the unknowns of this rank before the diagonal, those behind it, and ghosts. Weights are kept in
+// single precision, because products and sweeps wait for memory, and all sums are made in double. The diagonal is told
+// with the weights as they are kept: sums of rows, and with them the symmetry of two-point weights, are exact.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,23 +22,23 @@ namespace tailwater {
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
 class LinearSystem {
  public:
-  /// A part of every row, in compressed rows.
+  /// A part of every row. It borrows everything from its system.
   struct Part {
-    std::vector<std::uint32_t> begin;  ///< rows + 1
-    std::span<std::int32_t> column;
-    std::span<float> weight;
+    std::span<const std::uint32_t> begin;  ///< first entry of each row's part
+    std::span<const std::uint32_t> end;    ///< one behind its last
+    const std::int32_t* column = nullptr;
+    const float* weight = nullptr;
 
     /// sum_k weight_ik x_j(i,k). Two partial sums, so that an addition need not wait for the one before it.
     double sum(std::size_t i, const double* x) const {
-      const std::size_t end = begin[i + 1];
       double even = 0.0;
       double odd = 0.0;
       std::size_t k = begin[i];
-      for (; k + 2 <= end; k += 2) {
+      for (; k + 2 <= end[i]; k += 2) {
         even += weight[k] * x[column[k]];
         odd += weight[k + 1] * x[column[k + 1]];
       }
-      if (k < end) even += weight[k] * x[column[k]];
+      if (k < end[i]) even += weight[k] * x[column[k]];
       return even + odd;
     }
 
@@ -49,7 +48,7 @@ class LinearSystem {
       const std::size_t first = begin[i];
       double even = 0.0;
       double odd = 0.0;
-      std::size_t k = begin[i + 1];
+      std::size_t k = end[i];
       for (; k >= first + 2; k -= 2) {
         even += weight[k - 1] * x[column[k - 1]];
         odd += weight[k - 2] * x[column[k - 2]];
@@ -62,16 +61,14 @@ class LinearSystem {
   explicit LinearSystem(Communicator ranks = {}) : ranks_(std::move(ranks)) {}
 
   /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], without the diagonal; in
-  /// each row those below i, then those above it, then ghosts of `halo`, whose unknowns are their owners'. Collective.
+  /// each row those below i, then those above it, then ghosts of `halo`, whose unknowns are their owners'. Borrows the
+  /// columns until the weights are forgotten. Collective.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                    const ExchangePlan& halo);
   /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
-  /// The columns of the pattern, as it was set.
-  std::vector<std::int32_t> columns() const;
-
-  /// Frees all weights and columns. Only the right-hand sides stay, until the next pattern is set.
+  /// Frees all weights. Only the right-hand sides stay, until the next pattern is set.
   void forget_weights();
 
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
@@ -85,28 +82,18 @@ class LinearSystem {
     /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of those kept.
     template <class Weight>
     double set_weights(Weight&& weight) {
-      std::size_t k = system_.pattern_begin(i_);
-      double sum = 0.0;
-      for (Part& part : system_.parts_) {
-        for (std::size_t n = part.begin[i_]; n < part.begin[i_ + 1]; ++n, ++k) {
-          part.weight[n] = static_cast<float>(weight(k));
-          sum += part.weight[n];
-        }
-      }
-      return sum;
+      return write_weights([&weight](std::size_t first, std::size_t end, float* weights) {
+        double sum = 0.0;
+        for (std::size_t k = first; k < end; ++k) sum += weights[k - first] = static_cast<float>(weight(k));
+        return sum;
+      });
     }
-    /// The same part by part: write(first, end, weights) writes those of the pattern's entries first .. end and returns
-    /// the sum of those kept.
+    /// The same at once: write(first, end, weights) writes those of the pattern's entries first .. end and returns the
+    /// sum of those kept.
     template <class Write>
     double write_weights(Write&& write) {
-      std::size_t first = system_.pattern_begin(i_);
-      double sum = 0.0;
-      for (Part& part : system_.parts_) {
-        const std::size_t end = first + part.begin[i_ + 1] - part.begin[i_];
-        sum += write(first, end, part.weight.data() + part.begin[i_]);
-        first = end;
-      }
-      return sum;
+      const std::uint32_t first = system_.row_begin_[i_];
+      return write(first, system_.row_begin_[i_ + 1], system_.weights_.get() + first);
     }
     /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);
@@ -146,10 +133,12 @@ class LinearSystem {
 
   /// For solvers: the number of the present pattern, and the rows.
   std::uint64_t pattern_number() const { return pattern_number_; }
-  const Part& before() const { return parts_[0]; }  ///< unknowns of this rank, left of the diagonal
-  const Part& behind() const { return parts_[1]; }  ///< unknowns of this rank, right of it
-  const Part& ghosts() const { return parts_[2]; }  ///< columns are those of the pattern, from size() on
-  std::size_t entries() const { return parts_[0].column.size() + parts_[1].column.size() + parts_[2].column.size(); }
+  Part before() const { return part(begins(), behind_begin_); }       ///< unknowns of this rank, left of the diagonal
+  Part behind() const { return part(behind_begin_, ghosts_begin_); }  ///< unknowns of this rank, right of it
+  Part own() const { return part(begins(), ghosts_begin_); }          ///< both
+  Part ghosts() const { return part(ghosts_begin_, ends()); }  ///< columns are those of the pattern, from size() on
+  Part whole() const { return part(begins(), ends()); }        ///< all
+  std::size_t entries() const { return columns_.size(); }
   /// The number over all ranks, rank after rank, of this rank's first unknown, and of the unknown of a ghost's column.
   std::int64_t first_number() const { return first_number_; }
   std::int64_t number_of_ghost(std::int32_t column) const { return ghost_number_[column - size()]; }
@@ -161,11 +150,10 @@ class LinearSystem {
   std::span<const double> rhs() const { return rhs_; }
 
  private:
-  /// Of row i in the pattern, which is all parts.
-  std::size_t pattern_begin(std::size_t i) const {
-    std::size_t begin = 0;
-    for (const Part& part : parts_) begin += part.begin[i];
-    return begin;
+  std::span<const std::uint32_t> begins() const { return std::span(row_begin_).first(size()); }
+  std::span<const std::uint32_t> ends() const { return std::span(row_begin_).last(size()); }
+  Part part(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end) const {
+    return {begin, end, columns_.data(), weights_.get()};
   }
 
   Communicator ranks_;
@@ -176,11 +164,13 @@ class LinearSystem {
   std::int64_t first_number_ = 0;
   ExchangePlan halo_;
   Cells cells_;
-  std::array<Part, 3> parts_;
-  std::unique_ptr<std::int32_t[]> columns_;  ///< of all parts
-  std::unique_ptr<float[]> weights_;         ///< likewise
-  std::size_t room_ = 0;                     ///< in both, in entries
-  std::vector<std::int64_t> ghost_number_;   ///< over all ranks, of each ghost's column
+  std::vector<std::uint32_t> row_begin_;  ///< rows + 1
+  std::vector<std::uint32_t> behind_begin_;
+  std::vector<std::uint32_t> ghosts_begin_;
+  std::span<const std::int32_t> columns_;
+  std::unique_ptr<float[]> weights_;
+  std::size_t room_ = 0;                    ///< in it, in entries
+  std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
 };

@@ -13,17 +13,15 @@ void PetscRows::take(const LinearSystem& system) {
   Block others;
   const std::int64_t first = system.first_number();
   const auto count = static_cast<std::int64_t>(system.size());
+  const LinearSystem::Part rows = system.whole();
   std::vector<std::pair<std::int64_t, double>> entries;  // of a row: number over all ranks, value
   for (std::size_t i = 0; i < system.size(); ++i) {
     entries.assign(1, {first + static_cast<std::int64_t>(i), 1.0});
-    const auto add = [&](const LinearSystem::Part& part, auto&& number) {
-      for (std::size_t k = part.begin[i]; k < part.begin[i + 1]; ++k) {
-        entries.emplace_back(number(part.column[k]), -system.scale(i) * part.weight[k]);
-      }
-    };
-    add(system.before(), [&](std::int32_t column) { return first + column; });
-    add(system.behind(), [&](std::int32_t column) { return first + column; });
-    add(system.ghosts(), [&](std::int32_t column) { return system.number_of_ghost(column); });
+    for (std::size_t k = rows.begin[i]; k < rows.end[i]; ++k) {
+      const std::int32_t column = rows.column[k];
+      entries.emplace_back(column < count ? first + column : system.number_of_ghost(column),
+                           -system.scale(i) * rows.weight[k]);
+    }
     std::sort(entries.begin(), entries.end());
     for (const auto& [number, value] : entries) {
       const bool is_own = number >= first && number < first + count;

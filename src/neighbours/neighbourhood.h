@@ -32,9 +32,6 @@ class Neighbourhood {
   /// Frees the slopes of all pairs, pairs().F, which nothing may read until they are found anew: the same numbers.
   void forget_slopes() { std::vector<float>().swap(pairs_.F); }
   void find_slopes() { tailwater::find_slopes(pairs_); }
-  /// Frees the neighbours of all pairs, pairs().j, which nothing may read until they are given back.
-  void forget_neighbours() { std::vector<std::int32_t>().swap(pairs_.j); }
-  void give_back_neighbours(std::vector<std::int32_t> j) { pairs_.j = std::move(j); }
 
   /// Moves particles that left a periodic domain in again at its other end. Call between steps only.
   void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }

@@ -25,22 +25,18 @@ void hold_suction(Flow<Dim>& flow) {
   });
 }
 
-/// As long as it lives the rows of the matrix are all that there is of pairs, if these have no slopes. Then there is no
-/// matrix.
+/// While it lives there is a matrix, in which slopes may have gone; then there are pairs with slopes.
 template <int Dim>
-class PairsInRows {
+class MatrixForSlopes {
  public:
-  explicit PairsInRows(Flow<Dim>& flow) : flow_(flow) {
-    if (lends_slopes(flow)) flow.neighbourhood.forget_neighbours();
-  }
-  ~PairsInRows() {
+  explicit MatrixForSlopes(Flow<Dim>& flow) : flow_(flow) {}
+  ~MatrixForSlopes() {
     flow_.pressure_solver.forget();
-    if (lends_slopes(flow_)) flow_.neighbourhood.give_back_neighbours(flow_.pressure_rows.columns());
     flow_.pressure_rows.forget_weights();
     if (lends_slopes(flow_)) flow_.neighbourhood.find_slopes();
   }
-  PairsInRows(const PairsInRows&) = delete;
-  PairsInRows& operator=(const PairsInRows&) = delete;
+  MatrixForSlopes(const MatrixForSlopes&) = delete;
+  MatrixForSlopes& operator=(const MatrixForSlopes&) = delete;
 
  private:
   Flow<Dim>& flow_;
@@ -55,7 +51,7 @@ PressureReport report_of(const SolveReport& solved) {
 template <int Dim>
 PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive) {
   const double tolerance = flow.pressure_solver.tolerance();
-  const PairsInRows<Dim> pairs_are_there(flow);
+  const MatrixForSlopes<Dim> matrix(flow);
   BodyCoupling<Dim> coupling(flow, start, dt, drive);
   PressureReport report;
   if (flow.setup.has_air()) {

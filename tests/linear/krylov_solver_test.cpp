@@ -227,18 +227,18 @@ TEST(PressureSystem, AGuessWorseThanNoneDoesNoHarm) {
 TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
   const double tolerance = 1e-10;
   PressureSystem system(solver_settings(tolerance));
-  SmallSystem small = random_system(60, 2);
-  system.set_pattern(small.row_begin, small.columns);
-  std::vector<double> solution(small.size(), 0.0);
+  const SmallSystem first = random_system(60, 2);
+  system.set_pattern(first.row_begin, first.columns);
+  std::vector<double> solution(first.size(), 0.0);
   for (const std::uint64_t seed : {2, 3}) {  // the same pattern, other values
-    small = random_system(60, seed);
-    small.pass_values_to(system);
+    const SmallSystem other = random_system(60, seed);
+    other.pass_values_to(system);
     system.solve(solution);
-    expect_near(solution, small.dense_solution(), error_bound(tolerance, small.size()));
+    expect_near(solution, other.dense_solution(), error_bound(tolerance, other.size()));
   }
   // Another pattern with as many rows, then another number of rows.
   for (const std::size_t size : {60, 45}) {
-    small = random_system(size, 4);
+    SmallSystem small = random_system(size, 4);
     for (std::int32_t& column : small.columns) column = static_cast<std::int32_t>((column + 2) % size);
     for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t k = small.row_begin[i]; k < small.row_begin[i + 1]; ++k) {

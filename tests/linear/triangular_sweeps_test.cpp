@@ -27,7 +27,6 @@ struct SparseRows {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> weight(-0.1, 0.2);
     std::vector<std::size_t> row_begin{0};
-    std::vector<std::int32_t> columns;
     std::vector<double> weights;
     const auto add = [&](Eigen::MatrixXd& matrix, int i, int j, int column) {
       columns.push_back(column);
@@ -62,8 +61,9 @@ struct SparseRows {
   Eigen::MatrixXd whole() const { return own + of_ghosts; }
   Eigen::MatrixXd diagonal_matrix() const { return Eigen::MatrixXd::Identity(own.rows(), own.cols()) / omega; }
 
-  Eigen::MatrixXd own;        ///< what a rank couples of its own
-  Eigen::MatrixXd of_ghosts;  ///< and of images, in the columns of what they copy
+  Eigen::MatrixXd own;                ///< what a rank couples of its own
+  Eigen::MatrixXd of_ghosts;          ///< and of images, in the columns of what they copy
+  std::vector<std::int32_t> columns;  ///< which the system borrows
   LinearSystem system;
 };
 
@@ -119,7 +119,8 @@ TEST(SweptBicgstab, SaysWhenItBreaksDown) {
   // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its
   // image and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
   LinearSystem system;
-  system.set_pattern(std::vector<std::size_t>{0, 1, 2}, std::vector<std::int32_t>{1, 0});
+  const std::vector<std::int32_t> columns{1, 0};
+  system.set_pattern(std::vector<std::size_t>{0, 1, 2}, columns);
   const double weights[] = {3.0, 3.0};
   for (int i = 0; i < 2; ++i) {
     LinearSystem::Row row = system.row(i);
@@ -188,7 +189,7 @@ TEST(LinearSystemRow, OfDifferencesIsExactAndSymmetricThoughWeightsAreRounded) {
   EXPECT_NEAR(x.dot(product(y)), y.dot(product(x)), 1000.0 * eps);
 }
 
-TEST(LinearSystemRow, IsWrittenPartByPartAsOneByOne) {
+TEST(LinearSystemRow, IsWrittenAtOnceAsOneByOne) {
   std::vector<std::size_t> row_begin{0};
   std::vector<std::int32_t> columns;
   constexpr int rows = 23;
@@ -200,27 +201,44 @@ TEST(LinearSystemRow, IsWrittenPartByPartAsOneByOne) {
   }
   const ExchangePlan images({}, rows, {{0, 1, 2}});
   LinearSystem one_by_one;
-  LinearSystem by_parts;
+  LinearSystem at_once;
   one_by_one.set_pattern(row_begin, columns, images);
-  by_parts.set_pattern(row_begin, columns, images);
+  at_once.set_pattern(row_begin, columns, images);
   const auto weight = [](std::size_t k) { return 1.0 / (1.0 + static_cast<double>(k)); };
   for (std::size_t i = 0; i < rows; ++i) {
     LinearSystem::Row row = one_by_one.row(i);
-    LinearSystem::Row same = by_parts.row(i);
+    LinearSystem::Row same = at_once.row(i);
     const double sum = row.set_weights(weight);
-    const double sum_of_parts = same.write_weights([&](std::size_t first, std::size_t end, float* weights) {
-      double part = 0.0;
-      for (std::size_t k = first; k < end; ++k) part += weights[k - first] = static_cast<float>(weight(k));
-      return part;
+    const double same_sum = same.write_weights([&](std::size_t first, std::size_t end, float* weights) {
+      double total = 0.0;
+      for (std::size_t k = first; k < end; ++k) total += weights[k - first] = static_cast<float>(weight(k));
+      return total;
     });
-    EXPECT_NEAR(sum_of_parts, sum, sum * rows * eps);
+    EXPECT_EQ(same_sum, sum);
     row.finish(2.0, 1.0);
     same.finish(2.0, 1.0);
   }
-  EXPECT_TRUE(std::ranges::equal(by_parts.before().weight, one_by_one.before().weight));
-  EXPECT_TRUE(std::ranges::equal(by_parts.behind().weight, one_by_one.behind().weight));
-  EXPECT_TRUE(std::ranges::equal(by_parts.ghosts().weight, one_by_one.ghosts().weight));
-  EXPECT_EQ(by_parts.columns(), columns);
+  const std::span weights(at_once.whole().weight, columns.size());
+  EXPECT_TRUE(std::ranges::equal(weights, std::span(one_by_one.whole().weight, columns.size())));
+}
+
+TEST(LinearSystemRow, ItsPartsFollowEachOther) {
+  const SparseRows rows(40, 5);
+  const LinearSystem& system = rows.system;
+  EXPECT_EQ(system.entries(), rows.columns.size());
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    EXPECT_EQ(system.before().begin[i], system.whole().begin[i]);
+    EXPECT_EQ(system.before().end[i], system.behind().begin[i]);
+    EXPECT_EQ(system.behind().end[i], system.ghosts().begin[i]);
+    EXPECT_EQ(system.ghosts().end[i], system.whole().end[i]);
+    EXPECT_EQ(system.own().end[i], system.ghosts().begin[i]);
+    const auto columns_of = [i](const LinearSystem::Part& part) {
+      return std::span(part.column + part.begin[i], part.column + part.end[i]);
+    };
+    for (const std::int32_t j : columns_of(system.before())) EXPECT_LT(j, static_cast<std::int32_t>(i));
+    for (const std::int32_t j : columns_of(system.behind())) EXPECT_TRUE(j > static_cast<std::int32_t>(i) && j < 40);
+    for (const std::int32_t j : columns_of(system.ghosts())) EXPECT_GE(j, 40);
+  }
 }
 
 }  // namespace
