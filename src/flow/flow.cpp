@@ -66,7 +66,8 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
       neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
                     setup.domain, ranks),
       pressure_rows(ranks),
-      pressure_solver(spec.pressure_solver, setup.rows_deep, Dim),
+      pressure_solver(spec.pressure_solver,
+                      {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = setup.keeps_matrix() ? 3 : 2}),
       walls(std::move(drawing.walls)),
       shared_rows(std::move(drawing.shared_rows)),
       near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {

@@ -46,6 +46,12 @@ struct Flow {
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
 
+  /// Frees the matrix of the pressure equation and what solvers have made of it. It is of the present positions.
+  void forget_matrix() {
+    pressure_solver.forget();
+    pressure_rows.forget_weights();
+  }
+
   /// Continues from `saved`, a state of the same case. Collective.
   void restore(State<Dim> saved);
 

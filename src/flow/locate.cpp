@@ -71,6 +71,7 @@ template <int Dim>
 void locate(Flow<Dim>& flow, bool keep_marks) {
   const Setup<Dim>& setup = flow.setup;
   if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
+  flow.forget_matrix();
   const bool ghosts_are_new = flow.neighbourhood.update(flow.state.particles);
   if (ghosts_are_new && !setup.ranks.is_alone()) {
     flow.shared_rows.find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);

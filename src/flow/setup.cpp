@@ -165,6 +165,12 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
 }
 
 template <int Dim>
+bool Setup<Dim>::keeps_matrix() const {
+  return scheme.integrator == Integrator::implicit_projection && scheme.implicit_form == ImplicitForm::residual &&
+         scheme.laplacian == LaplacianKind::morris && scheme.walls == WallTreatment::dummies && open_ends.empty();
+}
+
+template <int Dim>
 bool Setup<Dim>::uses_tensors() const {
   return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
          scheme.divergence == DivergenceKind::consistent || scheme.surface == SurfaceTreatment::cone ||

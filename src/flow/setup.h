@@ -79,6 +79,10 @@ struct Setup {
   double noise_viscosity(double speed) const {
     return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }
+  /// Whether the matrix of a second projection serves the next step's first one too: it is made at the same positions.
+  /// Not where ends are open, which change rows between steps, nor with consistent weights, whose rows that fell back
+  /// are counted when they are made.
+  bool keeps_matrix() const;
   bool uses_tensors() const;
   bool uses_pair_vectors() const;
   bool uses_velocity_gradient() const;

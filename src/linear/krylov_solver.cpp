@@ -259,8 +259,8 @@ struct KrylovSolver::Petsc {
   }
 };
 
-KrylovSolver::KrylovSolver(const PressureSolverTable& settings, double rows_deep, int dimension)
-    : settings_(settings), water_{.rows_deep = rows_deep, .dimension = dimension}, petsc_(std::make_unique<Petsc>()) {
+KrylovSolver::KrylovSolver(const PressureSolverTable& settings, const SystemTraits& water)
+    : settings_(settings), water_(water), petsc_(std::make_unique<Petsc>()) {
   take_petsc_options(settings_);
 }
 

@@ -20,9 +20,9 @@ struct SolveReport {
 
 class KrylovSolver {
  public:
-  /// For water so many rows of particles deep, by which `auto` chooses. Throws InputError for petsc_options that PETSc
+  /// `water` is what is known of every system, by which `auto` chooses. Throws InputError for petsc_options that PETSc
   /// does not know.
-  explicit KrylovSolver(const PressureSolverTable& settings, double rows_deep = 0.0, int dimension = 2);
+  explicit KrylovSolver(const PressureSolverTable& settings, const SystemTraits& water = {});
   ~KrylovSolver();
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
@@ -47,7 +47,7 @@ class KrylovSolver {
   struct Petsc;
 
   PressureSolverTable settings_;
-  SystemTraits water_;  ///< what is known of every system
+  SystemTraits water_;
   std::unique_ptr<Petsc> petsc_;
 };
 

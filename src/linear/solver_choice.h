@@ -11,6 +11,7 @@ namespace tailwater {
 struct SystemTraits {
   double rows_deep = 0.0;  ///< how many particles lie between the surface and the bottom
   int dimension = 2;
+  int solves = 2;                 ///< with one matrix
   bool constant_is_free = false;  ///< only differences are determined
   bool has_cells = false;         ///< as the multigrid on cells needs
 };

@@ -44,8 +44,7 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.interventions.restarted_solves = solved.restarts;
-  flow.pressure_solver.forget();
-  flow.pressure_rows.forget_weights();
+  if (!flow.setup.keeps_matrix()) flow.forget_matrix();
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {

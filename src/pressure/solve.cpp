@@ -31,8 +31,7 @@ class MatrixForSlopes {
  public:
   explicit MatrixForSlopes(Flow<Dim>& flow) : flow_(flow) {}
   ~MatrixForSlopes() {
-    flow_.pressure_solver.forget();
-    flow_.pressure_rows.forget_weights();
+    flow_.forget_matrix();
     if (lends_slopes(flow_)) flow_.neighbourhood.find_slopes();
   }
   MatrixForSlopes(const MatrixForSlopes&) = delete;

@@ -15,7 +15,8 @@ template <int Dim>
 std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt);
 
 /// Writes the matrix of the pressure equation, one row per particle: fluid, surface, wall; of the right-hand sides only
-/// those that no source decides. Returns how many rows fell back to two-point weights.
+/// those that no source decides. If there is a matrix of these positions, only the latter. Returns how many rows fell
+/// back to two-point weights.
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 

@@ -167,6 +167,10 @@ bool assemble_equation(Flow<Dim>& flow, std::span<const float> volume_taking_par
 
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
+  if (flow.pressure_rows.has_weights()) {  // kept by the second projection, whose rows all are sound
+    flow.setup.wall_model->set_sources(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
+    return 0;
+  }
   flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
   if (flow.pressure_solver.needs_cells()) {
     const std::span positions(flow.state.particles.position);

@@ -195,6 +195,9 @@ TEST(SolverChoice, TheRuleFillsInWhatTheCaseLeavesOpen) {
   EXPECT_EQ(choose_solver(open, {.rows_deep = depth, .has_cells = true}).preconditioner, PreconditionerName::ssor);
   EXPECT_EQ(choose_solver(open, {.rows_deep = depth, .dimension = 3, .has_cells = true}).preconditioner,
             PreconditionerName::cell_multigrid);
+  // Three solves with one matrix pay for its set-up sooner than two.
+  EXPECT_EQ(choose_solver(open, {.rows_deep = depth, .solves = 3, .has_cells = true}).preconditioner,
+            PreconditionerName::cell_multigrid);
   PressureSolverTable chosen;
   chosen.method = KrylovMethod::fgmres;
   chosen.preconditioner = PreconditionerName::jacobi;
