@@ -45,6 +45,16 @@ using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
 template <class Number>
 using LaneOf = std::conditional_t<std::is_same_v<Number, Lanes>, float, double>;
 
+/// a b + c. In a sum of two products the compiler may round either, and it chooses anew wherever a loop is compiled, as
+/// for whole groups and for a row's rest. What must be the same for both particles of a pair says which.
+inline Lanes fused(Lanes a, Lanes b, Lanes c) {
+#if defined(__AVX__) && defined(__FMA__)
+  return _mm256_fmadd_ps(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 /// A vector in each lane.
 template <int Dim>
 struct VecLanes {
@@ -52,7 +62,7 @@ struct VecLanes {
 
   Lanes dot(const VecLanes& other) const {
     Lanes sum = at[0] * other.at[0];
-    for (int d = 1; d < Dim; ++d) sum += at[d] * other.at[d];
+    for (int d = 1; d < Dim; ++d) sum = fused(at[d], other.at[d], sum);
     return sum;
   }
 };
@@ -66,7 +76,7 @@ struct MatLanes {
     VecLanes<Dim> product;
     for (int a = 0; a < Dim; ++a) {
       product.at[a] = column[0].at[a] * x.at[0];
-      for (int b = 1; b < Dim; ++b) product.at[a] += column[b].at[a] * x.at[b];
+      for (int b = 1; b < Dim; ++b) product.at[a] = fused(column[b].at[a], x.at[b], product.at[a]);
     }
     return product;
   }
@@ -236,10 +246,9 @@ class LaneIndices {
     const DoubleLanes low{from[index_[Lane]]...};
     const DoubleLanes high{from[index_[Lane + double_lane_count]]...};
     using Half = float __attribute__((vector_size(4 * double_lane_count)));
-    const Half halves[2] = {__builtin_convertvector(low, Half), __builtin_convertvector(high, Half)};
-    Lanes lanes;
-    std::memcpy(&lanes, halves, sizeof(lanes));
-    return lanes;
+    // In registers: what is written in halves and read as a whole has to wait for both to reach the cache.
+    return __builtin_shufflevector(__builtin_convertvector(low, Half), __builtin_convertvector(high, Half), Lane...,
+                                   (Lane + double_lane_count)...);
   }
 
   /// Four numbers that follow each other, of entries that have `Stride` of them. They are loaded together: loads are

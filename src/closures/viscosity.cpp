@@ -121,8 +121,8 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
           const Lanes laplacian = 2.0F * pair.share_of_volumes * F;
           VecLanes<Dim> terms;
           for (int d = 0; d < Dim; ++d) {
-            terms.at[d] = pair.viscosity *
-                          (laplacian * pair.difference.at[d] + pair.volumes * pair.gradients.column[d].dot(vectors.a));
+            const Lanes transposed = pair.volumes * pair.gradients.column[d].dot(vectors.a);
+            terms.at[d] = pair.viscosity * fused(laplacian, pair.difference.at[d], transposed);
           }
           if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, terms);
           for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];

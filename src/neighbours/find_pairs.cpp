@@ -217,7 +217,7 @@ void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& dom
   for_each(particles.size(), [&](std::size_t i) {
     Place<Dim>& place = pairs.place[i];
     for (int d = 0; d < Dim; ++d) {
-      place.at[d] = static_cast<std::uint32_t>(std::llround(particles.position[i][d] / unit[d]));
+      place.at[d] = static_cast<std::uint32_t>(std::llrint(particles.position[i][d] / unit[d]));
     }
     const auto volume = static_cast<float>(particles.volume[i]);
     place.signed_volume = particles.is_fluid(i) ? volume : -volume;
@@ -228,18 +228,28 @@ template <int Dim>
 void find_slopes(Pairs<Dim>& pairs) {
   empty_with_room(pairs.F, pairs.j.size());
   pairs.F.resize(pairs.j.size());
-  std::visit(
+  pairs.sees_wall.resize(pairs.owned());
+  pairs.some_coincide = true;
+  const std::size_t rows_that_coincide = std::visit(
       [&](const auto chosen) {
         const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-        for_each(pairs.owned(), [&](std::size_t i) {
+        return count_each(pairs.owned(), [&](std::size_t i) {
+          Lanes least_square = in_all_lanes(std::numeric_limits<float>::max());
+          Lanes least_volume{};
           for_each_lanes(
               pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-                const VecLanes<Dim> d = neighbour_places(pairs, range, range.neighbours(pairs.j.data()), i).d;
-                range.store(chosen.steepness(sqrt_of(max_of(d.dot(d), least_squared))), pairs.F.data() + range.begin);
+                const PlaceLanes<Dim> place = neighbour_places(pairs, range, range.neighbours(pairs.j.data()), i);
+                const Lanes square = place.d.dot(place.d);
+                range.store(chosen.steepness(sqrt_of(max_of(square, least_squared))), pairs.F.data() + range.begin);
+                least_square = min_of(least_square, square);
+                least_volume = min_of(least_volume, place.signed_volume);
               });
+          pairs.sees_wall[i] = any_of(least_volume < Lanes{}) ? 1 : 0;
+          return any_of(least_square <= 2.0F * least_squared);
         });
       },
       pairs.kernel);
+  pairs.some_coincide = rows_that_coincide > 0;
 }
 
 template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);

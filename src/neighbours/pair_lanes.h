@@ -44,7 +44,7 @@ template <int Dim, class Range, std::size_t size>
   }
   lanes.signed_volume = range.only(numbers[Dim]);
   const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-  if (any_of(lanes.d.dot(lanes.d) <= least_squared)) [[unlikely]] {
+  if (pairs.some_coincide && any_of(lanes.d.dot(lanes.d) <= least_squared)) [[unlikely]] {
     const VecLanes<Dim> d = with_directions<Dim>(pairs, range, i, lanes.d);
     for (int a = 0; a < Dim; ++a) lanes.d.at[a] = d.at[a];
   }

@@ -27,14 +27,16 @@ struct alignas(16) Place {
 /// arrays below.
 template <int Dim>
 struct Pairs {
-  std::vector<std::size_t> row_begin;  ///< owned + 1 entries
-  std::vector<std::int32_t> j;         ///< neighbour: in each row those below i, those above it, then ghosts
-  std::vector<float> F;                ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
-  std::vector<Place<Dim>> place;       ///< of all particles when the pairs were found
-  std::array<float, Dim> unit{};       ///< m; of places
-  std::vector<Vec<Dim>> position;      ///< m; of all particles when the pairs were found
-  std::vector<std::int64_t> id;        ///< of all particles
-  double least_distance = 0.0;         ///< m; two particles nearer than this count as this far apart
+  std::vector<std::size_t> row_begin;   ///< owned + 1 entries
+  std::vector<std::int32_t> j;          ///< neighbour: in each row those below i, those above it, then ghosts
+  std::vector<float> F;                 ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+  std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
+  bool some_coincide = true;            ///< false: no two neighbours are at one place
+  std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found
+  std::array<float, Dim> unit{};        ///< m; of places
+  std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
+  std::vector<std::int64_t> id;         ///< of all particles
+  double least_distance = 0.0;          ///< m; two particles nearer than this count as this far apart
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
 
   /// r_ij = r_i - r_j [m] of entry k of row i, from j to i, never 0. Two particles at one place get an arbitrary

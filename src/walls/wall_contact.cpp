@@ -8,8 +8,11 @@ namespace {
 constexpr double contact_distance = 0.5;  // dx
 constexpr double least_gap = 0.01;        // dx; a move that starts nearer, or behind a wall, counts as starting here
 
+/// Of pairs, some may be hidden behind plates.
 template <int Dim>
-bool has_wall_neighbour(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
+bool has_wall_neighbour(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, const Particles<Dim>& particles,
+                        std::size_t i) {
+  if (boundary.screens.empty() || pairs.sees_wall[i] == 0) return pairs.sees_wall[i] != 0;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     if (!particles.is_fluid(pairs.j[k])) return true;
   }
@@ -74,7 +77,7 @@ void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, d
   const double contact = contact_distance * spacing;
   for_each(pairs.owned(), [&](std::size_t i) {
     overlap[i] = 0.0;
-    if (!particles.is_fluid(i) || !has_wall_neighbour(pairs, particles, i)) return;
+    if (!particles.is_fluid(i) || !has_wall_neighbour(pairs, boundary, particles, i)) return;
     const NearestWall<Dim> wall = boundary.nearest(particles.position[i], contact);
     if (wall.face < 0) return;
     const double s = std::clamp(1.0 - wall.signed_distance / contact, 0.0, 1.0);
@@ -88,7 +91,7 @@ std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundar
                            std::span<Vec<Dim>> velocity) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     // Beside the end of a plate no wall particle need be in sight.
-    return particles.is_fluid(i) && (!boundary.screens.empty() || has_wall_neighbour(pairs, particles, i)) &&
+    return particles.is_fluid(i) && (!boundary.screens.empty() || pairs.sees_wall[i] != 0) &&
            cushion(boundary, spacing, ways, before[i], particles.position[i],
                    velocity.empty() ? nullptr : &velocity[i]);
   });

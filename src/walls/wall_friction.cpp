@@ -25,6 +25,7 @@ template <int Dim, class Visit>
 void visit_rubbing_pairs(const WallScene<Dim>& scene, double spacing, std::size_t i, Visit&& visit) {
   const Pairs<Dim>& pairs = scene.pairs;
   const Particles<Dim>& particles = scene.particles;
+  if (pairs.sees_wall[i] == 0) return;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
     if (particles.is_fluid(j)) continue;

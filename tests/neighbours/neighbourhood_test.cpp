@@ -239,6 +239,33 @@ TYPED_TEST(NeighbourhoodTest, CoincidentParticlesGetOppositeDirections) {
   EXPECT_TRUE(std::isfinite(pairs.F[0]));
 }
 
+TYPED_TEST(NeighbourhoodTest, RowsTellWhetherTheySeeAWallAndWhetherNeighboursCoincide) {
+  constexpr int Dim = TypeParam::value;
+  Particles<Dim> particles = random_fluid<Dim>(300, 13);
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    if (particles.position[j][0] < 0.1) particles.kind[j] = ParticleKind::wall;
+  }
+  Neighbourhood<Dim> neighbourhood = make_neighbourhood<Dim>();
+  neighbourhood.update(particles);
+  const Pairs<Dim>& pairs = neighbourhood.pairs();
+  int rows_that_see = 0;
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {
+    const bool sees = std::any_of(pairs.j.begin() + static_cast<std::ptrdiff_t>(pairs.begin(i)),
+                                  pairs.j.begin() + static_cast<std::ptrdiff_t>(pairs.end(i)),
+                                  [&](std::int32_t j) { return !particles.is_fluid(j); });
+    EXPECT_EQ(pairs.sees_wall[i] != 0, sees);
+    rows_that_see += sees ? 1 : 0;
+  }
+  EXPECT_GT(rows_that_see, 30);
+  EXPECT_LT(rows_that_see, 270);
+  EXPECT_FALSE(pairs.some_coincide);
+  for (const double apart : {0.0, 0.5e-6 * spacing}) {  // both less than what counts as apart
+    particles.position[7] = particles.position[200] + apart * Vec<Dim>::UnitX();
+    neighbourhood.update(particles);
+    EXPECT_TRUE(pairs.some_coincide);
+  }
+}
+
 TYPED_TEST(NeighbourhoodTest, SlopesAreFoundAgainAsTheyWere) {
   constexpr int Dim = TypeParam::value;
   Particles<Dim> particles = random_fluid<Dim>(200, 13);

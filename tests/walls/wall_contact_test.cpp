@@ -26,6 +26,7 @@ struct Corner {
     positions.push_back(Vec<2>(2.0, -0.1));
     particles = fluid_at<2>(positions, dx);
     particles.kind[wall] = ParticleKind::wall;
+    pairs.sees_wall.assign(positions.size(), 1);
     pairs.row_begin = {0};
     for (std::size_t i = 0; i < positions.size(); ++i) {
       pairs.j.push_back(wall);
