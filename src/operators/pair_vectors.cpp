@@ -120,15 +120,15 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
 /// sum_j w_j F_ij l_j [1/m], of w_j l_j
 template <int Dim>
 Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, std::span<const Four> weighted_l, std::size_t i) {
-  VecSum<Dim> sums;
+  VecLanes<Dim> sums{};
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
-        const Lanes F = range.only(range.load(pairs.F.data()));
+        const Lanes F = range.load(pairs.F.data());
         const VecLanes<Dim> l_j = j.template vectors<Dim>(weighted_l.data());
         for (int a = 0; a < Dim; ++a) sums.at[a] += F * l_j.at[a];
       });
-  return sums.total();
+  return sum_of(sums);
 }
 
 /// Places and corrections of all particles, with l = 0.

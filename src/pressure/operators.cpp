@@ -90,11 +90,13 @@ std::vector<double> find_divergence(Flow<Dim>& flow, int stride) {
 
 template <int Dim>
 double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int stride) {
-  const auto counts = [&](std::size_t i) { return flow.is_inside(i) && flow.state.particles.id[i] % stride == 0; };
-  double squares = sum_over(field.size(), 0.0, [&](std::size_t i) { return counts(i) ? field[i] * field[i] : 0.0; });
-  std::size_t count = count_each(field.size(), counts);
-  flow.setup.ranks.sum_each(squares, count);
-  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+  const Vec<2> nothing = Vec<2>::Zero();
+  Vec<2> squares_and_count = sum_over(field.size(), nothing, [&](std::size_t i) {
+    const bool counts = flow.is_inside(i) && flow.state.particles.id[i] % stride == 0;
+    return counts ? Vec<2>(field[i] * field[i], 1.0) : nothing;
+  });
+  flow.setup.ranks.sum_each(squares_and_count[0], squares_and_count[1]);
+  return squares_and_count[1] > 0.0 ? std::sqrt(squares_and_count[0] / squares_and_count[1]) : 0.0;
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                         \

@@ -45,7 +45,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 bool lends_slopes(const Flow<Dim>& flow) {
-  return flow.setup.scheme.laplacian == LaplacianKind::morris && flow.setup.bodies.empty() &&
+  return Dim == 3 && flow.setup.scheme.laplacian == LaplacianKind::morris && flow.setup.bodies.empty() &&
          !flow.setup.keeps_matrix();
 }
 

@@ -1,4 +1,4 @@
-// Slopes of pairs and the matrix are not in memory together, and what is taken away comes back as it was.
+// In 3D slopes of pairs and the matrix are not in memory together, and what is taken away comes back as it was.
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -33,13 +33,13 @@ void project_once(Flow<Dim>& flow, Look&& look) {
   solve(flow, start, equation, dt, drive);
 }
 
-TYPED_TEST(LentSlopesTest, OnlyOneOfSlopesAndMatrixIsThere) {
+TYPED_TEST(LentSlopesTest, OnlyOneOfSlopesAndMatrixIsThereIn3D) {
   constexpr int Dim = TypeParam::value;
   Flow<Dim> flow(jittered_tank<Dim>());
   locate(flow);
   const Pairs<Dim> before = flow.pairs();
   project_once(flow, [&](const Flow<Dim>& posed) {
-    EXPECT_TRUE(posed.pairs().F.empty());
+    EXPECT_EQ(posed.pairs().F.empty(), Dim == 3);
     EXPECT_EQ(posed.pressure_rows.entries(), before.j.size());
   });
   EXPECT_EQ(flow.pairs().F, before.F);
