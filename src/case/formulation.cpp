@@ -4,7 +4,7 @@ namespace tailwater {
 namespace {
 
 void set_robust_farzin(SchemeTable& scheme) {
-  if (scheme.integrator == Integrator::implicit_projection) scheme.courant = 0.5;
+  if (scheme.integrator == Integrator::implicit_projection) scheme.courant = 0.6;
 }
 
 void set_published_farzin(SchemeTable& scheme) {

@@ -8,7 +8,7 @@ namespace tailwater {
 /// Sets the keys that depend on `scheme.name`, `scheme.formulation` and `scheme.integrator` to their defaults. Call it
 /// on the initialisers, before the keys given in the file are read.
 ///
-/// farzin2014, robust: only the implicit integrator's alpha, 0.5, differs from the initialisers.
+/// farzin2014, robust: only the implicit integrator's alpha, 0.6, differs from the initialisers.
 ///
 /// farzin2014, published (Farzin, Hassanzadeh, Aalami & Fatehi 2014): kernel (F8), consistent operators (B1, B2), p = 0
 /// on detected surface particles, pressure rows on the wall (F36-F39), c_a = 0.20 (F3) without a floor, c_s = 0.10

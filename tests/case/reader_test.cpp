@@ -163,7 +163,7 @@ TEST(Formulation, RobustIsTheStructsOwnDefaults) {
 TEST(Formulation, RobustImplicitTakesLongerSteps) {
   SchemeTable scheme{.integrator = Integrator::implicit_projection};
   SchemeTable expected = scheme;
-  expected.courant = 0.5;
+  expected.courant = 0.6;
   apply_formulation(scheme);
   EXPECT_EQ(scheme, expected);
 }
