@@ -137,15 +137,18 @@ void CellMultigrid::Matrix::reserve(std::size_t rows, std::size_t entries_of_all
 void CellMultigrid::Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
   const auto i = static_cast<int>(size());
   const std::size_t first = entries.size();
-  entries.resize(first + row.size());
+  entries.resize(first + row.size() + 1);
   Entry* next = entries.data() + first;
-  // Each entry is written where the next one of its side belongs, and stays if it is of that side.
+  // Each entry is written where the next one of its side belongs, and stays if it is of that side: without a branch,
+  // which nobody can predict.
   for (const Entry& entry : row) {
-    if (entry.column < i) *next++ = entry;
+    *next = entry;
+    next += entry.column < i ? 1 : 0;
   }
   middle.push_back(static_cast<int>(next - entries.data()));
   for (const Entry& entry : row) {
-    if (entry.column > i) *next++ = entry;
+    *next = entry;
+    next += entry.column > i ? 1 : 0;
   }
   entries.resize(next - entries.data());
   begin.push_back(static_cast<int>(entries.size()));
