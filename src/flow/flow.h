@@ -39,6 +39,7 @@ struct Flow {
   NearWalls<Dim> near_walls;         ///< which rows are among the particles
   Surroundings<Dim> here;            ///< as `locate` found them
   bool is_located = false;           ///< whether no particle has moved since
+  bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
@@ -46,8 +47,9 @@ struct Flow {
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
 
-  /// Frees the matrix of the pressure equation and what solvers have made of it. It is of the present positions.
+  /// Frees the matrix of the pressure equation and what solvers have made of it.
   void forget_matrix() {
+    has_matrix = false;
     pressure_solver.forget();
     pressure_rows.forget_weights();
   }

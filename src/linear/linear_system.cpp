@@ -39,7 +39,6 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   halo.exchange(number);
   ghost_number_.assign(number.begin() + static_cast<std::ptrdiff_t>(rows), number.end());
 
-  has_weights_ = true;
   ++pattern_number_;
   cells_ = {};
   rhs_.assign(rows, 0.0);
@@ -68,7 +67,6 @@ void LinearSystem::forget_weights() {
   columns_ = {};
   weights_.reset();
   room_ = 0;
-  has_weights_ = false;
 }
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {

@@ -70,7 +70,6 @@ class LinearSystem {
 
   /// Frees all weights. Only the right-hand sides stay, until the next pattern is set.
   void forget_weights();
-  bool has_weights() const { return has_weights_; }
 
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
   void set_cells(Cells cells) { cells_ = std::move(cells); }
@@ -160,7 +159,6 @@ class LinearSystem {
   Communicator ranks_;
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;
-  bool has_weights_ = false;
   bool has_ghosts_ = false;
   std::int64_t size_of_all_ = 0;
   std::int64_t first_number_ = 0;

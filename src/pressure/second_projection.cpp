@@ -44,7 +44,8 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.interventions.restarted_solves = solved.restarts;
-  if (!flow.setup.keeps_matrix()) flow.forget_matrix();
+  flow.has_matrix = flow.setup.keeps_matrix();
+  if (!flow.has_matrix) flow.forget_matrix();
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {

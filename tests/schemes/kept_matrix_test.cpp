@@ -40,8 +40,7 @@ TYPED_TEST(KeptMatrixTest, IsThatOfTheNextStep) {
   for (const PreconditionerName preconditioner : {PreconditionerName::ssor, PreconditionerName::cell_multigrid}) {
     const CaseSpec spec = pushed_tank<Dim>(preconditioner);
     int kept = 0;
-    const auto with = velocity_after<Dim>(
-        spec, steps, [&](const Flow<Dim>& flow) { kept += flow.pressure_rows.has_weights() ? 1 : 0; });
+    const auto with = velocity_after<Dim>(spec, steps, [&](const Flow<Dim>& flow) { kept += flow.has_matrix ? 1 : 0; });
     const auto without = velocity_after<Dim>(spec, steps, [](Flow<Dim>& flow) { flow.forget_matrix(); });
     EXPECT_EQ(kept, steps - 1);
     EXPECT_EQ(with, without);
@@ -52,7 +51,7 @@ TYPED_TEST(KeptMatrixTest, IsNotKeptByTheExplicitStep) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = pushed_tank<Dim>(PreconditionerName::ssor);
   spec.scheme.integrator = Integrator::explicit_projection;
-  velocity_after<Dim>(spec, 3, [](const Flow<Dim>& flow) { EXPECT_FALSE(flow.pressure_rows.has_weights()); });
+  velocity_after<Dim>(spec, 3, [](const Flow<Dim>& flow) { EXPECT_FALSE(flow.has_matrix); });
 }
 
 }  // namespace
