@@ -131,7 +131,7 @@ void CellMultigrid::Matrix::reserve(std::size_t rows, std::size_t entries_of_all
   middle.reserve(rows);
   diagonal.reserve(rows);
   inverse.reserve(rows);
-  entries.reserve(entries_of_all);
+  entries.reserve(entries_of_all + 1);  // which adding a row writes to
 }
 
 void CellMultigrid::Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
