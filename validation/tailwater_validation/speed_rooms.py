@@ -13,7 +13,7 @@ SOLVES = {"pressure/set_up": "set-up and first iteration", "pressure/cold": "col
           "pressure/step": "both solves of a step"}
 COLD_BARS = {2: 55, 3: 40}  # products
 BYTES = {"all": "all that a flow holds between steps", "pairs": "pairs", "pair_vectors": "pair vectors",
-         "matrix": "values and columns of the matrix"}
+         "matrix": "weights of the matrix"}
 
 
 def times(result):
