@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/assert.h"
+#include "base/batch.h"
 
 namespace tailwater {
 namespace {
@@ -210,25 +211,33 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   const std::vector<int> place = order_rows(system.cells().number, total, level);
   level.matrix.reserve(rows, large);
   std::vector<int> needed;  // of other ranks
-  std::vector<Entry> kept(longest + 1);
+  std::vector<std::int32_t> columns(longest + batch);
+  std::vector<float> weights(longest + batch);
+  std::vector<Entry> kept(longest);
   for (const int i : row_) {
     std::size_t count = 0;
     const auto keep_from = [&](float least) {
-      for (std::size_t k = part.begin[i]; k < part.end[i]; ++k) {
-        kept[count] = {part.column[k], part.weight[k]};  // the next one's place, unless it is kept
-        count += part.weight[k] >= least;
+      std::size_t k = part.begin[i];
+      for (; k + batch <= part.end[i]; k += batch) {
+        const unsigned large_ones = bits_of(batch_at<FloatBatch>(part.weight + k) >= least);
+        write_chosen(part.column + k, large_ones, columns.data() + count);
+        count = write_chosen(part.weight + k, large_ones, weights.data() + count) - weights.data();
+      }
+      for (; k < part.end[i]; ++k) {
+        columns[count] = part.column[k];  // the next one's place, unless it is kept
+        weights[count] = part.weight[k];
+        count += part.weight[k] >= least ? 1 : 0;
       }
     };
     if (total[i] > 0.0) {
       keep_from(static_cast<float>(least_share * total[i]));
       if (count == 0) keep_from(std::numeric_limits<float>::min());  // many weights, all of them small
-      double sum = 0.0;
-      for (std::size_t k = 0; k < count; ++k) sum += kept[k].weight;
+      const double sum = sum_of_weights(std::span(weights).first(count));
       const auto raise = static_cast<float>(system.scale(i) * total[i] / sum);
       for (std::size_t k = 0; k < count; ++k) {
-        const int column = column_of(kept[k].column);
+        const int column = column_of(columns[k]);
         if (column >= rows) needed.push_back(column - rows);
-        kept[k] = {column < rows ? place[column] : column, raise * kept[k].weight};
+        kept[k] = {column < rows ? place[column] : column, raise * weights[k]};
       }
     }
     level.matrix.add_row(std::span(kept).first(count), 1.0);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "base/batch.h"
 #include "base/for_each.h"
 #include "base/lanes.h"
 #include "base/room.h"
@@ -15,48 +15,9 @@
 namespace tailwater {
 namespace {
 
-/// As many candidates are looked at together, whatever the width of a register.
-constexpr int batch = 8;
-using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch)));
-
-/// The first `count` bits, all if there are more candidates than a batch has.
-inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch)) - 1U; }
-
-#if defined(__AVX2__)
-/// For each set of candidates, as bits: their places in the batch, put to the front, a byte each.
-constexpr std::array<std::uint64_t, 1 << batch> places_of_bits = [] {
-  std::array<std::uint64_t, 1 << batch> places{};
-  for (unsigned bits = 0; bits < places.size(); ++bits) {
-    int count = 0;
-    for (unsigned n = 0; n < batch; ++n) {
-      if ((bits >> n & 1U) != 0) places[bits] |= static_cast<std::uint64_t>(n) << (8 * count++);
-    }
-  }
-  return places;
-}();
-#endif
-
-/// Writes those of a batch of indices whose bit is set, one behind the other, and may write to as many entries as a
-/// batch has. Returns the end of those that count.
-inline std::int32_t* write_chosen(const std::int32_t* indices, unsigned bits, std::int32_t* chosen) {
-#if defined(__AVX2__)
-  // Without a branch: which candidates are near is unpredictable.
-  IndexBatch all;
-  std::memcpy(&all, indices, sizeof(all));
-  const __m256i places = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(places_of_bits[bits])));
-  const __m256i ordered = _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(all), places);
-  std::memcpy(chosen, &ordered, sizeof(ordered));
-  return chosen + std::popcount(bits);
-#else
-  for (; bits != 0; bits &= bits - 1) *chosen++ = indices[std::countr_zero(bits)];
-  return chosen;
-#endif
-}
-
 /// Bit n is set if index n of a batch is at least `begin` and less than `end`.
 inline unsigned bits_between(const std::int32_t* indices, std::int32_t begin, std::int32_t end) {
-  IndexBatch all;
-  std::memcpy(&all, indices, sizeof(all));
+  const auto all = batch_at<IndexBatch>(indices);
   return bits_of((all >= begin) & (all < end));
 }
 

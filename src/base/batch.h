@@ -1,0 +1,62 @@
+// Choosing among numbers eight at a time, without a branch: where the choice is as good as random, a branch would be
+// wrong every other time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "base/lanes.h"
+
+namespace tailwater {
+
+/// As many are looked at together, whatever the width of a register.
+inline constexpr int batch = 8;
+using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch)));
+using FloatBatch = float __attribute__((vector_size(4 * batch)));
+
+/// The first `count` bits, all if there are more numbers than a batch has.
+inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch)) - 1U; }
+
+/// The numbers of a batch.
+template <class Batch, class Number>
+Batch batch_at(const Number* numbers) {
+  Batch all;
+  std::memcpy(&all, numbers, sizeof(all));
+  return all;
+}
+
+#if defined(__AVX2__)
+/// For each set of numbers, as bits: their places in the batch, put to the front, a byte each.
+inline constexpr std::array<std::uint64_t, 1 << batch> places_of_bits = [] {
+  std::array<std::uint64_t, 1 << batch> places{};
+  for (unsigned bits = 0; bits < places.size(); ++bits) {
+    int count = 0;
+    for (unsigned n = 0; n < batch; ++n) {
+      if ((bits >> n & 1U) != 0) places[bits] |= static_cast<std::uint64_t>(n) << (8 * count++);
+    }
+  }
+  return places;
+}();
+#endif
+
+/// Writes those of a batch of numbers of four bytes whose bit is set, one behind the other, and may write to as many
+/// entries as a batch has. Returns the end of those that count.
+template <class Number>
+Number* write_chosen(const Number* numbers, unsigned bits, Number* chosen) {
+  static_assert(sizeof(Number) == 4);
+#if defined(__AVX2__)
+  const __m256i places = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(places_of_bits[bits])));
+  const __m256i ordered = _mm256_permutevar8x32_epi32(batch_at<__m256i>(numbers), places);
+  std::memcpy(chosen, &ordered, sizeof(ordered));
+  return chosen + std::popcount(bits);
+#else
+  for (; bits != 0; bits &= bits - 1) *chosen++ = numbers[std::countr_zero(bits)];
+  return chosen;
+#endif
+}
+
+}  // namespace tailwater
