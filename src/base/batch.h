@@ -9,9 +9,28 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/lanes.h"
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 namespace tailwater {
+
+/// Bit n is set where a comparison holds in lane n, of lanes of any kind and number.
+template <class Truths>
+unsigned bits_of(Truths holds) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 4) {
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
+  }
+  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 8) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
+  }
+#endif
+  constexpr int count = sizeof(Truths) / sizeof(holds[0]);
+  unsigned bits = 0;
+  for (int n = 0; n < count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
+  return bits;
+}
 
 /// As many are looked at together, whatever the width of a register.
 inline constexpr int batch = 8;

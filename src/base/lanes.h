@@ -20,6 +20,7 @@
 #include <immintrin.h>
 #endif
 
+#include "base/batch.h"
 #include "base/for_each.h"
 #include "base/vec.h"
 
@@ -104,23 +105,6 @@ inline Lanes sqrt_of(Lanes lanes) {
 #endif
 }
 inline double sqrt_of(double number) { return std::sqrt(number); }
-
-/// Bit n is set where a comparison holds in lane n, of lanes of any kind and number.
-template <class Truths>
-unsigned bits_of(Truths holds) {
-#if defined(__AVX__)
-  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 4) {
-    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(holds)));
-  }
-  if constexpr (sizeof(Truths) == 32 && sizeof(holds[0]) == 8) {
-    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(holds)));
-  }
-#endif
-  constexpr int count = sizeof(Truths) / sizeof(holds[0]);
-  unsigned bits = 0;
-  for (int n = 0; n < count; ++n) bits |= static_cast<unsigned>(holds[n] != 0) << n;
-  return bits;
-}
 
 /// Whether a comparison holds in some lane.
 inline bool any_of(LaneTruths holds) { return bits_of(holds) != 0; }
