@@ -33,6 +33,7 @@ class Pass:
     floor: object
     operations: object
     times: int = 1  # in a step
+    only_in: int = 0  # dimension; 0: both
 
 
 def candidates(d):
@@ -65,8 +66,8 @@ PASSES = (
          lambda d: 5 * d**2 + 18 * d + 11 + pair_vector(d)),
     Pass("divergence, source; weights", lambda d: 2 * INDEX + 2 * SINGLE,
          lambda d: INDEX + SINGLE, lambda d: 5 * d + 4 + pair_vector(d) + SLOPE),
-    # The matrix has had the place of F.
-    Pass("F, found again", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + SLOPE),
+    # In 3D the matrix has had the place of F.
+    Pass("F, found again", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + SLOPE, only_in=3),
     Pass("gradient", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
     Pass("divergence, reported", lambda d: (INDEX + SINGLE) / 8, lambda d: 0,
          lambda d: (3 * d + 1 + pair_vector(d)) / 8, 2),
@@ -102,6 +103,8 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
                          max(best_bytes / bandwidth, best_operations / multiply_adds)))
 
     for one in PASSES:
+        if one.only_in not in (0, d):
+            continue
         operations, floor = pairs * one.operations(d), one.floor(d)
         add(one.name, one.times * (pairs * one.now(d) + own), best_times(one) * (pairs * floor + (own if floor else 0)),
             one.times * operations, best_times(one) * operations)
