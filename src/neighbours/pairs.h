@@ -64,8 +64,10 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: rows are put one behind the other
     const std::size_t end = pairs.end(i);
+    pairs.sees_wall[i] = 0;
     for (std::size_t k = begin; k < end; ++k) {
       if (!keep(i, k)) continue;
+      if (pairs.place[pairs.j[k]].signed_volume < 0.0F) pairs.sees_wall[i] = 1;
       pairs.j[n] = pairs.j[k];
       pairs.F[n] = pairs.F[k];
       ++n;

@@ -167,7 +167,7 @@ bool assemble_equation(Flow<Dim>& flow, std::span<const float> volume_taking_par
 
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
-  if (flow.has_matrix) {
+  if (flow.has_matrix) {  // no row of it fell back (Setup::keeps_matrix)
     flow.setup.wall_model->set_sources(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
     return 0;
   }

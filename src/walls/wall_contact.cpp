@@ -8,17 +8,6 @@ namespace {
 constexpr double contact_distance = 0.5;  // dx
 constexpr double least_gap = 0.01;        // dx; a move that starts nearer, or behind a wall, counts as starting here
 
-/// Of pairs, some may be hidden behind plates.
-template <int Dim>
-bool has_wall_neighbour(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, const Particles<Dim>& particles,
-                        std::size_t i) {
-  if (boundary.screens.empty() || pairs.sees_wall[i] == 0) return pairs.sees_wall[i] != 0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    if (!particles.is_fluid(pairs.j[k])) return true;
-  }
-  return false;
-}
-
 /// Where the water was before a move, carried along by the wall.
 template <int Dim>
 Vec<Dim> carried_by(const WallWays<Dim>& ways, int wall, const Vec<Dim>& before) {
@@ -77,7 +66,7 @@ void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, d
   const double contact = contact_distance * spacing;
   for_each(pairs.owned(), [&](std::size_t i) {
     overlap[i] = 0.0;
-    if (!particles.is_fluid(i) || !has_wall_neighbour(pairs, boundary, particles, i)) return;
+    if (!particles.is_fluid(i) || pairs.sees_wall[i] == 0) return;
     const NearestWall<Dim> wall = boundary.nearest(particles.position[i], contact);
     if (wall.face < 0) return;
     const double s = std::clamp(1.0 - wall.signed_distance / contact, 0.0, 1.0);
