@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -63,6 +64,22 @@ struct Loads {
     moment = all_moments;
     power = sums.back();
   }
+};
+
+/// What patches take of a force, over what all patches near a particle take: the sum of their A_k.
+template <int Dim>
+struct Shares {
+  double weight = 0.0;
+  Mat<Dim> normals = Mat<Dim>::Zero();  ///< sum of weight n n^T
+
+  void add(double weight_of_patch, const Vec<Dim>& n) {
+    weight += weight_of_patch;
+    normals += (weight_of_patch * n) * n.transpose();
+  }
+  /// Of the pressure's.
+  Mat<Dim> across() const { return normals + indifference * weight * Mat<Dim>::Identity(); }
+  /// Of friction.
+  Mat<Dim> along() const { return (1.0 + indifference) * weight * Mat<Dim>::Identity() - normals; }
 };
 
 template <int Dim>
@@ -168,61 +185,45 @@ class WallForceProbe {
                      const std::vector<AffineMap<Dim>>& velocity) const {
     const Vec<Dim>& x = context.particles.position[i];
     if (!takes_all_ && !around_chosen_.contains(x)) return {};
-    const std::vector<Share> shares = shares_near(context.boundary, x);
-    Mat<Dim> all_across = Mat<Dim>::Zero();
-    Mat<Dim> all_along = Mat<Dim>::Zero();
-    for (const Share& share : shares) {
-      all_across += share.across;
-      all_along += share.along;
-    }
+    Shares<Dim> all;
+    Shares<Dim> chosen;
+    for_each_share_near(context.boundary, x, [&](std::int32_t k, double weight, const Vec<Dim>& normal) {
+      all.add(weight, normal);
+      if (chosen_[k] > 0.0) chosen.add(chosen_[k] * weight, normal);
+    });
     Loads<Dim> loads;
-    if (shares.empty()) return takes_all_ ? whole : loads;
-    const Vec<Dim> pressure = all_across.inverse() * whole.pressure;
-    const Vec<Dim> friction = all_along.inverse() * whole.friction;
-    for (const Share& share : shares) {
-      const double chosen = chosen_[share.patch];
-      if (chosen == 0.0) continue;
-      const Vec<Dim> p = chosen * (share.across * pressure);
-      const Vec<Dim> f = chosen * (share.along * friction);
-      loads.pressure += p;
-      loads.friction += f;
-      const int wall = context.boundary.faces[patches_[share.patch].face].wall;
-      if (moves(wall)) loads.power -= (p + f).dot(velocity[wall](x));
+    if (all.weight == 0.0) return takes_all_ ? whole : loads;
+    const Vec<Dim> pressure = (all.across() / all.weight).inverse() * (whole.pressure / all.weight);
+    const Vec<Dim> friction = (all.along() / all.weight).inverse() * (whole.friction / all.weight);
+    loads.pressure = chosen.across() * pressure;
+    loads.friction = chosen.along() * friction;
+    if (has_power_) {
+      for_each_share_near(context.boundary, x, [&](std::int32_t k, double weight, const Vec<Dim>& normal) {
+        const int wall = context.boundary.faces[patches_[k].face].wall;
+        if (chosen_[k] == 0.0 || !moves(wall)) return;
+        Shares<Dim> share;
+        share.add(chosen_[k] * weight, normal);
+        loads.power -= (share.across() * pressure + share.along() * friction).dot(velocity[wall](x));
+      });
     }
     loads.moment = moment(x, loads.pressure);
     if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
     return loads;
   }
 
-  /// What a patch takes of a force, over what all patches near the particle take: A_k.
-  struct Share {
-    std::int32_t patch;
-    Mat<Dim> across;  ///< of the pressure's
-    Mat<Dim> along;   ///< of friction
-  };
-
-  std::vector<Share> shares_near(const Boundary<Dim>& boundary, const Vec<Dim>& x) const {
-    std::vector<Share> shares;
-    double sum = 0.0;
+  /// Calls body(k, weight, normal) for each patch k near x that takes a share of the forces there.
+  template <class Body>
+  void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, Body&& body) const {
     grid_.for_each_near(x, [&](std::int32_t k) {
       const Vec<Dim> offset = x - centres_[k];
-      const double distance = offset.norm();
-      if (distance >= reach_) return;
-      const double nearness = 1.0 - distance / reach_;
-      const Vec<Dim>& n = boundary.faces[patches_[k].face].normal;
-      const bool is_behind = n.dot(offset) < 0.0;
-      const double weight =
-          patches_[k].measure * (nearness * nearness) * (nearness * nearness) * (is_behind ? 1.0 : weight_in_front);
-      const Mat<Dim> across = n * n.transpose();
-      const Mat<Dim> any = Mat<Dim>::Identity();
-      shares.push_back({k, weight * (across + indifference * any), weight * (any - across + indifference * any)});
-      sum += weight;
+      const double squared = offset.squaredNorm();
+      if (squared >= reach_ * reach_) return;
+      const double nearness = 1.0 - std::sqrt(squared) / reach_;
+      const Vec<Dim>& normal = boundary.faces[patches_[k].face].normal;
+      const bool is_behind = normal.dot(offset) < 0.0;
+      const double size = patches_[k].measure * (is_behind ? 1.0 : weight_in_front);
+      body(k, size * (nearness * nearness) * (nearness * nearness), normal);
     });
-    for (Share& share : shares) {  // numbers near 1
-      share.across /= sum;
-      share.along /= sum;
-    }
-    return shares;
   }
 
   std::vector<WallPatch<Dim>> patches_;
