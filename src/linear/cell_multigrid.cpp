@@ -40,33 +40,32 @@ constexpr int follows = -2;
 /// Sums values by column, one row after another.
 class RowSum {
  public:
-  explicit RowSum(std::size_t columns) : slot_(columns, -1) {}
+  explicit RowSum(std::size_t columns) : sum_(columns, 0.0), is_there_(columns, 0), columns_(columns + 1) {}
 
   void add(int column, double value) {
-    int& slot = slot_[column];
-    if (slot < 0) {
-      slot = static_cast<int>(columns_.size());
-      columns_.push_back(column);
-      values_.push_back(0.0);
-    }
-    values_[slot] += value;
+    sum_[column] += value;
+    columns_[count_] = column;  // the next one's place, unless it is new: a branch could not be predicted
+    count_ += is_there_[column] == 0 ? 1 : 0;
+    is_there_[column] = 1;
   }
 
   /// Calls body(column, sum) for each column, in the order in which they came, and begins a new row.
   template <class Body>
   void finish(Body&& body) {
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      body(columns_[k], values_[k]);
-      slot_[columns_[k]] = -1;
+    for (std::size_t k = 0; k < count_; ++k) {
+      const int column = columns_[k];
+      body(column, sum_[column]);
+      sum_[column] = 0.0;
+      is_there_[column] = 0;
     }
-    columns_.clear();
-    values_.clear();
+    count_ = 0;
   }
 
  private:
-  std::vector<int> slot_;
+  std::vector<double> sum_;
+  std::vector<std::uint8_t> is_there_;
   std::vector<int> columns_;
-  std::vector<double> values_;
+  std::size_t count_ = 0;
 };
 
 /// Four partial sums, so that an addition need not wait for the one before it.
