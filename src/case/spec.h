@@ -588,7 +588,7 @@ struct SchemeTable {
   DivergenceFree divergence_free = DivergenceFree::midway;
   Displacement displacement = Displacement::new_velocity;
 
-  double courant = 0.4;
+  double courant = 0.45;
   double length = 0.0;
 
   double artificial_viscosity = 0.0;
@@ -601,7 +601,7 @@ struct SchemeTable {
   double shifting_strength = 3.0;
   double shifting_cap = 0.2;
 
-  double density_relaxation = 0.01;
+  double density_relaxation = 0.015;
   double energy_slack = 1e-4;
 
   ImplicitForm implicit_form = ImplicitForm::residual;

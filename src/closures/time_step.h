@@ -2,10 +2,10 @@
 //
 //   dt <= alpha dx / max(u_max, sqrt(2 g L)),    dt <= b dx^2 / nu_max
 //
-// b is 0.25/Dim, the limit up to which the explicit two-point term still smooths, or the 0.1 of (B20). The other half
-// of (B20) is the first rule. With the density source (B17) the first rule feeds itself: to undo a density error in one
-// step a particle needs a speed proportional to 1/dt, and that speed shortens the next step. So `fastest` caps u_max
-// there.
+// b is 1/8, or the 0.1 of (B20). The explicit two-point term is stable up to 0.14 with a support of 2 dx, the smallest,
+// and up to 0.32 with the default, in 2D and 3D (docs/theory/closures.md). The other half of (B20) is the first rule.
+// With the density source (B17) the first rule feeds itself: to undo a density error in one step a particle needs a
+// speed proportional to 1/dt, and that speed shortens the next step. So `fastest` caps u_max there.
 //
 // The paper uses (F41) at the start only. Here it always holds: it costs nothing in violent flow, where u_max is
 // larger, and prevents huge steps in quiet water. The eddy viscosity of smagorinsky.h is at most of the order

@@ -155,10 +155,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
                   .spacing = spacing,
                   .W_spacing = kernel_value(kernel, spacing)};
   const double reference_speed = std::sqrt(2.0 * g * length);
-  time_step_rule = {.courant = scheme.courant,
-                    .spacing = spacing,
-                    .reference_speed = reference_speed,
-                    .viscous_share = scheme.name == SchemeName::farmani2020 ? 0.1 : 0.25 / Dim};
+  time_step_rule = {.courant = scheme.courant, .spacing = spacing, .reference_speed = reference_speed};
+  if (scheme.name == SchemeName::farmani2020) time_step_rule.viscous_share = 0.1;  // (B20)
   if (scheme.source == SourceKind::density && reference_speed > 0.0) {
     time_step_rule.fastest = fastest_counted_over_reference * reference_speed;
   }

@@ -8,10 +8,10 @@ namespace tailwater {
 namespace {
 
 TEST(TimeStepRule, TakesTheStrictestLimit) {
-  const TimeStepRule rule{.courant = 0.25, .spacing = 0.02, .reference_speed = 2.0, .viscous_share = 0.25 / 3.0};
+  const TimeStepRule rule{.courant = 0.25, .spacing = 0.02, .reference_speed = 2.0};
   EXPECT_DOUBLE_EQ(rule.largest(0.0, 0.0), 0.25 * 0.02 / 2.0);  // (F41)
   EXPECT_DOUBLE_EQ(rule.largest(5.0, 0.0), 0.25 * 0.02 / 5.0);  // (F40)
-  EXPECT_DOUBLE_EQ(rule.largest(0.0, 1.0), 0.25 * 0.02 * 0.02 / 3.0);
+  EXPECT_DOUBLE_EQ(rule.largest(0.0, 1.0), 0.125 * 0.02 * 0.02);
 }
 
 TEST(TimeStepRule, HasTheViscousLimitOfTheTwoStepScheme) {

@@ -19,9 +19,10 @@ template <class D>
 class OpenEndTest : public testing::Test {};
 TYPED_TEST_SUITE(OpenEndTest, Dimensions);
 
-/// A wall particle counts as wet from a kernel sum of 1e-6 W(0) on (wet_walls.cpp). A plug that glides past feels such
-/// particles come and go, to that degree.
-constexpr double unfelt = 1e-6;
+/// A wall particle counts as wet from a kernel sum of 1e-6 W(0) on (wet_walls.cpp), where 1 - r/R = 0.02. Its share of
+/// a divergence is there dx^2 |W'| = 1.6e-5/dx, and a plug that glides past feels such particles come and go to that
+/// degree. Steps of 0.25 or 0.5 dx pass no wall particle at such a distance.
+constexpr double unfelt = 1.6e-5;
 
 /// The tank of tank_case with its end at high x open.
 template <int Dim>
@@ -243,7 +244,7 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
     ASSERT_NEAR(columns, std::round(columns), way * unfelt);
     const double rows = x[Dim - 1] / dx + 0.5;
     ASSERT_NEAR(rows, std::round(rows), way * unfelt);
-    ASSERT_NEAR(particles.velocity[i][0], speed, unfelt);
+    ASSERT_NEAR(particles.velocity[i][0], speed, speed * unfelt);
   }
 }
 

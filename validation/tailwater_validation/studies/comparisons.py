@@ -174,11 +174,11 @@ def time_step(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
     return zhou_comparison(
-        "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.25), at the default, and near "
+        "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.45), at the default, and near "
         "the limit of stability.",
-        {"courant 0.125": zhou_run(plan, dx, variant="courant0.125", settings=("scheme.courant=0.125",)),
-         "courant 0.25": zhou_run(plan, dx),
-         "courant 0.4": zhou_run(plan, dx, variant="courant0.4", settings=("scheme.courant=0.4",))})
+        {"courant 0.225": zhou_run(plan, dx, variant="courant0.225", settings=("scheme.courant=0.225",)),
+         "courant 0.45": zhou_run(plan, dx),
+         "courant 0.6": zhou_run(plan, dx, variant="courant0.6", settings=("scheme.courant=0.6",))})
 
 
 def starts(plan):
