@@ -20,8 +20,9 @@ constexpr double memory = 100.0;
 /// [dx]; rows of the entering lattice are one more or one less when they have become that much too high or too low
 /// together. Half of it would do; the rest keeps a level that trembles from changing them again and again.
 constexpr double most_row_error = 0.75;
-/// [dx]; no new particle stands farther behind the opening: as in the first column of a lattice that ends there.
-constexpr double farthest_entry = 0.5;
+/// [dx]; how far behind the opening new particles stand that follow no others: as in the first column of a lattice that
+/// ends there.
+constexpr double first_entry = 0.5;
 
 /// Sums over the water before the end stretch, weighted by a tent of half width `gauge`. With a half width of two
 /// lattice columns the tent counts a lattice exactly wherever it stands.
@@ -189,7 +190,8 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   const std::vector<double> free = free_lengths(end, state, flow);
   std::vector<Entrant<Dim>> entrants;
   for (std::size_t cell = 0; cell < free.size(); ++cell) {
-    const double way = std::min(free[cell] - spacing, farthest_entry * spacing);
+    const bool follows = free[cell] < 2.0 * spacing;
+    const double way = follows ? free[cell] - spacing : first_entry * spacing;
     if (way < 0.0) continue;
     const std::size_t row = cell / static_cast<std::size_t>(end.columns);
     const std::size_t column = cell % static_cast<std::size_t>(end.columns);
