@@ -116,6 +116,12 @@ inline double sum_of(Lanes lanes) {
   return sum;
 }
 
+inline double largest_of(Lanes lanes) {
+  float largest = lanes[0];
+  for (int n = 1; n < lane_count; ++n) largest = lanes[n] > largest ? lanes[n] : largest;
+  return largest;
+}
+
 template <int Dim>
 Vec<Dim> sum_of(const VecLanes<Dim>& lanes) {
   Vec<Dim> sum;

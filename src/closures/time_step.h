@@ -24,11 +24,14 @@ struct TimeStepRule {
   double reference_speed = 0.0;                              ///< m/s; sqrt(2 g L)
   double viscous_share = 0.125;                              ///< b
 
+  /// Speed [m/s] of the first rule.
+  double limiting_speed(double speed) const { return std::max(std::min(speed, fastest), reference_speed); }
+
   /// Largest step [s]; infinite when nothing moves and no force acts.
   double largest(double speed, double viscosity) const {
-    const double limiting_speed = std::max(std::min(speed, fastest), reference_speed);
     const double infinite = std::numeric_limits<double>::infinity();
-    const double advective = limiting_speed > 0.0 ? courant * spacing / limiting_speed : infinite;
+    const double limiting = limiting_speed(speed);
+    const double advective = limiting > 0.0 ? courant * spacing / limiting : infinite;
     const double viscous = viscosity > 0.0 ? viscous_share * spacing * spacing / viscosity : infinite;
     return std::min(advective, viscous);
   }

@@ -2,12 +2,17 @@
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
 
 /// [s]; even where neither water nor gravity limits the step, a wall must not move out and back within it.
 constexpr double longest_step_of_walls = 0.01;
+
+/// [dx]; how much nearer two particles may come in a step. Those that would meet at one place gain energy
+/// (docs/theory/robustness.md).
+constexpr double largest_way_together = 0.9;
 
 template <int Dim>
 double largest_layer_diffusivity(const Flow<Dim>& flow) {
@@ -20,7 +25,34 @@ double largest_layer_diffusivity(const Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-double next_time_step(const Flow<Dim>& flow) {
+double largest_approach(Flow<Dim>& flow) {
+  flow.halo().exchange(flow.state.particles.velocity);
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
+  // Of two particles that come nearer so fast that it matters one has at least half of that speed.
+  const TimeStepRule& rule = flow.setup.time_step_rule;
+  const double least_of_interest = largest_way_together / rule.courant * rule.limiting_speed(largest_speed(flow));
+  const double least_speed_squared = 0.25 * least_of_interest * least_of_interest;
+  const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i) || particles.velocity[i].squaredNorm() < least_speed_squared) return 0.0;
+    Lanes approach{};
+    for_each_lanes(
+        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+          const LaneIndices j = range.neighbours(pairs.j.data());
+          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
+          VecLanes<Dim> difference = j.template vectors<Dim>(velocity.data());
+          for (int a = 0; a < Dim; ++a) difference.at[a] -= velocity[i].at[a];
+          const Lanes rate = difference.dot(place.d) / sqrt_of(place.d.dot(place.d));
+          approach = max_of(approach, place.of_fluid(rate));
+        });
+    return largest_of(approach);
+  });
+  return flow.setup.ranks.largest(largest);
+}
+
+template <int Dim>
+double step_of_water(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   double speed = largest_speed(flow);
   for (const OpenEnd<Dim>& end : setup.open_ends) {
@@ -28,7 +60,15 @@ double next_time_step(const Flow<Dim>& flow) {
   }
   double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
   if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);
-  double dt = setup.time_step_rule.largest(speed, viscosity);
+  const double dt = setup.time_step_rule.largest(speed, viscosity);
+  const double approach = flow.state.approach;
+  return approach > 0.0 ? std::min(dt, largest_way_together * setup.spacing / approach) : dt;
+}
+
+template <int Dim>
+double next_time_step(const Flow<Dim>& flow) {
+  const Setup<Dim>& setup = flow.setup;
+  double dt = step_of_water(flow);
   if (setup.wall_motion.moving().empty()) return dt;
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
   // gate may start within the step.
@@ -42,6 +82,10 @@ double next_time_step(const Flow<Dim>& flow) {
   return dt;
 }
 
+template double largest_approach<2>(Flow<2>&);
+template double largest_approach<3>(Flow<3>&);
+template double step_of_water<2>(const Flow<2>&);
+template double step_of_water<3>(const Flow<3>&);
 template double next_time_step<2>(const Flow<2>&);
 template double next_time_step<3>(const Flow<3>&);
 

@@ -117,6 +117,15 @@ void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted);
 template <int Dim>
 Interventions shift(Flow<Dim>& flow, double dt);
 
+/// The largest rate [m/s] at which two neighbours in the water come nearer to each other, or less where none comes so
+/// near in a step that it matters. Needs `locate` at the present positions. Collective.
+template <int Dim>
+double largest_approach(Flow<Dim>& flow);
+
+/// The largest step [s] that the water allows at its present velocities, whatever the walls do.
+template <int Dim>
+double step_of_water(const Flow<Dim>& flow);
+
 /// The largest allowed step [s] for the present velocities and the motion of the walls.
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow);

@@ -173,10 +173,11 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, energy_rise, density_share,
-               fallen] = checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
+               density_share, fallen] = checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
+                      {"approach", approach},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
                       {"fallen", json_of(fallen)},
@@ -199,6 +200,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   State<Dim>& state = checkpoint.state;
   state.time = json.at("time");
   state.step = json.at("step");
+  state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
   state.fallen = passed_of(json.at("fallen"));

@@ -91,15 +91,14 @@ void StepGuard<Dim>::require_sound_step(double dt) {
       "the time step collapsed to {:.3g} s, less than limits.smallest_step = {:g} of {:.3g} s, the step at "
       "the start",
       dt, smallest_step_, reference_step_);
-  const double speed = largest_speed(flow_);
-  const double rule_step =
-      setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed));
-  if (dt < rule_step) {
+  if (dt < step_of_water(flow_)) {
     fail(fmt::format("{}: {} moves too fast or jumps. Remedy: a smoother displacement or rotation of the wall", reason,
                      fastest_wall(flow_, dt)),
          std::nullopt);
   }
-  const bool is_viscous = rule_step < setup.time_step_rule.largest(speed, 0.0);
+  const double speed = largest_speed(flow_);
+  const double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
+  const bool is_viscous = setup.time_step_rule.largest(speed, viscosity) < setup.time_step_rule.largest(speed, 0.0);
   const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);
   if (culprit && particles.velocity[*culprit].norm() < speed) culprit.reset();

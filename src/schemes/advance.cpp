@@ -28,6 +28,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   steer_bodies(flow, start, dt);
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;
+  flow.state.approach = largest_approach(flow);
   count_passing(flow, start);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);

@@ -13,6 +13,7 @@ void start(Flow<Dim>& flow) {
   hold_open_ends(flow, 0.0);
   const StepStart<Dim> start = remember(flow);
   locate(flow);
+  flow.state.approach = largest_approach(flow);
   if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);

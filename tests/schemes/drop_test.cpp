@@ -98,6 +98,32 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
   }
 }
 
+/// Two particles that meet head-on would be at one place after a step of 0.55 dx from 1.1 dx apart. They come nearer by
+/// 0.9 dx at most, along the line between them and nowhere else.
+TEST(TimeStep, LeavesParticlesThatMeetApart) {
+  constexpr double dx = 0.05;
+  CaseSpec spec = free_case(dx);
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {2.0 * dx, dx};
+  spec.fluid = {water};
+  Flow<2> flow(spec);
+  std::vector<Vec<2>>& velocity = flow.state.particles.velocity;
+  ASSERT_EQ(flow.state.particles.owned, 2u);
+  const std::size_t left = flow.state.particles.position[0][0] < flow.state.particles.position[1][0] ? 0 : 1;
+  locate(flow);
+  const auto step_with = [&](const Vec<2>& u_left, const Vec<2>& u_right) {
+    velocity[left] = u_left;
+    velocity[1 - left] = u_right;
+    flow.state.approach = largest_approach(flow);
+    return next_time_step(flow);
+  };
+  EXPECT_NEAR(step_with({1.0, 0.0}, {-1.0, 0.0}), 0.9 * dx / 2.0, 1e-6 * dx);
+  EXPECT_DOUBLE_EQ(step_with({-1.0, 0.0}, {1.0, 0.0}), spec.scheme.courant * dx);
+  EXPECT_DOUBLE_EQ(step_with({0.0, 1.0}, {0.0, -1.0}), spec.scheme.courant * dx);
+  EXPECT_DOUBLE_EQ(step_with({1.0, 0.0}, {0.9, 0.0}), spec.scheme.courant * dx);
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, StretchingDrop,
                          testing::Values(Integrator::explicit_projection, Integrator::implicit_projection),
                          [](const auto& test) { return std::string(name_of(test.param)); });

@@ -79,6 +79,7 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
   ASSERT_EQ(a.state.particles.owned, b.state.particles.owned);
   EXPECT_EQ(a.state.time, b.state.time);
   EXPECT_EQ(a.state.step, b.state.step);
+  EXPECT_EQ(a.state.approach, b.state.approach);
   EXPECT_EQ(a.state.energy_rise, b.state.energy_rise);
   EXPECT_EQ(a.state.density_share, b.state.density_share);
   for (std::size_t i = 0; i < a.state.particles.owned; ++i) {
