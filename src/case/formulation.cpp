@@ -3,10 +3,6 @@
 namespace tailwater {
 namespace {
 
-void set_robust_farzin(SchemeTable& scheme) {
-  if (scheme.integrator == Integrator::implicit_projection) scheme.courant = 0.6;
-}
-
 void set_published_farzin(SchemeTable& scheme) {
   const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   scheme.kernel = KernelName::farzin;
@@ -62,7 +58,8 @@ void apply_formulation(SchemeTable& scheme) {
   const bool is_robust = scheme.formulation == Formulation::robust;
   switch (scheme.name) {
     case SchemeName::farzin2014:
-      return is_robust ? set_robust_farzin(scheme) : set_published_farzin(scheme);
+      if (!is_robust) set_published_farzin(scheme);
+      return;
     case SchemeName::farmani2020:
       return is_robust ? set_robust_farmani(scheme) : set_published_farmani(scheme);
   }

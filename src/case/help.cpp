@@ -34,7 +34,6 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   }
   constexpr auto farzin = SchemeName::farzin2014;
   constexpr auto farmani = SchemeName::farmani2020;
-  static const auto robust_implicit = defaults(farzin, Formulation::robust, Integrator::implicit_projection);
   static const auto published_explicit = defaults(farzin, Formulation::published);
   static const auto published_implicit = defaults(farzin, Formulation::published, Integrator::implicit_projection);
   static const auto two_step_robust = defaults(farmani, Formulation::robust);
@@ -51,7 +50,6 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   const auto add = [&](std::string_view heading, const std::string& text) {
     if (!text.empty()) others.push_back(fmt::format("{}{}", heading, text));
   };
-  add("", pair("", row.value, "implicit ", robust_implicit[index].value, row.value));
   add("published: ",
       pair("", published_explicit[index].value, "implicit ", published_implicit[index].value, row.value));
   if (key_use_text("scheme", row.key).find("farzin2014") == std::string::npos) {

@@ -588,7 +588,7 @@ struct SchemeTable {
   DivergenceFree divergence_free = DivergenceFree::midway;
   Displacement displacement = Displacement::new_velocity;
 
-  double courant = 0.45;
+  double courant = 0.55;
   double length = 0.0;
 
   double artificial_viscosity = 0.0;
@@ -601,7 +601,7 @@ struct SchemeTable {
   double shifting_strength = 3.0;
   double shifting_cap = 0.2;
 
-  double density_relaxation = 0.015;
+  double density_relaxation = 0.05;
   double energy_slack = 1e-4;
 
   ImplicitForm implicit_form = ImplicitForm::residual;
@@ -684,8 +684,10 @@ struct SchemeTable {
              "Factor of the shifting displacement; with shifting = \"farzin\" eps of (F30) (formulation)");
     v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.3),
              "Largest shift in one step (formulation)");
-    v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
-             "Fraction of the density error that the source of the pressure equation corrects in a step");
+    v.number(
+        "density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
+        "Fraction of the density error that the source of the pressure equation corrects while water at the speed of "
+        "the time-step rule goes dx");
     v.number(
         "energy_slack", self.energy_slack, "", Range::above(0.0),
         "The density source expands water less and less as the energy rises by more than the walls' work, and not at "

@@ -32,10 +32,12 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double dt) {
     std::vector<double> overlap(owned);
     find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.spacing, flow.state.particles, overlap);
     const double lift = flow.state.density_share;
+    const double ways = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.spacing;
+    const double share = setup.scheme.density_relaxation * ways;
     for_each(owned, [&](std::size_t i) {
       const double error = concentration[i] - 1.0;
       const double answered = (error < 0.0 ? pull * flow.here.interior[i] : lift) * error + overlap[i];
-      source[i] = setup.scheme.density_relaxation * unit * answered;
+      source[i] = share * unit * answered;
     });
   }
   return source;

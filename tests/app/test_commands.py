@@ -151,9 +151,9 @@ class Check(ProgramTest):
         # 10 x 5 of fluid. Walls, three rows: 2 x 3 x 20 at the sides, 3 x (30 + 2 x 3) below, corners included.
         self.assertIn("particles: 50 fluid, 228 wall, spacing 0.1 m", result.stdout)
         self.assertRegex(result.stdout, r"memory: +about \d+ MB")
-        # Steps of at most courant dx / sqrt(2 g H) = 0.45 x 0.1 / sqrt(2 x 9.81 x 0.5) = 14.4 ms, and a flow this slow
-        # takes no smaller ones: 0.1 s are 6.96 steps. How long they take depends on what else the machine does.
-        self.assertRegex(result.stdout, r"time: +about [78] steps, (under )?\d+ s on this machine")
+        # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms, and a flow this slow
+        # takes no smaller ones: 0.1 s are 5.69 steps. How long they take depends on what else the machine does.
+        self.assertRegex(result.stdout, r"time: +about [67] steps, (under )?\d+ s on this machine")
 
     def test_the_preview_is_an_svg_with_every_fluid_particle(self):
         self.call("check", "small.toml")

@@ -234,7 +234,7 @@ class Refused(Resumed):
             path.unlink()
         shutil.copy(self.checkpoints("other")[0], self.folder / "run/checkpoints")
         self.before = self.listing()
-        self.refuse("run", parts=("other case", "courant = 0.45", "courant = 0.2", self.checkpoints("run")[0].name))
+        self.refuse("run", parts=("other case", "courant = 0.55", "courant = 0.2", self.checkpoints("run")[0].name))
 
     def test_an_older_format(self):
         path = self.checkpoints("run")[0]

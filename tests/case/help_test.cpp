@@ -39,8 +39,7 @@ TEST(CaseHelp, TellsRequirementsDefaultsUnitsAndRanges) {
   const std::string help = case_help();
   for (const char* line :
        {"  spacing (number, m, required)\n",
-        "  courant (number, default 0.45 (implicit 0.6; published: 0.05, implicit 0.12; farmani2020: "
-        "0.25, published 0.1))\n",
+        "  courant (number, default 0.55 (published: 0.05, implicit 0.12; farmani2020: 0.25, published 0.1))\n",
         "      allowed: above 0\n", "      goes with shape = \"box\" (needed)\n"}) {
     EXPECT_NE(help.find(line), std::string::npos) << line;
   }
