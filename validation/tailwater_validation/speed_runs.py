@@ -11,7 +11,7 @@ from .curves import DataError
 ROOT = Path(__file__).resolve().parents[2]
 ZHOU = ROOT / "cases" / "zhou1999" / "case.toml"
 DAM_BREAK_3D = ROOT / "benchmarks" / "dam_break_3d.toml"
-GRAVITY, COURANT = 9.81, 0.25  # of the cases; scheme.courant's default sets how long the first steps are
+GRAVITY, COURANT = 9.81, 0.55  # of the cases; scheme.courant's default sets how long the first steps are
 UNCOUNTED_STEPS = 5  # at the start of a run, which builds lists and patterns and has no pressure to begin with
 
 

@@ -174,10 +174,10 @@ def time_step(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
     return zhou_comparison(
-        "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.45), at the default, and near "
+        "time-step", "Time step", "The same flow at half the default time step (explicit, courant 0.55), at the default, and near "
         "the limit of stability.",
-        {"courant 0.225": zhou_run(plan, dx, variant="courant0.225", settings=("scheme.courant=0.225",)),
-         "courant 0.45": zhou_run(plan, dx),
+        {"courant 0.275": zhou_run(plan, dx, variant="courant0.275", settings=("scheme.courant=0.275",)),
+         "courant 0.55": zhou_run(plan, dx),
          "courant 0.6": zhou_run(plan, dx, variant="courant0.6", settings=("scheme.courant=0.6",))})
 
 
