@@ -61,7 +61,8 @@ double step_of_water(const Flow<Dim>& flow) {
   double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
   if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);
   const double dt = setup.time_step_rule.largest(speed, viscosity);
-  const double approach = flow.state.approach;
+  // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
+  const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
   return approach > 0.0 ? std::min(dt, largest_way_together * setup.spacing / approach) : dt;
 }
 

@@ -98,8 +98,8 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
   }
 }
 
-/// Two particles that meet head-on would be at one place after a step of 0.55 dx from 1.1 dx apart. They come nearer by
-/// 0.9 dx at most, along the line between them and nowhere else.
+/// Two particles 1.1 dx apart that meet head-on would be at one place after a step of 0.55 dx. They come nearer by 0.9
+/// dx at most. Only the speed along the line between them counts, and only towards each other.
 TEST(TimeStep, LeavesParticlesThatMeetApart) {
   constexpr double dx = 0.05;
   CaseSpec spec = free_case(dx);

@@ -45,6 +45,13 @@ double rise_of_dam_break(const CaseSpec& spec, double T) {
   return rise / start;
 }
 
+/// Makes the water 2 % too light, and deeper.
+void stretch_up(Flow<2>& flow) {
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][1] *= 1.02;
+  }
+}
+
 class Energy : public testing::TestWithParam<Integrator> {};
 
 TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
@@ -63,9 +70,7 @@ TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
 TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
   Flow<2> flow(spec);
-  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][1] *= 1.02;
-  }
+  stretch_up(flow);
   step(flow);
   const double start = measure(flow).density_error_mean;
   ASSERT_LT(start, -0.01);
@@ -86,16 +91,14 @@ TEST(DensitySource, CorrectsAsFastWhateverTheStep) {
     spec.scheme.courant /= static_cast<double>(n + 1);
     spec.scheme.shifting = ShiftingKind::none;
     Flow<2> flow(spec);
-    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-      if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][1] *= 1.02;
-    }
+    stretch_up(flow);
     locate(flow);
     const double start = measure(flow).density_error_mean;
     ASSERT_LT(start, -0.01);
     while (flow.state.time < 0.12) step(flow);
     left[n] = measure(flow).density_error_mean / start;
   }
-  EXPECT_NEAR(left[0], left[1], 0.1);  // one would be the square of the other, 0.36 for 0.60
+  EXPECT_NEAR(left[0], left[1], 0.1);  // with one share for every step 0.36, not 0.60
 }
 
 TEST(DensitySource, GivesNoEnergyToAStartThatHitsItsWalls) {
