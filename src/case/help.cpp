@@ -40,9 +40,9 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   static const auto two_step_published = defaults(farmani, Formulation::published);
 
   /// The values with the first and the second choice, each shown only where it differs from what is known.
-  const auto pair = [](std::string_view first_name, const std::string& first, std::string_view second_name,
-                       const std::string& second, const std::string& known) {
-    std::string text = first == known ? "" : fmt::format("{}{}", first_name, first);
+  const auto pair = [](const std::string& first, std::string_view second_name, const std::string& second,
+                       const std::string& known) {
+    std::string text = first == known ? "" : first;
     if (second != first) text += fmt::format("{}{}{}", text.empty() ? "" : ", ", second_name, second);
     return text;
   };
@@ -50,11 +50,9 @@ std::string default_text(const TableInfo& table, std::size_t index) {
   const auto add = [&](std::string_view heading, const std::string& text) {
     if (!text.empty()) others.push_back(fmt::format("{}{}", heading, text));
   };
-  add("published: ",
-      pair("", published_explicit[index].value, "implicit ", published_implicit[index].value, row.value));
+  add("published: ", pair(published_explicit[index].value, "implicit ", published_implicit[index].value, row.value));
   if (key_use_text("scheme", row.key).find("farzin2014") == std::string::npos) {
-    add("farmani2020: ",
-        pair("", two_step_robust[index].value, "published ", two_step_published[index].value, row.value));
+    add("farmani2020: ", pair(two_step_robust[index].value, "published ", two_step_published[index].value, row.value));
   }
   return others.empty() ? row.value : fmt::format("{} ({})", row.value, fmt::join(others, "; "));
 }

@@ -21,7 +21,7 @@ struct State {
   std::vector<OpenEndState> open_ends;  ///< one per inlet, then one per outlet
   std::vector<double> section_volumes;  ///< m^Dim; one per discharge probe: what has passed its section, with sign
   MotionState<Dim> motion;              ///< of wave makers and floating bodies
-  double approach = 0.0;                ///< m/s; the largest of two neighbours, at the end of the last step
+  double approach = 0.0;                ///< m/s; the largest in the last step, whose neighbours are forgotten
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
   Passed fallen;                        ///< water that fell below all walls, and is no longer computed

@@ -26,16 +26,17 @@ double largest_layer_diffusivity(const Flow<Dim>& flow) {
 
 template <int Dim>
 double largest_approach(Flow<Dim>& flow) {
-  flow.halo().exchange(flow.state.particles.velocity);
-  const Particles<Dim>& particles = flow.state.particles;
-  const Pairs<Dim>& pairs = flow.pairs();
-  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
   // Of two particles that come nearer so fast that it matters one has at least half of that speed.
   const TimeStepRule& rule = flow.setup.time_step_rule;
-  const double least_of_interest = largest_way_together / rule.courant * rule.limiting_speed(largest_speed(flow));
-  const double least_speed_squared = 0.25 * least_of_interest * least_of_interest;
+  const double speed = largest_speed(flow);
+  const double least_speed = 0.5 * largest_way_together / rule.courant * rule.limiting_speed(speed);
+  if (speed < least_speed) return 0.0;
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  flow.halo().exchange(flow.state.particles.velocity);
+  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
-    if (!particles.is_fluid(i) || particles.velocity[i].squaredNorm() < least_speed_squared) return 0.0;
+    if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;
     Lanes approach{};
     for_each_lanes(
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
