@@ -44,6 +44,7 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
     particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
     particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
     particles.pressure[i] = 0.0;
+    particles.second_pressure[i] = 0.0;
     particles.volume[i] = is_fluid ? fluid.volume[i] : walls.particles.share[row] * power<Dim>(setup.spacing);
     particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
     particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);

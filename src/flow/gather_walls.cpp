@@ -38,6 +38,7 @@ void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
     particles.position[i] = place_of_row(flow, own[n]);
     particles.velocity[i].setZero();
     particles.pressure[i] = 0.0;
+    particles.second_pressure[i] = 0.0;
     particles.volume[i] = flow.walls.particles.share[own[n]] * power<Dim>(flow.setup.spacing);
     particles.kind[i] = ParticleKind::wall;
     particles.wall_row[i] = own[n];

@@ -246,6 +246,7 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
     particles.position[i] = entrant.position;
     particles.velocity[i] = entrant.velocity;
     particles.pressure[i] = entrant.pressure;
+    particles.second_pressure[i] = 0.0;
     particles.volume[i] = entrant.volume;
     particles.kind[i] = ParticleKind::fluid;
     particles.wall_row[i] = -1;

@@ -300,9 +300,11 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
     report.residual = 1.0;
   };
   if (report.residual > hopeless_guess) begin_at_zero();
+  Implementation implementation = implementation_for(settings_, water_, system);
+  // Also where the guess will do: then the next solve with this pattern, of other diagonals, has it as it is here.
+  if (implementation == Implementation::orthomin) petsc_->multigrid_for(system, report.residual);
   if (report.residual <= tolerance_wanted) return report;
 
-  Implementation implementation = implementation_for(settings_, water_, system);
   if (implementation == Implementation::petsc) petsc_->take(system, settings_, water_);
   double tolerance = tolerance_wanted;
   const auto attempt_once = [&] {

@@ -121,6 +121,9 @@ class LinearSystem {
   /// For systems with a free constant: changes the right-hand side so that a solution exists. Collective.
   void make_rhs_consistent();
 
+  /// What row i makes of the other unknowns: the x_i with which it holds. `x` goes on with the ghosts' values.
+  double answer(std::size_t i, const double* x) const { return rhs_[i] + scale_[i] * whole().sum(i, x); }
+
   /// y = A x. Collective.
   void multiply(std::span<const double> x, std::span<double> y) const;
 

@@ -19,7 +19,10 @@ struct Particles {
   std::vector<Vec<Dim>> position;  ///< m
   std::vector<Vec<Dim>> velocity;  ///< m/s
   std::vector<double> pressure;    ///< Pa
-  std::vector<double> volume;      ///< m^Dim
+  /// Pa; what the last step's second projection found, before suction was limited; 0 without one. Both projections
+  /// begin with what they found last.
+  std::vector<double> second_pressure;
+  std::vector<double> volume;  ///< m^Dim
   std::vector<ParticleKind> kind;
   /// For a wall particle its row in this rank's table of walls; -1 for fluid. Found anew from the id wherever particles
   /// or ghosts arrive.
@@ -51,8 +54,8 @@ struct Particles {
  private:
   template <class Self, class Body>
   static void apply(Self& self, Body& body) {
-    body(self.position, self.velocity, self.pressure, self.volume, self.kind, self.wall_row, self.layer_viscosity,
-         self.wall_distance, self.id);
+    body(self.position, self.velocity, self.pressure, self.second_pressure, self.volume, self.kind, self.wall_row,
+         self.layer_viscosity, self.wall_distance, self.id);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/for_each.h"
 #include "pressure/operators.h"
+#include "pressure/solve_rows.h"
 #include "pressure/verbs.h"
 #include "walls/wall_contact.h"
 
@@ -207,8 +208,7 @@ void BodyCoupling<Dim>::accelerate(const Eigen::VectorXd& A) {
 
 template <int Dim>
 SolveReport BodyCoupling<Dim>::solve_once(double tolerance) {
-  const std::span<double> pressure = std::span(flow_.state.particles.pressure).first(flow_.state.particles.owned);
-  return flow_.pressure_solver.solve(flow_.pressure_rows, pressure, tolerance);
+  return solve_rows(flow_, flow_.state.particles.pressure, tolerance);
 }
 
 template <int Dim>

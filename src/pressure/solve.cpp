@@ -50,6 +50,9 @@ PressureReport report_of(const SolveReport& solved) {
 template <int Dim>
 PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive) {
   const double tolerance = flow.pressure_solver.tolerance();
+  Particles<Dim>& particles = flow.state.particles;
+  // The guess is what this projection found last.
+  for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
   const MatrixForSlopes<Dim> matrix(flow);
   BodyCoupling<Dim> coupling(flow, start, dt, drive);
   PressureReport report;

@@ -20,8 +20,8 @@ namespace {
 
 /// Rows in a rank's table of walls are found anew, from ids.
 constexpr const char* not_saved = nullptr;
-constexpr std::array particle_fields{"position", "velocity",        "pressure",      "volume", "kind",
-                                     not_saved,  "layer_viscosity", "wall_distance", "id"};
+constexpr std::array particle_fields{"position", "velocity", "pressure",        "second_pressure", "volume",
+                                     "kind",     not_saved,  "layer_viscosity", "wall_distance",   "id"};
 
 /// Bytes for all that is not a field of particles.
 constexpr std::size_t room_beside_fields = std::size_t{1} << 20;

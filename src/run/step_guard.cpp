@@ -58,6 +58,7 @@ void StepGuard<Dim>::remember_good() {
   keep(particles.position, good_position_);
   keep(particles.velocity, good_velocity_);
   keep(particles.pressure, good_pressure_);
+  keep(particles.second_pressure, good_second_pressure_);
   keep(particles.layer_viscosity, good_layer_viscosity_);
   keep(particles.wall_distance, good_wall_distance_);
   last_good_time_ = flow_.state.time;
@@ -72,6 +73,7 @@ Particles<Dim> StepGuard<Dim>::last_good() const {
   particles.position = good_position_;
   particles.velocity = good_velocity_;
   particles.pressure = good_pressure_;
+  particles.second_pressure = good_second_pressure_;
   particles.layer_viscosity = good_layer_viscosity_;
   particles.wall_distance = good_wall_distance_;
   return particles;

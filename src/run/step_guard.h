@@ -51,6 +51,7 @@ class StepGuard {
   std::vector<Vec<Dim>> good_position_;
   std::vector<Vec<Dim>> good_velocity_;
   std::vector<double> good_pressure_;
+  std::vector<double> good_second_pressure_;
   std::vector<double> good_layer_viscosity_;
   std::vector<double> good_wall_distance_;
   double last_good_time_ = 0.0;

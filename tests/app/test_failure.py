@@ -68,7 +68,7 @@ class Failure(ProgramTest):
     def test_a_pressure_solve_that_does_not_converge(self):
         report, summary = self.fail_run("--set", "pressure_solver.max_iterations=1")
         self.assertIn("did not converge", report)
-        self.assertIn("Residuals on the way: 1.00e+00, ", report)
+        self.assertRegex(report, r"Residuals on the way: \d\.\d\de-01, \d")
         self.assertIn("pressure_solver.max_iterations", summary["message"])
 
     def test_a_failed_run_can_be_replaced(self):

@@ -202,8 +202,9 @@ void require_sound(Checkpoint<Dim> checkpoint) {
   });
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
-        !std::isfinite(particles.pressure[i]) || !std::isfinite(particles.volume[i]) ||
-        !(particles.layer_viscosity[i] >= 0.0) || !(particles.wall_distance[i] >= 0.0)) {
+        !std::isfinite(particles.pressure[i]) || !std::isfinite(particles.second_pressure[i]) ||
+        !std::isfinite(particles.volume[i]) || !(particles.layer_viscosity[i] >= 0.0) ||
+        !(particles.wall_distance[i] >= 0.0)) {
       finding("a number that is none", "");
     }
   }

@@ -87,6 +87,7 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
     ASSERT_EQ(a.state.particles.position[i], b.state.particles.position[i]);
     ASSERT_EQ(a.state.particles.velocity[i], b.state.particles.velocity[i]);
     ASSERT_EQ(a.state.particles.pressure[i], b.state.particles.pressure[i]);
+    ASSERT_EQ(a.state.particles.second_pressure[i], b.state.particles.second_pressure[i]);
     ASSERT_EQ(a.state.particles.layer_viscosity[i], b.state.particles.layer_viscosity[i]);
     ASSERT_EQ(a.state.particles.wall_distance[i], b.state.particles.wall_distance[i]);
   }

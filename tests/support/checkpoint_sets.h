@@ -15,7 +15,7 @@ struct Dataset {
 };
 
 /// Of a run in 2D.
-inline constexpr std::array<Dataset, 16> datasets{{{"position", Type::real, 2},
+inline constexpr std::array<Dataset, 17> datasets{{{"position", Type::real, 2},
                                                    {"velocity", Type::real, 2},
                                                    {"pressure", Type::real, 1},
                                                    {"volume", Type::real, 1},
@@ -30,6 +30,7 @@ inline constexpr std::array<Dataset, 16> datasets{{{"position", Type::real, 2},
                                                    {"case", Type::text, 1},
                                                    {"run", Type::text, 1},
                                                    {"layer_viscosity", Type::real, 1},
-                                                   {"wall_distance", Type::real, 1}}};
+                                                   {"wall_distance", Type::real, 1},
+                                                   {"second_pressure", Type::real, 1}}};
 
 }  // namespace tailwater

@@ -1,0 +1,20 @@
+#include "pressure/solve_rows.h"
+
+#include "base/for_each.h"
+
+namespace tailwater {
+
+template <int Dim>
+SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double tolerance) {
+  const std::size_t owned = flow.state.particles.owned;
+  flow.halo().exchange(pressure);
+  for_each(owned, [&](std::size_t i) {
+    if (!flow.has_equation(i)) pressure[i] = flow.pressure_rows.answer(i, pressure.data());
+  });
+  return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
+}
+
+template SolveReport solve_rows<2>(Flow<2>&, std::vector<double>&, double);
+template SolveReport solve_rows<3>(Flow<3>&, std::vector<double>&, double);
+
+}  // namespace tailwater
