@@ -20,6 +20,9 @@ constexpr double least_share = 0.02;
 /// How much too small corrections are that are constant in a cell.
 constexpr double over_correction = 1.8;
 
+/// Levels behind the first that learn of its rows' changes without a new set-up.
+constexpr std::size_t held_levels = 2;
+
 /// Rows of the level that is solved directly.
 constexpr std::size_t coarsest_rows = 32;
 
@@ -262,11 +265,30 @@ bool CellMultigrid::follow(const LinearSystem& system) {
   for (std::size_t i = 0; i < row_.size(); ++i) {
     const auto scale = static_cast<float>(system.scale(row_[i]));
     if (scale == scale_[i] || scale_[i] == 0.0F) continue;
-    for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) matrix.entries[k].weight *= scale / scale_[i];
+    const float share = scale / scale_[i];
+    float lost = 0.0F;  // of the row's weights
+    for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) {
+      lost += (1.0F - share) * matrix.entries[k].weight;
+      matrix.entries[k].weight *= share;
+    }
+    hold_cells(i, lost);
     scale_[i] = scale;
     has_changed = true;
   }
   return has_changed;
+}
+
+/// After row i of the first level has lost weights: raises the diagonals of its cells on the next levels, whose rows
+/// keep their weights, so that their sums are right.
+void CellMultigrid::hold_cells(std::size_t i, float lost) {
+  for (std::size_t k = 0; k < held_levels && k + 1 < levels_.size(); ++k) {
+    if (i >= levels_[k].parent.size() || levels_[k + 1].gathering) return;
+    i = levels_[k].parent[i];
+    lost /= static_cast<float>(over_correction);
+    Matrix& matrix = levels_[k + 1].matrix;
+    matrix.diagonal[i] += lost;
+    matrix.inverse[i] = 1.0F / matrix.diagonal[i];
+  }
 }
 
 /// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, which it sorts. These are

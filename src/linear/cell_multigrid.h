@@ -104,6 +104,7 @@ class CellMultigrid {
 
   std::vector<int> order_rows(std::span<const std::uint64_t> cell, std::span<const double> total, Level& level);
   void take_rows(LinearSystem& system);
+  void hold_cells(std::size_t i, float lost);
   Couplings couple(const LinearSystem& system, std::vector<int>& needed, std::span<const int> place) const;
   std::vector<int> find_parents(Level& fine, Level& next, std::span<const int> rows) const;
   void add_next_level();
