@@ -8,9 +8,10 @@
 namespace tailwater {
 namespace {
 
-/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach.
-template <int Dim>
-double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i) {
+/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach. Calls also(range, j, W)
+/// for the neighbours, with W 0 where they are not water.
+template <int Dim, class Also>
+double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, Also&& also) {
   const Pairs<Dim>& pairs = scene.pairs;
   VecSum<Dim> sum;
   for_each_lanes(
@@ -19,6 +20,7 @@ double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& forc
         const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         const Lanes weight = place.of_fluid(kernel_at(pairs, place.d));
         for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
+        also(range, j, weight);
       });
   return force.hydrostatic_difference(scene.particles, i, sum.total() / scene.here.wall_fluid_weight[i]);
 }
@@ -30,18 +32,17 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
     row.finish_as_zero();
     return;
   }
-  const Pairs<Dim>& pairs = scene.pairs;
   const auto share = static_cast<float>(1.0 / scene.here.wall_fluid_weight[i]);
-  const double sum = row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
+  double excess = 0.0;
+  const double sum = row.write_weights([&](std::size_t first, std::size_t /*end*/, float* weights) {
     LaneSum sums;
-    for_each_lanes(
-        first, end, [&](auto range) __attribute__((always_inline)) {
-          const Lanes weight = weights_of_fluid(pairs, range, range.neighbours(pairs.j.data()), i);
+    excess = excess_over_water(
+        scene, force, i, [&](auto range, const LaneIndices&, const Lanes& weight) __attribute__((always_inline)) {
           sums += range.store(share * weight, weights + (range.begin - first));
         });
     return sums.total();
   });
-  row.finish(sum, excess_over_water(scene, force, i));  // the sum is 1 but for rounding
+  row.finish(sum, excess);  // the sum is 1 but for rounding
 }
 
 template <int Dim>
@@ -97,24 +98,21 @@ class Dummies final : public WallModel<Dim> {
   void set_sources(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (!scene.particles.is_fluid(i) && scene.here.is_wet[i]) {
-        system.set_rhs(i, excess_over_water(scene, force, i));
+        system.set_rhs(i, excess_over_water(scene, force, i, [](auto&&...) {}));
       }
     });
   }
 
   bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,
                        std::span<double> pressure) const override {
-    const Pairs<Dim>& pairs = scene.pairs;
-    for_each(pairs.owned(), [&](std::size_t i) {
+    for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
       LaneSum sum;
-      for_each_lanes(
-          pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-            const LaneIndices j = range.neighbours(pairs.j.data());
-            sum += weights_of_fluid(pairs, range, j, i) * j(pressure.data());
+      const double excess = excess_over_water(
+          scene, force, i, [&](auto, const LaneIndices& j, const Lanes& weight) __attribute__((always_inline)) {
+            sum += weight * j(pressure.data());
           });
-      const double mean = sum.total() / scene.here.wall_fluid_weight[i];
-      pressure[i] = std::max(0.0, mean + excess_over_water(scene, force, i));
+      pressure[i] = std::max(0.0, sum.total() / scene.here.wall_fluid_weight[i] + excess);
     });
     return true;
   }
