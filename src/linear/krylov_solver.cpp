@@ -302,7 +302,8 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
   if (report.residual > hopeless_guess) begin_at_zero();
   Implementation implementation = implementation_for(settings_, water_, system);
   // Also where the guess will do: then the next solve with this pattern, of other diagonals, has it as it is here.
-  if (implementation == Implementation::orthomin) petsc_->multigrid_for(system, report.residual);
+  CellMultigrid* multigrid = nullptr;
+  if (implementation == Implementation::orthomin) multigrid = &petsc_->multigrid_for(system, report.residual);
   if (report.residual <= tolerance_wanted) return report;
 
   if (implementation == Implementation::petsc) petsc_->take(system, settings_, water_);
@@ -313,10 +314,8 @@ SolveReport KrylovSolver::solve(LinearSystem& system, std::span<double> solution
     switch (implementation) {
       case Implementation::swept_bicgstab:
         return attempt_of(SweptBicgstab(system).solve(residual, target, most_iterations, solution), target);
-      case Implementation::orthomin: {
-        Orthomin method(system, petsc_->multigrid_for(system, report.residual));
-        return attempt_of(method.solve(residual, target, most_iterations, solution), target);
-      }
+      case Implementation::orthomin:
+        return attempt_of(Orthomin(system, *multigrid).solve(residual, target, most_iterations, solution), target);
       case Implementation::petsc:
         break;
     }

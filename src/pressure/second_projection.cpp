@@ -38,14 +38,14 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   for_each(particles.owned, [&](std::size_t i) {
     flow.pressure_rows.set_rhs(i, flow.is_solved_for(i) ? -density / dt * divergence(i) : 0.0);
   });
-  std::vector<double> correction = particles.second_pressure;
-  const SolveReport solved = solve_rows(flow, correction, rough_tolerance(flow.pressure_solver.tolerance()));
+  const SolveReport solved =
+      solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance()));
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.interventions.restarted_solves = solved.restarts;
   flow.has_matrix = flow.setup.keeps_matrix();
   if (!flow.has_matrix) flow.forget_matrix();
-  particles.second_pressure = correction;
+  std::vector<double> correction = particles.second_pressure;
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {

@@ -8,8 +8,9 @@ template <int Dim>
 SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double tolerance) {
   const std::size_t owned = flow.state.particles.owned;
   flow.halo().exchange(pressure);
+  const std::vector<double> guess = pressure;  // some wall models' rows look at each other
   for_each(owned, [&](std::size_t i) {
-    if (!flow.has_equation(i)) pressure[i] = flow.pressure_rows.answer(i, pressure.data());
+    if (!flow.has_equation(i)) pressure[i] = flow.pressure_rows.answer(i, guess.data());
   });
   return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
 }

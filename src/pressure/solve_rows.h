@@ -7,8 +7,8 @@
 namespace tailwater {
 
 /// Solves the flow's pressure rows. `pressure` [Pa, one entry per particle] holds the guess, then on owned particles
-/// the solution. Rows that are not of water only look at the water: they begin with what they make of its guess, and
-/// need no memory of their own. Collective.
+/// the solution. Of the guess only the water's matters where walls look at water alone, as dummies do: rows that are
+/// not the fluid's equation begin with what they make of the guess around them. Collective.
 template <int Dim>
 SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double tolerance);
 
