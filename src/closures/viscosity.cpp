@@ -50,7 +50,8 @@ struct PairLanes {
   Lanes squared;             ///< m^2; d.d
   Lanes volumes;             ///< m^(2 Dim); w_i w_j, 0 of walls
   Lanes share_of_volumes;    ///< m^(2 Dim); in the weights of the Morris Laplacian
-  Lanes layer_viscosity;     ///< m^2/s; of j if i belongs to a boundary layer, else 0
+  bool is_in_layer;          ///< of i; a boundary layer
+  Lanes layer_viscosity;     ///< m^2/s; of j
 
   PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
             const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends, double spacing, std::size_t i)
@@ -59,7 +60,8 @@ struct PairLanes {
     const ViscousEnd<Dim>& own = ends[i];
     for (int a = 0; a < Dim; ++a) difference.at[a] = other[a] - own.velocity[a];
     viscosity = 0.5F * (own.viscosity + other[Dim]);
-    layer_viscosity = own.layer_viscosity > 0.0F ? other[Dim + 1] : Lanes{};
+    is_in_layer = own.layer_viscosity > 0.0F;
+    layer_viscosity = other[Dim + 1];
     for (int n = 0; n < Dim * Dim; ++n) gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + other[Dim + 2 + n];
     squared = place.d.dot(place.d);
     volumes = in_all_lanes(particles.volume[i]) * place.volume_of_fluid();
@@ -76,9 +78,11 @@ struct PairLanes {
       explained.at[a] *= -0.5F;
       noise.at[a] = difference.at[a] - explained.at[a];
     }
-    const Lanes in_shear = noise.dot(explained) / max_of(explained.dot(explained), in_all_lanes(least));
-    const Lanes left_alone = layer_viscosity > Lanes{} ? in_shear : Lanes{};
-    for (int a = 0; a < Dim; ++a) noise.at[a] -= left_alone * explained.at[a];
+    if (is_in_layer) {
+      const Lanes in_shear = noise.dot(explained) / max_of(explained.dot(explained), in_all_lanes(least));
+      const Lanes left_alone = layer_viscosity > Lanes{} ? in_shear : Lanes{};
+      for (int a = 0; a < Dim; ++a) noise.at[a] -= left_alone * explained.at[a];
+    }
     const Lanes work = min_of(Lanes{}, noise.dot(difference));
     const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
     const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * share_of_volumes * F;

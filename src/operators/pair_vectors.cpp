@@ -94,6 +94,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     const double share = input.interior[i];
     equation.open[i].setZero();
     if (to_surface ? input.kind[i] != ParticleKind::fluid : share == 0.0) return;
+    const bool is_near_surface = to_surface && share < 1.0;
     VecSum<Dim> sums;
     VecSum<Dim> kernel_sums;
     LaneSum weights;
@@ -104,7 +105,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
           const Lanes volume_j = pair.place.volume();
           const Lanes weight = volume_j * pair.F;
           for (int a = 0; a < Dim; ++a) sums.at[a] -= volume_j * pair.a.at[a];
-          for (int a = 0; to_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.place.d.at[a];
+          for (int a = 0; is_near_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.place.d.at[a];
           weights += weight;
         });
     const Vec<Dim> open = sums.total();
@@ -112,7 +113,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     equation.open[i] = open;
     equation.share[i] = to_surface ? 1.0 : share;
     equation.rhs[i] = 0.5 * open;
-    if (to_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - kernel_sums.total());
+    if (is_near_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - kernel_sums.total());
   });
   return equation;
 }
