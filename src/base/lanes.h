@@ -22,6 +22,7 @@
 
 #include "base/batch.h"
 #include "base/for_each.h"
+#include "base/prefetch.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -288,13 +289,17 @@ struct LaneRange {
 
   /// The neighbours of the entries.
   LaneIndices neighbours(const std::int32_t* j) const {
+    fetch_ahead(j + begin);
     auto indices = load<IntegerLanes>(j);
     if constexpr (!is_full)
       indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count - 1)]);
     return LaneIndices(indices);
   }
   /// 0 in lanes left over.
-  Lanes load(const float* array) const { return load<Lanes>(array); }
+  Lanes load(const float* array) const {
+    fetch_ahead(array + begin);
+    return load<Lanes>(array);
+  }
   /// `lanes` with 0 in those left over.
   Lanes only(Lanes lanes) const {
     if constexpr (!is_full) lanes = holds() ? lanes : Lanes{};

@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "linear/linear_system.h"
 
 namespace tailwater {
@@ -67,6 +68,7 @@ class CellMultigrid {
       float even = 0.0F;
       float odd = 0.0F;
       int k = first;
+      for (int line = first; line < end; line += 8) fetch_ahead(entries.data() + line);
       for (; k + 1 < end; k += 2) {
         even += entries[k].weight * x[entries[k].column];
         odd += entries[k + 1].weight * x[entries[k + 1].column];

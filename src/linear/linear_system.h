@@ -10,10 +10,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "linear/cells.h"
 #include "parallel/exchange_plan.h"
 
@@ -29,17 +31,22 @@ class LinearSystem {
     const std::int32_t* column = nullptr;
     const float* weight = nullptr;
 
-    /// sum_k weight_ik x_j(i,k). Two partial sums, so that an addition need not wait for the one before it.
+    /// sum_k weight_ik x_j(i,k). Eight partial sums, so that an addition need not wait for the one before it.
     double sum(std::size_t i, const double* x) const {
-      double even = 0.0;
-      double odd = 0.0;
+      using Quad = double __attribute__((vector_size(32)));
+      Quad first{};
+      Quad second{};
       std::size_t k = begin[i];
-      for (; k + 2 <= end[i]; k += 2) {
-        even += weight[k] * x[column[k]];
-        odd += weight[k + 1] * x[column[k + 1]];
+      for (; k + 8 <= end[i]; k += 8) {
+        fetch_ahead(weight + k);
+        fetch_ahead(column + k);
+        first += quad<Quad>(k) * Quad{x[column[k]], x[column[k + 1]], x[column[k + 2]], x[column[k + 3]]};
+        second += quad<Quad>(k + 4) * Quad{x[column[k + 4]], x[column[k + 5]], x[column[k + 6]], x[column[k + 7]]};
       }
-      if (k < end[i]) even += weight[k] * x[column[k]];
-      return even + odd;
+      double rest = 0.0;
+      for (; k < end[i]; ++k) rest += weight[k] * x[column[k]];
+      first += second;
+      return (first[0] + first[1]) + (first[2] + first[3]) + rest;
     }
 
     /// The same from the row's end to its begin, for sweeps that go back: x of the column next to the diagonal, which
@@ -55,6 +62,14 @@ class LinearSystem {
       }
       if (k > first) even += weight[first] * x[column[first]];
       return even + odd;
+    }
+
+   private:
+    template <class Quad>
+    Quad quad(std::size_t k) const {
+      float four __attribute__((vector_size(16)));
+      std::memcpy(&four, weight + k, sizeof(four));
+      return __builtin_convertvector(four, Quad);
     }
   };
 

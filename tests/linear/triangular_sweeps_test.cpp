@@ -19,10 +19,10 @@ namespace {
 constexpr double omega = ssor_factor;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A matrix of 0 to 6 entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
+/// A matrix of 0 to `most` entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
 /// couples images: ghosts of this rank's first rows.
 struct SparseRows {
-  SparseRows(int rows, int images)
+  SparseRows(int rows, int images, int most = 6)
       : own(Eigen::MatrixXd::Identity(rows, rows)), of_ghosts(Eigen::MatrixXd::Zero(rows, rows)) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> weight(-0.1, 0.2);
@@ -35,7 +35,7 @@ struct SparseRows {
     };
     for (int i = 0; i < rows; ++i) {
       std::vector<bool> is_coupled(rows, false);
-      for (int n = i % 7; n > 0; --n) is_coupled[(i + 11 * n) % rows] = true;
+      for (int n = i % (most + 1); n > 0; --n) is_coupled[(i + 11 * n) % rows] = true;
       for (int j = 0; j < rows; ++j) {
         if (is_coupled[j] && j != i) add(own, i, j, j);
       }
@@ -152,7 +152,7 @@ TEST(SweptBicgstab, SaysWhenItBreaksDown) {
 
 TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
   for (const int images : {0, 5}) {
-    const SparseRows rows(40, images);
+    const SparseRows rows(40, images, 22);  // some rows as long as several registers, with all rests
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
     Eigen::VectorXd y(40);
     rows.system.multiply(entries(x), entries(y));
