@@ -10,6 +10,7 @@
 
 #include "base/assert.h"
 #include "base/batch.h"
+#include "base/room.h"
 
 namespace tailwater {
 namespace {
@@ -22,6 +23,9 @@ constexpr double over_correction = 1.8;
 
 /// Levels behind the first that learn of its rows' changes without a new set-up.
 constexpr std::size_t held_levels = 2;
+
+/// Of so many rows one is looked at to tell how many large weights there are.
+constexpr int sampled = 16;
 
 /// Rows of the level that is solved directly.
 constexpr std::size_t coarsest_rows = 32;
@@ -198,20 +202,20 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   };
   const LinearSystem::Part part = system.whole();
   std::vector<double> total(rows);  // of the weights, before scaling; 0 for rows x_i = 0
-  std::size_t large = 0;
   std::size_t longest = 0;
+  std::size_t large = 0;
   for (int i = 0; i < rows; ++i) {
     if (system.scale(i) == 0.0) continue;
     const std::span weights(part.weight + part.begin[i], part.weight + part.end[i]);
-    total[i] = sum_of_weights(weights);
-    large += count_from(static_cast<float>(least_share * total[i]), weights);
+    total[i] = system.sum_of_weights(i);
     longest = std::max(longest, weights.size());
+    if (i % sampled == 0) large += sampled * count_from(static_cast<float>(least_share * total[i]), weights);
   }
 
   Level level;
   level.is_whole = ranks_.is_alone();
   const std::vector<int> place = order_rows(system.cells().number, total, level);
-  level.matrix.reserve(rows, large);
+  level.matrix.reserve(rows, with_room(large));
   std::vector<int> needed;  // of other ranks
   std::vector<std::int32_t> columns(longest + batch);
   std::vector<float> weights(longest + batch);

@@ -43,6 +43,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   cells_ = {};
   rhs_.assign(rows, 0.0);
   scale_.assign(rows, 1.0);
+  sum_.assign(rows, 0.0);
   columns_ = columns;
   row_begin_.assign(row_begin.begin(), row_begin.end());
   behind_begin_.resize(rows);

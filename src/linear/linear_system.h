@@ -108,7 +108,7 @@ class LinearSystem {
     template <class Write>
     double write_weights(Write&& write) {
       const std::uint32_t first = system_.row_begin_[i_];
-      return write(first, system_.row_begin_[i_ + 1], system_.weights_.get() + first);
+      return system_.sum_[i_] = write(first, system_.row_begin_[i_ + 1], system_.weights_.get() + first);
     }
     /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);
@@ -148,6 +148,8 @@ class LinearSystem {
 
   /// What the weights of row i are multiplied by, so that the diagonal is 1.
   double scale(std::size_t i) const { return scale_[i]; }
+  /// Of the weights of row i, before they are scaled.
+  double sum_of_weights(std::size_t i) const { return sum_[i]; }
 
   /// For solvers: the number of the present pattern, and the rows.
   std::uint64_t pattern_number() const { return pattern_number_; }
@@ -191,6 +193,7 @@ class LinearSystem {
   std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
+  std::vector<double> sum_;    ///< of the weights of each row
 };
 
 }  // namespace tailwater

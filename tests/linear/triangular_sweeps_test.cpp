@@ -215,6 +215,7 @@ TEST(LinearSystemRow, IsWrittenAtOnceAsOneByOne) {
       return total;
     });
     EXPECT_EQ(same_sum, sum);
+    EXPECT_EQ(at_once.sum_of_weights(i), sum);
     row.finish(2.0, 1.0);
     same.finish(2.0, 1.0);
   }
