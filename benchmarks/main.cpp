@@ -22,9 +22,9 @@ void add_context(const std::string& name, Value value) {
   benchmark::AddCustomContext(name, fmt::format("{}", value));
 }
 
-template <class Value>
-double bytes_of(const std::vector<Value>& values) {
-  return static_cast<double>(values.size() * sizeof(Value));
+template <class Array>
+double bytes_of(const Array& values) {
+  return static_cast<double>(values.size() * sizeof(values[0]));
 }
 
 /// What the flow holds. The arrays named are the largest; lists and the solver's own are in the sum only.

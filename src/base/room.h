@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace tailwater {
@@ -17,15 +19,25 @@ constexpr std::size_t with_room(std::size_t count) {
   return (wanted + step - 1) / step * step;
 }
 
-/// Empties `array` and gives it room for `count` values, if it has not. An array that grows as it is written would
-/// leave its old ones behind.
+/// For arrays whose values are written before they are read: new values are what was in memory.
 template <class Value>
-void empty_with_room(std::vector<Value>& array, std::size_t count) {
-  if (array.capacity() < count + count / 32) {
-    std::vector<Value>().swap(array);
-    array.reserve(with_room(count));
+struct UnwrittenAllocator : std::allocator<Value> {
+  static void construct(Value* place) { ::new (static_cast<void*>(place)) Value; }
+  template <class... Arguments>
+  static void construct(Value* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) Value(std::forward<Arguments>(arguments)...);
   }
-  array.clear();
+};
+template <class Value>
+using UnwrittenArray = std::vector<Value, UnwrittenAllocator<Value>>;
+
+/// Gives `array` room for `count` values, if it has not, which may take those that it holds. An array that grows as it
+/// is written would leave its old ones behind.
+template <class Array>
+void make_room(Array& array, std::size_t count) {
+  if (array.capacity() >= count + count / 32) return;
+  Array().swap(array);
+  array.reserve(with_room(count));
 }
 
 }  // namespace tailwater

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/assert.h"
-#include "base/room.h"
 
 namespace tailwater {
 namespace {
@@ -24,11 +23,8 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
   // At first, and in one piece of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
-  if (room_ < columns.size()) {
-    forget_weights();
-    room_ = with_room(columns.size());
-    weights_ = std::make_unique_for_overwrite<float[]>(room_);
-  }
+  make_room(weights_, columns.size());
+  weights_.resize(columns.size());
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
   first_number_ = ranks_.sum_before(count);
@@ -66,8 +62,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 
 void LinearSystem::forget_weights() {
   columns_ = {};
-  weights_.reset();
-  room_ = 0;
+  UnwrittenArray<float>().swap(weights_);
 }
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {

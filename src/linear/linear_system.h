@@ -11,11 +11,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/prefetch.h"
+#include "base/room.h"
 #include "linear/cells.h"
 #include "parallel/exchange_plan.h"
 
@@ -108,7 +108,7 @@ class LinearSystem {
     template <class Write>
     double write_weights(Write&& write) {
       const std::uint32_t first = system_.row_begin_[i_];
-      return system_.sum_[i_] = write(first, system_.row_begin_[i_ + 1], system_.weights_.get() + first);
+      return system_.sum_[i_] = write(first, system_.row_begin_[i_ + 1], system_.weights_.data() + first);
     }
     /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);
@@ -173,7 +173,7 @@ class LinearSystem {
   std::span<const std::uint32_t> begins() const { return std::span(row_begin_).first(size()); }
   std::span<const std::uint32_t> ends() const { return std::span(row_begin_).last(size()); }
   Part part(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end) const {
-    return {begin, end, columns_.data(), weights_.get()};
+    return {begin, end, columns_.data(), weights_.data()};
   }
 
   Communicator ranks_;
@@ -188,8 +188,7 @@ class LinearSystem {
   std::vector<std::uint32_t> behind_begin_;
   std::vector<std::uint32_t> ghosts_begin_;
   std::span<const std::int32_t> columns_;
-  std::unique_ptr<float[]> weights_;
-  std::size_t room_ = 0;                    ///< in it, in entries
+  UnwrittenArray<float> weights_;
   std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0

@@ -80,8 +80,7 @@ struct FluidGrid {
 /// The neighbours of one particle at a time. Its arrays are written up to a batch beyond their ends.
 class NeighbourRow {
  public:
-  explicit NeighbourRow(std::size_t most)
-      : found_(most + batch), ordered_(most + batch), behind_(most + batch), ghosts_(most + batch) {}
+  explicit NeighbourRow(std::size_t most) : found_(most + batch), behind_(most + batch), ghosts_(most + batch) {}
 
   /// Finds the particles nearer to `point` than `radius`, in the order of the grid. Returns how many.
   template <int Dim>
@@ -99,28 +98,26 @@ class NeighbourRow {
     return count_;
   }
 
-  /// What was found without `self`: the indices below it, those above it and those from `owned` on, ghosts, each kind
-  /// in the order in which they were found.
-  std::span<const std::int32_t> in_order(std::int32_t self, std::int32_t owned) {
+  /// Writes what was found without `self` to `row`: the indices below it, those above it and those from `owned` on,
+  /// ghosts, each kind in the order in which they were found. Returns the end of the row, which has room for a batch
+  /// behind it.
+  std::int32_t* write_in_order(std::int32_t self, std::int32_t owned, std::int32_t* row) {
     constexpr std::int32_t beyond_all = std::numeric_limits<std::int32_t>::max();
-    std::int32_t* end = ordered_.data();
     std::int32_t* behind_end = behind_.data();
     std::int32_t* ghosts_end = ghosts_.data();
     for (std::size_t n = 0; n < count_; n += batch) {
       const std::int32_t* const indices = found_.data() + n;
       const unsigned counts = first_bits(count_ - n);
-      end = write_chosen(indices, bits_between(indices, 0, self) & counts, end);
+      row = write_chosen(indices, bits_between(indices, 0, self) & counts, row);
       behind_end = write_chosen(indices, bits_between(indices, self + 1, owned) & counts, behind_end);
       ghosts_end = write_chosen(indices, bits_between(indices, owned, beyond_all) & counts, ghosts_end);
     }
-    end = std::copy(behind_.data(), behind_end, end);
-    end = std::copy(ghosts_.data(), ghosts_end, end);
-    return {ordered_.data(), end};
+    row = std::copy(behind_.data(), behind_end, row);
+    return std::copy(ghosts_.data(), ghosts_end, row);
   }
 
  private:
   std::vector<std::int32_t> found_;
-  std::vector<std::int32_t> ordered_;
   std::vector<std::int32_t> behind_;
   std::vector<std::int32_t> ghosts_;
   std::size_t count_ = 0;
@@ -154,13 +151,15 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   // The first pairs are counted before they are kept; later ones are about as many as the last.
   const std::size_t before = pairs.j.size();
   const std::size_t expected = before > 0 ? before : count_each(particles.owned, find_row);
-  empty_with_room(pairs.j, expected);
+  make_room(pairs.j, expected);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
-    find_row(i);
-    const std::span<const std::int32_t> neighbours = row.in_order(static_cast<std::int32_t>(i), owned);
-    pairs.j.insert(pairs.j.end(), neighbours.begin(), neighbours.end());
-    pairs.row_begin[i + 1] = pairs.j.size();
+    const std::size_t begin = pairs.row_begin[i];
+    const std::size_t most = begin + find_row(i) + batch;
+    if (most > pairs.j.size()) pairs.j.resize(std::max(most, pairs.j.capacity()));
+    const std::int32_t* const end = row.write_in_order(static_cast<std::int32_t>(i), owned, pairs.j.data() + begin);
+    pairs.row_begin[i + 1] = end - pairs.j.data();
   }
+  pairs.j.resize(pairs.row_begin.back());
   find_slopes(pairs);
 }
 
@@ -187,7 +186,7 @@ void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& dom
 
 template <int Dim>
 void find_slopes(Pairs<Dim>& pairs) {
-  empty_with_room(pairs.F, pairs.j.size());
+  make_room(pairs.F, pairs.j.size());
   pairs.F.resize(pairs.j.size());
   pairs.sees_wall.resize(pairs.owned());
   pairs.some_coincide = true;

@@ -30,7 +30,7 @@ class Neighbourhood {
   }
 
   /// Frees the slopes of all pairs, pairs().F, which nothing may read until they are found anew: the same numbers.
-  void forget_slopes() { std::vector<float>().swap(pairs_.F); }
+  void forget_slopes() { UnwrittenArray<float>().swap(pairs_.F); }
   void find_slopes() { tailwater::find_slopes(pairs_); }
 
   /// Moves particles that left a periodic domain in again at its other end. Call between steps only.

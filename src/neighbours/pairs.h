@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "base/room.h"
 #include "base/vec.h"
 #include "kernel/kernel.h"
 
@@ -28,8 +29,8 @@ struct alignas(16) Place {
 template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;   ///< owned + 1 entries
-  std::vector<std::int32_t> j;          ///< neighbour: in each row those below i, those above it, then ghosts
-  std::vector<float> F;                 ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
+  UnwrittenArray<std::int32_t> j;       ///< neighbour: in each row those below i, those above it, then ghosts
+  UnwrittenArray<float> F;              ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
   std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
   bool some_coincide = true;            ///< false: no two neighbours are at one place
   std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found

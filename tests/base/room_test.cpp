@@ -23,15 +23,22 @@ TEST(Room, HasEightSizesBetweenPowersOfTwo) {
 
 TEST(Room, IsSetAsideOnlyWhereItIsMissing) {
   std::vector<int> array;
-  empty_with_room(array, 1000);
+  make_room(array, 1000);
   EXPECT_EQ(array.capacity(), with_room(1000));
   array.resize(1000);
   const int* const place = array.data();
-  empty_with_room(array, 900);
-  EXPECT_TRUE(array.empty());
+  make_room(array, 900);
   EXPECT_EQ(array.data(), place);
-  empty_with_room(array, 2000);
+  make_room(array, 2000);
+  EXPECT_TRUE(array.empty());
   EXPECT_EQ(array.capacity(), with_room(2000));
+}
+
+TEST(Room, IsNotWrittenToByAnUnwrittenArray) {
+  UnwrittenArray<int> array(100, 7);
+  array.resize(50);
+  array.resize(100);
+  EXPECT_EQ(array, UnwrittenArray<int>(100, 7));
 }
 
 }  // namespace

@@ -272,7 +272,7 @@ TYPED_TEST(NeighbourhoodTest, SlopesAreFoundAgainAsTheyWere) {
   particles.position[1] = particles.position[0];
   auto neighbourhood = make_neighbourhood<Dim>();
   neighbourhood.update(particles);
-  const std::vector<float> before = neighbourhood.pairs().F;
+  const auto before = neighbourhood.pairs().F;
   for (Vec<Dim>& position : particles.position) position *= 1.1;  // pairs stay where they were found
   neighbourhood.forget_slopes();
   EXPECT_TRUE(neighbourhood.pairs().F.empty());

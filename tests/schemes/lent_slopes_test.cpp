@@ -52,7 +52,7 @@ TYPED_TEST(LentSlopesTest, SlopesComeBackWhenTheSolveFails) {
   spec.pressure_solver.max_iterations = 1;
   Flow<Dim> flow(spec);
   locate(flow);
-  const std::vector<float> before = flow.pairs().F;
+  const auto before = flow.pairs().F;
   EXPECT_THROW(project_once(flow, [](const Flow<Dim>&) {}), SolverError);
   EXPECT_EQ(flow.pairs().F, before);
 }
