@@ -6,8 +6,8 @@
 
 namespace tailwater {
 
-/// Asks for what stands some two thousand bytes behind `place`, be there something or not. With a quarter of that
-/// products of large systems take a third longer, with twice that the same.
+/// Asks for what stands two thousand bytes behind `place`, be there something or not: what a loop reads several rows
+/// later.
 inline void fetch_ahead(const void* place) {
   constexpr std::uintptr_t bytes = 2048;
   __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(place) + bytes));

@@ -202,8 +202,8 @@ void CellMultigrid::take_rows(LinearSystem& system) {
   };
   const LinearSystem::Part part = system.whole();
   std::vector<double> total(rows);  // of the weights, before scaling; 0 for rows x_i = 0
-  std::size_t longest = 0;
   std::size_t large = 0;
+  std::size_t longest = 0;
   for (int i = 0; i < rows; ++i) {
     if (system.scale(i) == 0.0) continue;
     const std::span weights(part.weight + part.begin[i], part.weight + part.end[i]);

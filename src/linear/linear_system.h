@@ -33,15 +33,14 @@ class LinearSystem {
 
     /// sum_k weight_ik x_j(i,k). Eight partial sums, so that an addition need not wait for the one before it.
     double sum(std::size_t i, const double* x) const {
-      using Quad = double __attribute__((vector_size(32)));
       Quad first{};
       Quad second{};
       std::size_t k = begin[i];
       for (; k + 8 <= end[i]; k += 8) {
         fetch_ahead(weight + k);
         fetch_ahead(column + k);
-        first += quad<Quad>(k) * Quad{x[column[k]], x[column[k + 1]], x[column[k + 2]], x[column[k + 3]]};
-        second += quad<Quad>(k + 4) * Quad{x[column[k + 4]], x[column[k + 5]], x[column[k + 6]], x[column[k + 7]]};
+        first += weights_at(k) * Quad{x[column[k]], x[column[k + 1]], x[column[k + 2]], x[column[k + 3]]};
+        second += weights_at(k + 4) * Quad{x[column[k + 4]], x[column[k + 5]], x[column[k + 6]], x[column[k + 7]]};
       }
       double rest = 0.0;
       for (; k < end[i]; ++k) rest += weight[k] * x[column[k]];
@@ -65,8 +64,10 @@ class LinearSystem {
     }
 
    private:
-    template <class Quad>
-    Quad quad(std::size_t k) const {
+    using Quad = double __attribute__((vector_size(32)));
+
+    /// The weights of entries k .. k + 3.
+    Quad weights_at(std::size_t k) const {
       float four __attribute__((vector_size(16)));
       std::memcpy(&four, weight + k, sizeof(four));
       return __builtin_convertvector(four, Quad);
