@@ -64,7 +64,8 @@ PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
   const LinearSystem* system = nullptr;
   check_petsc(MatShellGetContext(shell, &system));
   const VectorAccess vectors(x, y);
-  system->multiply(vectors.from(), vectors.to());
+  std::vector<double> from(vectors.from().begin(), vectors.from().end());
+  system->multiply(from, vectors.to());
   return 0;
 }
 
@@ -132,7 +133,8 @@ std::vector<double> shown_residuals(const std::vector<double>& history, double f
 /// b - A x. Collective.
 std::vector<double> residual_of(const LinearSystem& system, std::span<const double> x) {
   std::vector<double> residual(x.size());
-  system.multiply(x, residual);
+  std::vector<double> with_ghosts(x.begin(), x.end());
+  system.multiply(with_ghosts, residual);
   for (std::size_t i = 0; i < x.size(); ++i) residual[i] = system.rhs()[i] - residual[i];
   return residual;
 }

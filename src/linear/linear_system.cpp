@@ -97,14 +97,10 @@ void LinearSystem::make_rhs_consistent() {
   }
 }
 
-void LinearSystem::multiply(std::span<const double> x, std::span<double> y) const {
-  const Part own = this->own();
-  for (std::size_t i = 0; i < size(); ++i) y[i] = x[i] - scale_[i] * own.sum(i, x.data());
-  if (!has_ghosts_) return;
-  std::vector<double> with_ghosts(x.begin(), x.end());
-  exchange(with_ghosts);
-  const Part ghosts = this->ghosts();
-  for (std::size_t i = 0; i < size(); ++i) y[i] -= scale_[i] * ghosts.sum(i, with_ghosts.data());
+void LinearSystem::multiply(std::vector<double>& x, std::span<double> y) const {
+  if (has_ghosts_) exchange(x);
+  const Part whole = this->whole();
+  for (std::size_t i = 0; i < size(); ++i) y[i] = x[i] - scale_[i] * whole.sum(i, x.data());
 }
 
 }  // namespace tailwater

@@ -140,10 +140,11 @@ class LinearSystem {
   /// What row i makes of the other unknowns: the x_i with which it holds. `x` goes on with the ghosts' values.
   double answer(std::size_t i, const double* x) const { return rhs_[i] + scale_[i] * whole().sum(i, x); }
 
-  /// y = A x. Collective.
-  void multiply(std::span<const double> x, std::span<double> y) const;
+  /// y = A x. `x` gets the ghosts' values behind those of the rows. Collective.
+  void multiply(std::vector<double>& x, std::span<double> y) const;
 
   std::size_t size() const { return rhs_.size(); }
+  std::size_t size_with_ghosts() const { return rhs_.size() + ghost_number_.size(); }
   std::int64_t size_of_all() const { return size_of_all_; }  ///< rows of all ranks
   const Communicator& ranks() const { return ranks_; }
 
@@ -156,7 +157,6 @@ class LinearSystem {
   std::uint64_t pattern_number() const { return pattern_number_; }
   Part before() const { return part(begins(), behind_begin_); }       ///< unknowns of this rank, left of the diagonal
   Part behind() const { return part(behind_begin_, ghosts_begin_); }  ///< unknowns of this rank, right of it
-  Part own() const { return part(begins(), ghosts_begin_); }          ///< both
   Part ghosts() const { return part(ghosts_begin_, ends()); }  ///< columns are those of the pattern, from size() on
   Part whole() const { return part(begins(), ends()); }        ///< all
   std::size_t entries() const { return columns_.size(); }

@@ -25,7 +25,7 @@ void Orthomin::make_orthogonal(Direction& direction) const {
   for (std::size_t k = 0; k < kept_.size(); ++k) {
     const Direction& other = kept_[k];
     const double share = shares[k] / other.square;
-    for (std::size_t i = 0; i < direction.step.size(); ++i) {
+    for (std::size_t i = 0; i < direction.image.size(); ++i) {
       direction.step[i] -= share * other.step[i];
       direction.image[i] -= share * other.image[i];
     }
@@ -36,12 +36,15 @@ KrylovOutcome Orthomin::solve(std::span<double> residual, double target, int mos
   const Communicator& ranks = system_.ranks();
   const std::size_t size = x.size();
   kept_.clear();
-  Direction direction{.step = std::vector<double>(size), .image = std::vector<double>(size)};
+  const auto new_direction = [&] {
+    return Direction{.step = std::vector<double>(system_.size_with_ghosts()), .image = std::vector<double>(size)};
+  };
+  Direction direction = new_direction();
   KrylovOutcome outcome;
   outcome.residual = std::sqrt(ranks.sum(dot(residual, residual)));
   outcome.history.push_back(outcome.residual);
   while (outcome.residual > target && outcome.iterations < most_iterations) {
-    multigrid_.apply(residual, direction.step);
+    multigrid_.apply(residual, std::span(direction.step).first(size));
     system_.multiply(direction.step, direction.image);
     make_orthogonal(direction);
     double square = 0.0;
@@ -69,9 +72,7 @@ KrylovOutcome Orthomin::solve(std::span<double> residual, double target, int mos
                          outcome.residual > 0.5 * outcome.history[outcome.iterations - patience];
     if (outcome.broke_down || outcome.residual <= target) break;
 
-    if (kept_.size() < most_kept) {
-      kept_.push_back({.step = std::vector<double>(size), .image = std::vector<double>(size)});
-    }
+    if (kept_.size() < most_kept) kept_.push_back(new_direction());
     std::swap(direction, kept_[(outcome.iterations - 1) % most_kept]);
   }
   return outcome;

@@ -24,7 +24,7 @@ class Orthomin {
 
  private:
   struct Direction {
-    std::vector<double> step;
+    std::vector<double> step;   ///< with ghosts behind it
     std::vector<double> image;  ///< A step
     double square = 0.0;        ///< of the image's norm
   };

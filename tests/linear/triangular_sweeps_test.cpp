@@ -155,7 +155,8 @@ TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
     const SparseRows rows(40, images, 22);  // some rows as long as several registers, with all rests
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
     Eigen::VectorXd y(40);
-    rows.system.multiply(entries(x), entries(y));
+    std::vector<double> with_ghosts(x.begin(), x.end());
+    rows.system.multiply(with_ghosts, entries(y));
     EXPECT_LT((rows.whole() * x - y).lpNorm<Eigen::Infinity>(), 20.0 * eps);
   }
 }
@@ -179,7 +180,8 @@ TEST(LinearSystemRow, OfDifferencesIsExactAndSymmetricThoughWeightsAreRounded) {
   }
   const auto product = [&](const Eigen::VectorXd& x) {
     Eigen::VectorXd y(rows);
-    system.multiply(entries(x), entries(y));
+    std::vector<double> factor(x.begin(), x.end());
+    system.multiply(factor, entries(y));
     for (int i = 0; i < rows; ++i) y[i] /= system.scale(i);
     return y;
   };
@@ -232,7 +234,6 @@ TEST(LinearSystemRow, ItsPartsFollowEachOther) {
     EXPECT_EQ(system.before().end[i], system.behind().begin[i]);
     EXPECT_EQ(system.behind().end[i], system.ghosts().begin[i]);
     EXPECT_EQ(system.ghosts().end[i], system.whole().end[i]);
-    EXPECT_EQ(system.own().end[i], system.ghosts().begin[i]);
     const auto columns_of = [i](const LinearSystem::Part& part) {
       return std::span(part.column + part.begin[i], part.column + part.end[i]);
     };
