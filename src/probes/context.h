@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -114,6 +115,15 @@ struct Region {
 
   /// Whether `x` is in the region or at most `reach` [m] away.
   bool contains(const Vec<Dim>& x, double reach) const { return distance(x) <= margin + reach; }
+
+  /// Holds all places that `contains` accepts, up to rounding; without bounds in directions in which `along` leads.
+  Eigen::AlignedBox<double, Dim> box(double reach) const {
+    Vec<Dim> sideways = Vec<Dim>::Constant(margin + reach);
+    for (int d = 0; d < Dim; ++d) {
+      if (along[d] != 0.0) sideways[d] = std::numeric_limits<double>::infinity();
+    }
+    return {from.cwiseMin(to) - sideways, from.cwiseMax(to) + sideways};
+  }
 
  private:
   Vec<Dim> across(const Vec<Dim>& v) const { return v - v.dot(along) * along; }

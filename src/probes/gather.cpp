@@ -37,9 +37,14 @@ template <int Dim>
 GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
   const Particles<Dim>& particles = context.particles;
   const double reach = kernel_radius(context.kernel);
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes;  // most places are outside all of them, which is told at once
+  for (const Region<Dim>& region : regions) boxes.push_back(region.box(reach));
   const auto is_near = [&](std::size_t i) {
-    return std::any_of(regions.begin(), regions.end(),
-                       [&](const Region<Dim>& region) { return region.contains(particles.position[i], reach); });
+    const Vec<Dim>& x = particles.position[i];
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      if (boxes[k].contains(x) && regions[k].contains(x, reach)) return true;
+    }
+    return false;
   };
   std::vector<Sample<Dim>> near;
   for (const std::size_t i : indices_where(particles.size(), is_near)) {
