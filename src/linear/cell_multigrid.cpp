@@ -31,7 +31,7 @@ constexpr int sampled = 16;
 constexpr std::size_t coarsest_rows = 32;
 
 /// Levels with fewer rows than this are gathered on all ranks, which costs less than the messages of all coarser ones.
-constexpr std::int64_t gathered_rows = 4096;
+constexpr std::int64_t gathered_rows = 1024;
 
 /// Pivots of the coarsest level below this share of the largest are rounding: a constant is free.
 constexpr double vanishing_pivot = 1e-6;
