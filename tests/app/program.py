@@ -100,6 +100,10 @@ class ProgramTest(unittest.TestCase):
     def summary(self, run):
         return json.loads((self.folder / run / "summary.json").read_text())
 
+    def whole_lines(self, path):
+        """The lines of a table that a run is writing, without one that has not arrived whole."""
+        return (self.folder / path).read_text().split("\n")[:-1]
+
     def table(self, path):
         """A CSV file as (column names, rows of floats). Every line must be whole."""
         with open(self.folder / path, newline="") as file:

@@ -153,7 +153,9 @@ class Checkpoints(Resumed):
         self.assertEqual(len(first), 1)
         # A second request within the ten steps that belong to one checkpoint would find it written.
         written_step = int(first[0].stem.removeprefix("step_"))
-        self.wait_for(lambda: self.table("run/steps.csv")[1][-1][1] > written_step + 10, process)
+        step_column = 1
+        self.wait_for(lambda: float(self.whole_lines("run/steps.csv")[-1].split(",")[step_column]) > written_step + 10,
+                      process)
         process.send_signal(signal.SIGHUP)
         self.wait_for(lambda: len(self.checkpoints()) == 2, process)
         process.send_signal(signal.SIGTERM)

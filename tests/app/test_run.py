@@ -504,12 +504,8 @@ class Stopped(ProgramTest):
 
     def test_lines_are_flushed_as_the_run_goes(self):
         process = self.start_endless_run()
-        _, first = self.table_while_written("run/probes/energy.csv")
-        self.wait_for(lambda: len(self.table_while_written("run/probes/energy.csv")[1]) > len(first) + 10, process)
-
-    def table_while_written(self, path):
-        names, *rows = (self.folder / path).read_text().splitlines()
-        return names, rows
+        first = self.whole_lines("run/probes/energy.csv")
+        self.wait_for(lambda: len(self.whole_lines("run/probes/energy.csv")) > len(first) + 10, process)
 
 
 if __name__ == "__main__":
