@@ -67,7 +67,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
                           std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i)) return false;
+    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || interior[i] == 0.0) return false;
     double kept = interior[i];
     if (law.kind == ShiftingKind::lind) {
       const LindShift<Dim> lind = lind_shift(law, pairs, interior, i);
