@@ -10,6 +10,7 @@ template <int Dim>
 void carry_fields_along(Flow<Dim>& flow, const std::vector<Vec<Dim>>& shift) {
   Particles<Dim>& particles = flow.state.particles;
   const Surroundings<Dim>& here = flow.here;
+  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<Vec<Dim>> velocity_change(particles.owned, Vec<Dim>::Zero());
   std::vector<double> pressure_change(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {

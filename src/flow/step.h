@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/vec.h"
@@ -68,16 +69,21 @@ struct Works {
   double viscous = 0.0;
 };
 
+/// What a step leaves of the divergence: the rms of div u in the bulk [1/s].
+struct DivergenceReport {
+  double at_old_positions;  ///< those of the last solve
+  double at_new_positions;
+  double moved;  ///< rms of the difference: the part that comes from the old positions
+};
+
 /// What one step reports.
 struct StepReport {
   double dt = 0.0;
-  int passes = 0;                 ///< of the implicit iteration; 1 for the explicit projection
-  int iterations = 0;             ///< of the pressure solves, all passes
-  double residual = 0.0;          ///< of the last solve
-  double pressure_change = 0.0;   ///< rms change of p in the last pass over rms p; 0 for one pass
-  double divergence_old = 0.0;    ///< 1/s; rms of div u in the bulk at the positions of the last solve
-  double divergence_new = 0.0;    ///< 1/s; the same at the new positions
-  double divergence_moved = 0.0;  ///< 1/s; rms of the difference: the part that comes from the old positions
+  int passes = 0;                              ///< of the implicit iteration; 1 for the explicit projection
+  int iterations = 0;                          ///< of the pressure solves, all passes
+  double residual = 0.0;                       ///< of the last solve
+  double pressure_change = 0.0;                ///< rms change of p in the last pass over rms p; 0 for one pass
+  std::optional<DivergenceReport> divergence;  ///< of some steps only
   Works work;
   double density_share = 1.0;  ///< share of the density source that lifts which the energy left to the next step
   Interventions interventions;

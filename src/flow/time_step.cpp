@@ -33,7 +33,6 @@ double largest_approach(Flow<Dim>& flow) {
   if (speed < least_speed) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  flow.halo().exchange(flow.state.particles.velocity);
   const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;

@@ -118,7 +118,7 @@ template <int Dim>
 Interventions shift(Flow<Dim>& flow, double dt);
 
 /// The largest rate [m/s] at which two neighbours in the water come nearer to each other, or less where none comes so
-/// near in a step that it matters. Needs `locate` at the present positions. Collective.
+/// near in a step that it matters. Needs `locate` at the present positions and the velocities of ghosts. Collective.
 template <int Dim>
 double largest_approach(Flow<Dim>& flow);
 

@@ -20,7 +20,7 @@ class CsvWriter {
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
             std::optional<std::int64_t> kept = {});
 
-  /// Appends one line: a number per column, each with the fewest digits that read back as the same double.
+  /// Appends one line: a number per column, each with the fewest digits that read back as the same double, or "nan".
   /// Throws IoError, also when the disk is full.
   void write(std::span<const double> row);
 

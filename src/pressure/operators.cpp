@@ -77,23 +77,22 @@ double Divergence<Dim>::operator()(std::size_t i) const {
 }
 
 template <int Dim>
-std::vector<double> find_divergence(Flow<Dim>& flow, int stride) {
+std::vector<double> find_divergence(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   const Divergence<Dim> divergence_at(flow, particles.velocity);
   std::vector<double> divergence(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i) && particles.id[i] % stride == 0) divergence[i] = divergence_at(i);
+    if (particles.is_fluid(i)) divergence[i] = divergence_at(i);
   });
   return divergence;
 }
 
 template <int Dim>
-double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int stride) {
+double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> squares_and_count = sum_over(field.size(), nothing, [&](std::size_t i) {
-    const bool counts = flow.is_inside(i) && flow.state.particles.id[i] % stride == 0;
-    return counts ? Vec<2>(field[i] * field[i], 1.0) : nothing;
+    return flow.is_inside(i) ? Vec<2>(field[i] * field[i], 1.0) : nothing;
   });
   flow.setup.ranks.sum_each(squares_and_count[0], squares_and_count[1]);
   return squares_and_count[1] > 0.0 ? std::sqrt(squares_and_count[0] / squares_and_count[1]) : 0.0;
@@ -103,8 +102,8 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int str
   template Vec<Dim> gradient_at<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&);           \
   template Vec<Dim> push_of_wall_particle<Dim>(const Flow<Dim>&, std::size_t, const std::vector<double>&); \
   template class Divergence<Dim>;                                                                          \
-  template std::vector<double> find_divergence<Dim>(Flow<Dim>&, int);                                      \
-  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&, int);
+  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                           \
+  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -31,16 +31,12 @@ class Divergence {
   std::vector<Four> in_fours_;  ///< if the standard operator is chosen
 };
 
-/// The divergence that steps report is an rms over every eighth particle, by its id: nothing else needs it.
-inline constexpr int reported_stride = 8;
-
-/// div u at owned particles [1/s], 0 at walls, at the present positions; of every `stride`-th particle, the others' is
-/// 0.
+/// div u at owned particles [1/s], 0 at walls, at the present positions. Collective.
 template <int Dim>
-std::vector<double> find_divergence(Flow<Dim>& flow, int stride = 1);
+std::vector<double> find_divergence(Flow<Dim>& flow);
 
-/// rms of a field (owned entries) over the bulk fluid particles of all ranks, every `stride`-th of them. Collective.
+/// rms of a field (owned entries) over the bulk fluid particles of all ranks. Collective.
 template <int Dim>
-double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field, int stride = 1);
+double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field);
 
 }  // namespace tailwater

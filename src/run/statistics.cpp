@@ -18,9 +18,13 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   ++steps_;
   passes_ += report.passes;
   iterations_ += report.iterations;
-  divergence_old_squares_ += report.divergence_old * report.divergence_old;
-  divergence_new_squares_ += report.divergence_new * report.divergence_new;
-  divergence_moved_squares_ += report.divergence_moved * report.divergence_moved;
+  if (report.divergence) {
+    const auto& [at_old_positions, at_new_positions, moved] = *report.divergence;
+    ++divergence_reports_;
+    divergence_old_squares_ += at_old_positions * at_old_positions;
+    divergence_new_squares_ += at_new_positions * at_new_positions;
+    divergence_moved_squares_ += moved * moved;
+  }
   density_error_sum_ += measures.density_error_mean;
   density_error_squares_ += measures.density_error_rms * measures.density_error_rms;
   energy_end_ = measures.energy();
@@ -50,6 +54,7 @@ void RunStatistics::for_each_sum(Self& self, Body&& body) {
   body("dt_sum", self.dt_sum_);
   body("dt_least", self.dt_least_);
   body("dt_largest", self.dt_largest_);
+  body("divergence_reports", self.divergence_reports_);
   body("divergence_old_squares", self.divergence_old_squares_);
   body("divergence_new_squares", self.divergence_new_squares_);
   body("divergence_moved_squares", self.divergence_moved_squares_);
@@ -89,6 +94,7 @@ void RunStatistics::restore(const nlohmann::json& saved) {
 nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const {
   const auto steps = static_cast<double>(std::max<std::int64_t>(steps_, 1));
   const double particle_steps = steps * static_cast<double>(std::max<std::size_t>(fluid_particles, 1));
+  const auto divergence_reports = static_cast<double>(std::max<std::int64_t>(divergence_reports_, 1));
   const auto passes = static_cast<double>(std::max<std::int64_t>(passes_, 1));
   const auto over_start = [&](double energy) { return energy_start_ != 0.0 ? energy / std::abs(energy_start_) : 0.0; };
   return {
@@ -100,9 +106,9 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
         {"iterations", iterations_},
         {"iterations_per_solve", static_cast<double>(iterations_) / passes}}},
       {"divergence",
-       {{"rms_at_old_positions_per_s", std::sqrt(divergence_old_squares_ / steps)},
-        {"rms_at_new_positions_per_s", std::sqrt(divergence_new_squares_ / steps)},
-        {"rms_from_old_positions_per_s", std::sqrt(divergence_moved_squares_ / steps)}}},
+       {{"rms_at_old_positions_per_s", std::sqrt(divergence_old_squares_ / divergence_reports)},
+        {"rms_at_new_positions_per_s", std::sqrt(divergence_new_squares_ / divergence_reports)},
+        {"rms_from_old_positions_per_s", std::sqrt(divergence_moved_squares_ / divergence_reports)}}},
       {"energy",
        {{"start_J", energy_start_},
         {"end_J", energy_end_},

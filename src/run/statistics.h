@@ -36,6 +36,7 @@ class RunStatistics {
   double dt_sum_ = 0.0;
   double dt_least_ = 0.0;
   double dt_largest_ = 0.0;
+  std::int64_t divergence_reports_ = 0;
   double divergence_old_squares_ = 0.0;
   double divergence_new_squares_ = 0.0;
   double divergence_moved_squares_ = 0.0;

@@ -1,6 +1,7 @@
 #include "run/step_log.h"
 
 #include <array>
+#include <limits>
 
 namespace tailwater {
 
@@ -39,6 +40,8 @@ StepLog::StepLog(const std::filesystem::path& path, std::optional<std::int64_t> 
 
 void StepLog::write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures) {
   const Interventions& counts = report.interventions;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const DivergenceReport divergence = report.divergence.value_or(DivergenceReport{none, none, none});
   csv_.write(std::array{time,
                         static_cast<double>(step),
                         report.dt,
@@ -46,9 +49,9 @@ void StepLog::write(double time, std::int64_t step, const StepReport& report, co
                         static_cast<double>(report.iterations),
                         report.residual,
                         report.pressure_change,
-                        report.divergence_old,
-                        report.divergence_new,
-                        report.divergence_moved,
+                        divergence.at_old_positions,
+                        divergence.at_new_positions,
+                        divergence.moved,
                         measures.largest_speed,
                         measures.kinetic_energy,
                         measures.potential_energy,

@@ -28,6 +28,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   steer_bodies(flow, start, dt);
   StepReport report = take_step(flow, start, dt);
   report.dt = dt;
+  flow.halo().exchange(flow.state.particles.velocity);
   flow.state.approach = largest_approach(flow);
   count_passing(flow, start);
   Interventions& counts = report.interventions;

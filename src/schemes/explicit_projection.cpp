@@ -1,5 +1,4 @@
-#include "pressure/operators.h"
-#include "pressure/verbs.h"
+#include "flow/verbs.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
 
@@ -7,13 +6,12 @@ namespace tailwater {
 
 template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  StepReport report = project(flow, start, dt);  // (F14)-(F16)
-  const std::vector<double> divergence_old = find_divergence(flow, reported_stride);
-  report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);  // (F18): the remainder at the old positions
-  report.interventions.put_back += move(flow, start, dt);                   // (F17)
-  report.interventions += shift(flow, dt);                                  // (F28)-(F32)
+  StepReport report = project(flow, start, dt);            // (F14)-(F16)
+  const auto divergence_old = divergence_to_report(flow);  // (F18): the remainder at the old positions
+  report.interventions.put_back += move(flow, start, dt);  // (F17)
+  report.interventions += shift(flow, dt);                 // (F28)-(F32)
   locate(flow);
-  report_divergence(flow, divergence_old, report);
+  report.divergence = report_of_divergence(flow, divergence_old);
   return report;
 }
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "pressure/operators.h"
 #include "pressure/verbs.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
@@ -50,8 +49,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   report.interventions += second.interventions;
   report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
   report.work.ends = end_work(flow, dt);
-  report.divergence_old = bulk_rms(flow, find_divergence(flow, reported_stride), reported_stride);
-  report.divergence_new = report.divergence_old;  // the last solve was at the new positions
+  report.divergence = report_of_divergence(flow, divergence_to_report(flow));  // the last solve was where it ends
   return report;
 }
 
@@ -62,7 +60,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
   StepReport report;
   WallDrive<Dim> drive = drive_walls(flow, start, dt);
   const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
-  std::vector<double> divergence_old;
+  std::optional<std::vector<double>> divergence_old;
   for (bool settled = false; !settled && report.passes < scheme.max_passes;) {
     const auto pressure_before = owned_part(particles.pressure, particles.owned);
     const auto velocity_before = owned_part(particles.velocity, particles.owned);
@@ -75,8 +73,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     report.add(solve(flow, start, equation, dt, drive));
     correct(flow, predicted, drive, dt);  // (F24)
     report.work = book_works(flow, start, predicted, equation, dt);
-    divergence_old = find_divergence(flow, reported_stride);
-    report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);
+    divergence_old = divergence_to_report(flow);
 
     report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);
     relax(scheme.relax_pressure, pressure_before, particles.pressure);
@@ -90,7 +87,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
   }
   report.interventions += shift(flow, dt);  // (F28)-(F32)
   locate(flow);
-  report_divergence(flow, divergence_old, report);  // (F19)
+  report.divergence = report_of_divergence(flow, divergence_old);  // (F19)
   return report;
 }
 

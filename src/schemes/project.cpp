@@ -7,6 +7,11 @@
 #include "pressure/verbs.h"
 
 namespace tailwater {
+namespace {
+
+constexpr std::int64_t steps_between_reports = 10;
+
+}  // namespace
 
 template <int Dim>
 StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
@@ -24,17 +29,28 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
 }
 
 template <int Dim>
-void report_divergence(Flow<Dim>& flow, const std::vector<double>& divergence_old, StepReport& report) {
-  const std::vector<double> divergence = find_divergence(flow, reported_stride);
-  std::vector<double> change(divergence.size());
-  for_each(change.size(), [&](std::size_t i) { change[i] = divergence_old[i] - divergence[i]; });
-  report.divergence_new = bulk_rms(flow, divergence, reported_stride);
-  report.divergence_moved = bulk_rms(flow, change, reported_stride);
+std::optional<std::vector<double>> divergence_to_report(Flow<Dim>& flow) {
+  if (flow.state.step % steps_between_reports != 0) return {};
+  return find_divergence(flow);
 }
 
-template StepReport project<2>(Flow<2>&, const StepStart<2>&, double);
-template StepReport project<3>(Flow<3>&, const StepStart<3>&, double);
-template void report_divergence<2>(Flow<2>&, const std::vector<double>&, StepReport&);
-template void report_divergence<3>(Flow<3>&, const std::vector<double>&, StepReport&);
+template <int Dim>
+std::optional<DivergenceReport> report_of_divergence(Flow<Dim>& flow, const std::optional<std::vector<double>>& old) {
+  if (!old) return {};
+  const double rms_of_old = bulk_rms(flow, *old);
+  const std::vector<double> divergence = find_divergence(flow);
+  std::vector<double> change(divergence.size());
+  for_each(change.size(), [&](std::size_t i) { change[i] = (*old)[i] - divergence[i]; });
+  return DivergenceReport{rms_of_old, bulk_rms(flow, divergence), bulk_rms(flow, change)};
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                   \
+  template StepReport project<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);       \
+  template std::optional<std::vector<double>> divergence_to_report<Dim>(Flow<Dim>&); \
+  template std::optional<DivergenceReport> report_of_divergence<Dim>(Flow<Dim>&,     \
+                                                                     const std::optional<std::vector<double>>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -1,6 +1,9 @@
 // Parts that several steps share.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "flow/flow.h"
 #include "flow/step.h"
 
@@ -10,9 +13,13 @@ namespace tailwater {
 template <int Dim>
 StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// Reports the divergence at the present positions, and its change since `divergence_old` (owned, 1/s), which the solve
-/// left at the positions where it was posed.
+/// The divergence (owned, 1/s) at the present positions, which are those of the last solve, if this is a step that
+/// reports it: every tenth, since nothing else needs it. Collective.
 template <int Dim>
-void report_divergence(Flow<Dim>& flow, const std::vector<double>& divergence_old, StepReport& report);
+std::optional<std::vector<double>> divergence_to_report(Flow<Dim>& flow);
+
+/// Reports that divergence, if there is one, and what it has become at the present positions. Collective.
+template <int Dim>
+std::optional<DivergenceReport> report_of_divergence(Flow<Dim>& flow, const std::optional<std::vector<double>>& old);
 
 }  // namespace tailwater

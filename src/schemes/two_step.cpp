@@ -1,6 +1,5 @@
 #include "schemes/two_step.h"
 
-#include "pressure/operators.h"
 #include "schemes/project.h"
 
 namespace tailwater {
@@ -28,12 +27,11 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   report.add(found.solved);
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)
   report.work = book_works(flow, start, found.predicted, found.equation, dt);
-  const std::vector<double> divergence_old = find_divergence(flow, reported_stride);
-  report.divergence_old = bulk_rms(flow, divergence_old, reported_stride);
+  const auto divergence_old = divergence_to_report(flow);
   report.interventions.put_back += move(flow, start, dt);  // (B19)
   report.interventions += shift(flow, dt);
   locate(flow);
-  report_divergence(flow, divergence_old, report);
+  report.divergence = report_of_divergence(flow, divergence_old);
   return report;
 }
 

@@ -39,6 +39,14 @@ TEST(CsvWriter, NumbersReadBackExactly) {
   }
 }
 
+TEST(CsvWriter, WritesWhatWasNotMeasured) {  // with floating-point traps on, as in a run
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "steps.csv";
+  CsvWriter csv(path, {"a", "b", "c"});
+  csv.write(std::array{1.0, std::numeric_limits<double>::quiet_NaN(), 2.0});
+  EXPECT_EQ(text_of(path), "a,b,c\n1,nan,2\n");
+}
+
 TEST(CsvWriter, EmptiesAnOlderFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "probe.csv";

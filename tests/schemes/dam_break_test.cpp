@@ -37,6 +37,7 @@ TEST_P(DamBreak, RunsSoundly) {
   double least_energy = energy_at_start;
   double front = 0.0;
   while (flow.state.time < end) {
+    const bool reports_divergence = flow.state.step % 10 == 0;
     const StepReport report = step(flow);
     const double energy = measure(flow).energy();
     // Viscosity and impact only take energy; 1e-3 of the start is what two projections that are not exact may add.
@@ -55,7 +56,9 @@ TEST_P(DamBreak, RunsSoundly) {
       ASSERT_EQ(report.passes, 1);
     } else if (GetParam().form == ImplicitForm::residual) {
       ASSERT_EQ(report.passes, 2);
-      ASSERT_EQ(report.divergence_moved, 0.0);  // the second projection is made where the step ends
+      if (report.divergence) {
+        ASSERT_EQ(report.divergence->moved, 0.0);  // the second projection is made where the step ends
+      }
     } else {
       ASSERT_GE(report.passes, 2);  // the first pass cannot know that it has settled
       ASSERT_LE(report.passes, flow.setup.scheme.max_passes);
@@ -65,8 +68,10 @@ TEST_P(DamBreak, RunsSoundly) {
     }
     ASSERT_GT(report.iterations, 0);
     ASSERT_LE(report.residual, PressureSolverTable{}.tolerance);
-    ASSERT_GT(report.divergence_old, 0.0);
-    ASSERT_GT(report.divergence_new, 0.0);
+    ASSERT_EQ(report.divergence.has_value(), reports_divergence);
+    if (!report.divergence) continue;
+    ASSERT_GT(report.divergence->at_old_positions, 0.0);
+    ASSERT_GT(report.divergence->at_new_positions, 0.0);
   }
   // In the laboratory the water arrives at 0.60 s, known to 0.03 s (cases/zhou1999/README.md); now it is 0.74 s.
   EXPECT_GT(front, 3.22 - dx);
