@@ -114,21 +114,6 @@ std::vector<int> rows_by_cell(std::span<const std::uint64_t> cell) {
   return rows;
 }
 
-/// Plan by which each rank gets the entries of all, by rank.
-ExchangePlan gather_on_all(const Communicator& ranks, std::size_t count) {
-  std::vector<std::int32_t> entries(count);
-  std::iota(entries.begin(), entries.end(), 0);
-  return {ranks, count, std::vector(static_cast<std::size_t>(ranks.size()), entries)};
-}
-
-/// The entries of all ranks.
-template <class Value>
-std::vector<Value> gathered(const ExchangePlan& plan, std::vector<Value> own) {
-  plan.exchange(own);
-  own.erase(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(plan.owned()));
-  return own;
-}
-
 float settled(float value) { return std::abs(value) < vanishing_value ? 0.0F : value; }
 
 }  // namespace
@@ -449,12 +434,12 @@ void CellMultigrid::gather(Level& level) const {
     for (const Entry& entry : part.row(i)) numbered.push_back({number[i], number[entry.column], entry.weight});
   }
   Gathering gathering;
-  gathering.plan = gather_on_all(ranks_, part.size());
+  gathering.counts = ranks_.all_gather(static_cast<int>(part.size()));
   gathering.first_own = static_cast<std::size_t>(first);
-  const std::vector<std::uint64_t> cell = gathered(gathering.plan, level.cell);
-  const std::vector<float> diagonal = gathered(gathering.plan, part.diagonal);
-  const ExchangePlan plan_of_entries = gather_on_all(ranks_, numbered.size());
-  const std::vector<NumberedEntry> entries = gathered(plan_of_entries, std::move(numbered));
+  const std::vector<std::uint64_t> cell = ranks_.all_gather(level.cell, gathering.counts);
+  const std::vector<float> diagonal = ranks_.all_gather(part.diagonal, gathering.counts);
+  const std::vector<int> counts_of_entries = ranks_.all_gather(static_cast<int>(numbered.size()));
+  const std::vector<NumberedEntry> entries = ranks_.all_gather(numbered, counts_of_entries);
 
   std::vector<int> order(cell.size());
   std::iota(order.begin(), order.end(), 0);
@@ -543,7 +528,7 @@ void CellMultigrid::correct_by_next(std::size_t k) {
     part[level.parent[i]] += level.matrix.sum_right(i, x);  // the sweep has left over what is right of the diagonal
   }
   if (next.gathering) {
-    const std::vector<float> all = gathered(next.gathering->plan, std::move(part));
+    const std::vector<float> all = ranks_.all_gather(part, next.gathering->counts);
     for (std::size_t i = 0; i < all.size(); ++i) next.rhs[next.gathering->row[i]] = all[i];
   } else {
     next.rhs = std::move(part);

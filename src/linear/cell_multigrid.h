@@ -87,7 +87,7 @@ class CellMultigrid {
 
   /// How all ranks get a level from the parts of each.
   struct Gathering {
-    ExchangePlan plan;          ///< puts the parts of all ranks behind a rank's own
+    std::vector<int> counts;    ///< rows of each rank's part
     std::size_t first_own = 0;  ///< this rank's in the parts of all
     std::vector<int> row;       ///< of each entry of the parts of all
   };

@@ -1,5 +1,7 @@
 #include "parallel/communicator.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "base/assert.h"
@@ -29,6 +31,24 @@ void Communicator::all_gather_bytes(const void* value, void* all, std::size_t by
   }
   const int count = static_cast<int>(bytes);
   MPI_Allgather(value, count, MPI_BYTE, all, count, MPI_BYTE, handle_);
+}
+
+void Communicator::all_gather_bytes(const void* own, void* all, std::size_t bytes_of_each,
+                                    std::span<const int> counts) const {
+  TAILWATER_ASSERT(counts.size() == static_cast<std::size_t>(size_), "one number per rank");
+  std::vector<int> bytes;
+  std::vector<int> begin{0};
+  for (const int count : counts) {
+    bytes.push_back(count * static_cast<int>(bytes_of_each));
+    begin.push_back(begin.back() + bytes.back());
+  }
+  if (is_alone()) {
+    std::copy_n(static_cast<const std::byte*>(own), bytes[0], static_cast<std::byte*>(all));
+    return;
+  }
+  const double start = MPI_Wtime();
+  MPI_Allgatherv(own, bytes[rank_], MPI_BYTE, all, bytes.data(), begin.data(), MPI_BYTE, handle_);
+  traffic_->exchange_seconds += MPI_Wtime() - start;
 }
 
 std::int64_t Communicator::sum_before(std::int64_t value) const {

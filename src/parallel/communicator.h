@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -81,6 +82,14 @@ class Communicator {
     return all;
   }
 
+  /// The values of all ranks one after the other, on all ranks. Rank q gives counts[q]. For plain values.
+  template <class Value>
+  std::vector<Value> all_gather(const std::vector<Value>& own, std::span<const int> counts) const {
+    std::vector<Value> all(static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), 0)));
+    all_gather_bytes(own.data(), all.data(), sizeof(Value), counts);
+    return all;
+  }
+
   /// Sends counts[q] to rank q; returns the count that each rank sent to this one.
   std::vector<std::int64_t> transpose(std::span<const std::int64_t> counts) const;
 
@@ -149,6 +158,7 @@ class Communicator {
   }
   void reduce(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation) const;
   void all_gather_bytes(const void* value, void* all, std::size_t bytes) const;
+  void all_gather_bytes(const void* own, void* all, std::size_t bytes_of_each, std::span<const int> counts) const;
 
   MPI_Comm handle_ = MPI_COMM_SELF;
   int rank_ = 0;

@@ -57,6 +57,18 @@ TEST(Communicator, GatherKeepsTheOrderOfRanksAndEmptyOnes) {
   for (std::size_t q = 0; q < texts.size(); ++q) EXPECT_EQ(texts[q], std::string(q, 'x'));
 }
 
+TEST(Communicator, PartsOfAllRanksReachAllInTheirOrder) {
+  const Communicator ranks = Communicator::world();
+  std::vector<std::int64_t> own(static_cast<std::size_t>(2 * ranks.rank()), 10 + ranks.rank());  // none of the root's
+  std::vector<int> counts;
+  std::vector<std::int64_t> expected;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    counts.push_back(2 * rank);
+    expected.insert(expected.end(), static_cast<std::size_t>(2 * rank), 10 + rank);
+  }
+  EXPECT_EQ(ranks.all_gather(own, counts), expected);
+}
+
 TEST(Communicator, AllGatherAndBroadcastReachAllRanks) {
   const std::vector<int> all = world().all_gather(7 * world().rank());
   for (int q = 0; q < world().size(); ++q) EXPECT_EQ(all[q], 7 * q);
