@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""What a particle costs per step, in pairs: the weights of src/neighbours/neighbourhood.cpp, docs/scaling.md.
+"""What a row costs per step, in pairs: a weight of src/neighbours/neighbourhood.cpp, docs/scaling.md.
 
-CPU time per step and particle of periodic vortices at several supports gives the cost of a row and of a pair; taller
-walls of a dam break, which stay dry, that of a row without pairs; a film on a long floor that of wall rows with pairs.
+CPU time per step and particle of periodic vortices at several supports gives the cost of a row and of a pair.
 Usage: scripts/work_study.py    needs build/release/bin/tailwater
 """
 import json
@@ -15,9 +14,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/tailwater"
-SKIN = 0.6  # dx, of the lists
 VORTEX = ROOT / "cases/robustness/taylor_green.toml"
-DAM_BREAK = ROOT / "cases/zhou1999/case.toml"
 QUICK_SOLVE = ["pressure_solver.preconditioner=ssor", "pressure_solver.tolerance=0.1"]  # iterations vary
 
 
@@ -45,17 +42,11 @@ def main():
     for support in (2.4, 3.0, 4.0):
         cost, run = seconds_per_step(VORTEX, ["particles.spacing=0.005", "particles.jitter=0.1",
                                               f"scheme.support={support}", *QUICK_SOLVE], 0.003, 0.02)
-        pairs = math.pi * (support + SKIN) ** 2 - 1
+        pairs = math.pi * support**2 - 1
         rows.append((pairs, cost / run["particles"]["fluid"]))
-        print(f"vortex, support {support} dx: {pairs:.1f} pairs in the list, {1e6 * rows[-1][1]:.2f} us per particle and step")
+        print(f"vortex, support {support} dx: {pairs:.1f} pairs, {1e6 * rows[-1][1]:.2f} us per particle and step")
     per_pair, per_row = np.polyfit(*np.array(rows).T, 1)
     print(f"a pair {1e9 * per_pair:.0f} ns, a row {per_row / per_pair:.1f} pairs")
-
-    low, high = (seconds_per_step(DAM_BREAK, ["particles.spacing=0.006", f"parameters.top={top}", *QUICK_SOLVE],
-                                  0.003, 0.02)
-                 for top in (1.5, 12.0))
-    dry = (high[0] - low[0]) / (high[1]["particles"]["wall"] - low[1]["particles"]["wall"])
-    print(f"a dry wall particle {dry / per_pair:.1f} pairs")
 
 
 if __name__ == "__main__":
