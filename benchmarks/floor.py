@@ -32,7 +32,7 @@ class Pass:
     now: object
     floor: object
     operations: object
-    times: int = 1  # in a step
+    times: float = 1  # in a step
     only_in: int = 0  # dimension; 0: both
 
 
@@ -69,8 +69,7 @@ PASSES = (
     # In 3D the matrix has had the place of F.
     Pass("F, found again", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + SLOPE, only_in=3),
     Pass("gradient", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
-    Pass("divergence, reported", lambda d: (INDEX + SINGLE) / 8, lambda d: 0,
-         lambda d: (3 * d + 1 + pair_vector(d)) / 8, 2),
+    Pass("divergence, reported", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + 1 + pair_vector(d), 0.2),
     Pass("shift", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 12),
 )
 AT_BEST_NEVER = {"divergence, reported", "F, found again"}

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Forecast of the time per step on many ranks: the last table of docs/scaling.md.
 
-    T = c n (1 + loss) + messages x latency + bytes/bandwidth
+    T = c n (1 + loss) + messages x latency + bytes/bandwidth + multigrid
 
 n particles per rank. c, loss, bytes per ghost, exchanges per step and iterations are measured (docs/scaling.csv, and
-scaling_3d.csv); latency and bandwidth are those of a usual cluster, assumed. Multigrid: every iteration passes all its
-levels, each with so many exchanges; its set-up counts as so many iterations more.
+scaling_3d.csv); latency and bandwidth are those of a usual cluster, assumed. A W cycle visits level k 2^k times. Each
+visit exchanges ghosts, until the level is gathered: each of its visits gathers it, and all ranks do its work.
 Usage: scripts/scaling_model.py
 """
 import csv
@@ -16,11 +16,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LATENCY, BANDWIDTH = 2e-6, 10e9  # s per message, bytes/s: assumed
 LAYER = 3.6  # dx; support and skin: ghosts lie this far around a rank's particles
 REDUCTIONS = 30  # per step outside the solves; 3 more per iteration
-EXCHANGES_PER_LEVEL = 5  # two relaxations, residual, restriction, prolongation
-SETUP_ITERATIONS = 10  # of messages in the set-up of multigrid
-COARSENING = {2: 4, 3: 8}  # unknowns from level to level; 2D as BoomerAMG prints, 3D assumed
 NEIGHBOURS = {2: 8, 3: 26}
-COARSE_NEIGHBOURS = {2: 16, 3: 60}  # coarse stencils reach farther: assumed
+GATHERED_ROWS = 1024  # of src/linear/cell_multigrid.cpp
+EXCHANGES_PER_VISIT = 3  # before the residual goes down, between the halves of a W, before the sweep back
+COARSENING = {2: 4, 3: 8}  # unknowns from level to level
+ROW_VISIT = {2: 25e-9, 3: 60e-9}  # s per row and visit of a level: cycles in a profile of the first steps
 # While a run starts (docs/scaling.md): per particle and row of the walls of a rank, and per cell of the box around the
 # walls, which is on all ranks.
 START_BYTES, ROW_BYTES, CELL_BYTES = 420, 530, 8
@@ -37,6 +37,11 @@ def ghosts(n, dimension):
     return (edge + 2 * LAYER) ** dimension - n
 
 
+def levels(particles, dimension):
+    """That are not gathered."""
+    return max(0, math.ceil(math.log(particles / GATHERED_ROWS, COARSENING[dimension])))
+
+
 class Model:
     def __init__(self, dimension, rows):
         self.dimension = dimension
@@ -46,7 +51,8 @@ class Model:
         self.c = alone["seconds_per_step"] / largest
         self.loss = 2 * two["seconds_per_step"] / alone["seconds_per_step"] - 1
         self.iterations = alone["iterations_per_step"]
-        self.exchanges = two["messages_per_step"] / 2  # one neighbour each
+        in_cycles = self.iterations * EXCHANGES_PER_VISIT * (2 ** levels(largest, dimension) - 1)
+        self.exchanges = two["messages_per_step"] / 2 - in_cycles  # one neighbour each
         self.bytes_per_step = two["bytes_per_step"] / 2
         self.ghosts = two["ghosts"] / 2
 
@@ -56,15 +62,19 @@ class Model:
         halo += self.bytes_per_step / self.ghosts * ghosts(n, self.dimension) / BANDWIDTH
         hops = math.log2(ranks)
         sums = (REDUCTIONS + 3 * self.iterations) * hops * LATENCY
-        levels = math.log(particles / 10, COARSENING[self.dimension])
-        multigrid = ((self.iterations + SETUP_ITERATIONS) * levels * EXCHANGES_PER_LEVEL *
-                     COARSE_NEIGHBOURS[self.dimension] * LATENCY)
+        count = levels(particles, self.dimension)
+        messages = (2**count - 1) * EXCHANGES_PER_VISIT * NEIGHBOURS[self.dimension] * LATENCY
+        coarsening = COARSENING[self.dimension]
+        rows = particles / coarsening**count
+        gathered = 2**count * (hops * LATENCY + 4 * rows / BANDWIDTH +
+                               ROW_VISIT[self.dimension] * rows / (1 - 2 / coarsening))
+        multigrid = self.iterations * (messages + gathered)
         return self.c * n, self.c * n * self.loss, halo, sums, multigrid
 
 
 def main():
     print("| | particles | ranks | particles per rank | own work, s | lost beside others, s | halo, ms | sums, ms | "
-          "multigrid's messages, ms | s per step | efficiency | start, GB per rank |")
+          "multigrid's coarse levels, ms | s per step | efficiency | start, GB per rank |")
     print("| --- " * 12 + "|")
     for dimension, name in ((2, "scaling.csv"), (3, "scaling_3d.csv")):
         model = Model(dimension, read(name))
