@@ -18,7 +18,7 @@ LAYER = 3.6  # dx; support and skin: ghosts lie this far around a rank's particl
 REDUCTIONS = 30  # per step outside the solves; 3 more per iteration
 NEIGHBOURS = {2: 8, 3: 26}
 GATHERED_ROWS = 1024  # of src/linear/cell_multigrid.cpp
-EXCHANGES_PER_VISIT = 3  # before the residual goes down, between the halves of a W, before the sweep back
+CELLS = 1.1  # over particles/2^d: those at borders are not full
 COARSENING = {2: 4, 3: 8}  # unknowns from level to level
 ROW_VISIT = {2: 25e-9, 3: 60e-9}  # s per row and visit of a level: cycles in a profile of the first steps
 # While a run starts (docs/scaling.md): per particle and row of the walls of a rank, and per cell of the box around the
@@ -37,9 +37,15 @@ def ghosts(n, dimension):
     return (edge + 2 * LAYER) ** dimension - n
 
 
-def levels(particles, dimension):
+def levels(fluid, dimension):
     """That are not gathered."""
-    return max(0, math.ceil(math.log(particles / GATHERED_ROWS, COARSENING[dimension])))
+    return max(1, math.ceil(math.log(CELLS * fluid / GATHERED_ROWS, COARSENING[dimension])))
+
+
+def exchanges_of_cycle(count):
+    """Of a W cycle over so many levels: each visit exchanges before the residual goes down and before the sweep back,
+    and between the halves of the W, unless the next level is gathered."""
+    return 3 * (2**count - 1) - 2 ** (count - 1)
 
 
 class Model:
@@ -50,8 +56,8 @@ class Model:
                       for ranks in (1, 2))
         self.c = alone["seconds_per_step"] / largest
         self.loss = 2 * two["seconds_per_step"] / alone["seconds_per_step"] - 1
-        self.iterations = alone["iterations_per_step"]
-        in_cycles = self.iterations * EXCHANGES_PER_VISIT * (2 ** levels(largest, dimension) - 1)
+        self.iterations = two["iterations_per_step"]
+        in_cycles = self.iterations * exchanges_of_cycle(levels(two["fluid"], dimension))
         self.exchanges = two["messages_per_step"] / 2 - in_cycles  # one neighbour each
         self.bytes_per_step = two["bytes_per_step"] / 2
         self.ghosts = two["ghosts"] / 2
@@ -63,9 +69,9 @@ class Model:
         hops = math.log2(ranks)
         sums = (REDUCTIONS + 3 * self.iterations) * hops * LATENCY
         count = levels(particles, self.dimension)
-        messages = (2**count - 1) * EXCHANGES_PER_VISIT * NEIGHBOURS[self.dimension] * LATENCY
+        messages = exchanges_of_cycle(count) * NEIGHBOURS[self.dimension] * LATENCY
         coarsening = COARSENING[self.dimension]
-        rows = particles / coarsening**count
+        rows = CELLS * particles / coarsening**count
         gathered = 2**count * (hops * LATENCY + 4 * rows / BANDWIDTH +
                                ROW_VISIT[self.dimension] * rows / (1 - 2 / coarsening))
         multigrid = self.iterations * (messages + gathered)

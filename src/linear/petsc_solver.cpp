@@ -24,7 +24,7 @@ constexpr double no_absolute_tolerance = 0.0;
 constexpr int longest_history = 2000;
 
 /// Iterations after which FGMRES starts again: it keeps two vectors of each. PETSc's default of 30 is needed by cold
-/// solves only, which then take a few iterations more (docs/performance.md).
+/// solves only, which then take a few iterations more (docs/notebook/2026-11-24-speed.md).
 constexpr int most_directions = 20;
 
 KSPType krylov_type(KrylovMethod method) {
