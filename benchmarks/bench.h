@@ -71,11 +71,9 @@ struct Stage {
     if (flow.state.step % steps_between_sorts == 0) share_out(flow);
     return advance(flow, next_time_step(flow));
   }
-  /// The pressure equation of the next step, beside pairs that are whole again: a step itself never has both.
-  void pose() {
-    equation = assemble(flow, predicted, target, drive, dt);
-    flow.neighbourhood.find_slopes();
-  }
+
+  /// The pressure equation of the next step.
+  void pose() { equation = assemble(flow, predicted, target, drive, dt); }
 
   std::size_t fluid() const {
     const Particles<Dim>& particles = flow.state.particles;

@@ -25,22 +25,6 @@ void hold_suction(Flow<Dim>& flow) {
   });
 }
 
-/// While it lives there is a matrix, in which slopes may have gone; then there are pairs with slopes.
-template <int Dim>
-class MatrixForSlopes {
- public:
-  explicit MatrixForSlopes(Flow<Dim>& flow) : flow_(flow) {}
-  ~MatrixForSlopes() {
-    flow_.forget_matrix();
-    if (lends_slopes(flow_)) flow_.neighbourhood.find_slopes();
-  }
-  MatrixForSlopes(const MatrixForSlopes&) = delete;
-  MatrixForSlopes& operator=(const MatrixForSlopes&) = delete;
-
- private:
-  Flow<Dim>& flow_;
-};
-
 PressureReport report_of(const SolveReport& solved) {
   PressureReport report{.iterations = solved.iterations, .residual = solved.residual, .interventions = {}};
   report.interventions.restarted_solves = solved.restarts;
@@ -53,7 +37,6 @@ PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, doubl
   Particles<Dim>& particles = flow.state.particles;
   // The guess is what this projection found last.
   for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
-  const MatrixForSlopes<Dim> matrix(flow);
   BodyCoupling<Dim> coupling(flow, start, dt, drive);
   PressureReport report;
   if (flow.setup.has_air()) {
@@ -67,6 +50,7 @@ PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, doubl
     report = report_of(coupling.solve(tolerance));
   }
   coupling.carry_over();
+  flow.forget_matrix();
   return report;
 }
 

@@ -46,12 +46,6 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double dt) {
 }  // namespace
 
 template <int Dim>
-bool lends_slopes(const Flow<Dim>& flow) {
-  return Dim == 3 && flow.setup.scheme.laplacian == LaplacianKind::morris && flow.setup.bodies.empty() &&
-         !flow.setup.keeps_matrix();
-}
-
-template <int Dim>
 std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt) {
   std::vector<double> target(flow.state.particles.owned, 0.0);
   if (flow.setup.scheme.divergence_free != DivergenceFree::midway) return target;
@@ -77,7 +71,6 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
       if (is_sought(i)) source[i] -= unit * (divergence(i) - target[i]);
     });
   }
-  if (lends_slopes(flow)) flow.neighbourhood.forget_slopes();
   equation.fallback_rows = assemble_weights(flow, drive);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (is_sought(i)) flow.pressure_rows.set_rhs(i, source[i] + equation.density_source[i]);
@@ -86,7 +79,6 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                  \
-  template bool lends_slopes<Dim>(const Flow<Dim>&);                                                \
   template std::vector<double> aim<Dim>(const Flow<Dim>&, std::vector<Mat<Dim>>, double);           \
   template PosedEquation assemble<Dim>(Flow<Dim>&, const Prediction<Dim>&, std::span<const double>, \
                                        const WallDrive<Dim>&, double);

@@ -26,12 +26,6 @@ struct PosedEquation {
   std::vector<double> density_source;  ///< Pa/m^2; the part of owned rows' sources that answers the density error
 };
 
-/// Whether pairs have no slopes from `assemble` until `solve` has found the pressure, because nothing reads them in
-/// that time: the largest arrays of all, slopes and matrix, then never are in memory together. Only in 3D, where rows
-/// are long: to find them again takes 2 % of a step.
-template <int Dim>
-bool lends_slopes(const Flow<Dim>& flow);
-
 /// (F15), (F22): lap p = rho/dt (div u_star - target), or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources.
 template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,

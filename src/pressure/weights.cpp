@@ -49,10 +49,8 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const float> volum
           first, end, [&](auto range) __attribute__((always_inline)) {
             const LaneIndices j = range.neighbours(pairs.j.data());
             const VecLanes<Dim> d = neighbour_places(pairs, range, j, i).d;
-            const Lanes square = d.dot(d);
-            const Lanes share = share_of_morris_weight(square, spacing);
-            const Lanes F = kernel_steepness<Dim>(pairs.kernel, sqrt_of(square));
-            const Lanes weight = 2.0F * share * j(volume_taking_part.data()) * F;
+            const Lanes share = share_of_morris_weight(d.dot(d), spacing);
+            const Lanes weight = 2.0F * share * j(volume_taking_part.data()) * range.load(pairs.F.data());
             sums += range.store(weight, weights + (range.begin - first));
           });
       return sums.total();
