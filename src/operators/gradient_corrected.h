@@ -20,6 +20,15 @@ inline double correction_share(double least_eigenvalue_M) {
   return std::clamp((least_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0);
 }
 
+/// The same of M itself. Inside the water it is 1 already by what Gershgorin's circles leave of the eigenvalue.
+template <int Dim>
+double share_of_correction(const Mat<Dim>& first_moment) {
+  const Vec<Dim> off_diagonal = first_moment.cwiseAbs().rowwise().sum() - first_moment.diagonal().cwiseAbs();
+  const double least_possible = (first_moment.diagonal() - off_diagonal).minCoeff();
+  if (correction_share(least_possible) == 1.0) return 1.0;
+  return correction_share(least_eigenvalue<Dim>(first_moment));
+}
+
 /// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. `first_moment` is M_i.
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
@@ -37,7 +46,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
         }
       });
   const Mat<Dim> sum = sum_of(sums);
-  const double share = correction_share(least_eigenvalue<Dim>(first_moment));
+  const double share = share_of_correction<Dim>(first_moment);
   if (share == 0.0) return sum;
   return sum * (share * first_moment.inverse() + (1.0 - share) * Mat<Dim>::Identity());
 }
