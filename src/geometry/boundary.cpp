@@ -339,6 +339,8 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
   const auto look_at = [&](int f) {
     const WallFace<Dim>& face = faces[f];
     const double tie = 1e-9 * (face.corners[1] - face.corners[0]).norm();
+    const double height = face.height(x);
+    if (std::abs(height) > best_distance + tie) return;
     bool is_far = false;
     for (int axis = 0; axis < Dim; ++axis) {
       double low = face.corners[0][axis];
@@ -354,7 +356,6 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
     }
     const Vec<Dim> point = closest_point(face, x);
     const double distance = (x - point).norm();
-    const double height = face.height(x);
     const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;
     if (height < 0.0 && !plates.empty() && walls[face.wall].is_plate) return;  // its other face is as near
     if (is_tie ? std::abs(height) > std::abs(best_height) : distance <= best_distance) {
