@@ -43,10 +43,6 @@ using IntegerLanes = std::uint32_t __attribute__((vector_size(4 * lane_count)));
 inline constexpr int double_lane_count = lane_count / 2;
 using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
 
-/// What one lane of a number, or of several, holds.
-template <class Number>
-using LaneOf = std::conditional_t<std::is_same_v<Number, Lanes>, float, double>;
-
 /// a b + c. In a sum of two products the compiler may round either, and it chooses anew wherever a loop is compiled, as
 /// for whole groups and for a row's rest. What must be the same for both particles of a pair says which.
 inline Lanes fused(Lanes a, Lanes b, Lanes c) {
@@ -84,6 +80,35 @@ struct MatLanes {
   }
 };
 
+/// A symmetric matrix in each lane, packed as in operators/symmetric.h.
+template <int Dim>
+struct SymmetricLanes {
+  std::array<Lanes, symmetric_size<Dim>> packed;
+
+  /// Where entry (a, b) is.
+  static constexpr int place(int a, int b) {
+    return std::min(a, b) * (2 * Dim - 1 - std::min(a, b)) / 2 + std::max(a, b);
+  }
+  const Lanes& operator()(int a, int b) const { return packed[place(a, b)]; }
+
+  VecLanes<Dim> times(const VecLanes<Dim>& x) const {
+    VecLanes<Dim> product;
+    for (int a = 0; a < Dim; ++a) {
+      product.at[a] = packed[place(a, 0)] * x.at[0];
+      for (int b = 1; b < Dim; ++b) product.at[a] = fused(packed[place(a, b)], x.at[b], product.at[a]);
+    }
+    return product;
+  }
+  /// Adds x y, of which the product is symmetric. Loops over a triangle would leave the sums in memory.
+  void add(const VecLanes<Dim>& x, const VecLanes<Dim>& y) {
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = 0; b < Dim; ++b) {
+        if (b >= a) packed[place(a, b)] = fused(x.at[a], y.at[b], packed[place(a, b)]);
+      }
+    }
+  }
+};
+
 inline Lanes in_all_lanes(double value) { return Lanes{} + static_cast<float>(value); }
 inline DoubleLanes in_all_double_lanes(double value) { return DoubleLanes{} + value; }
 
@@ -93,8 +118,20 @@ inline constexpr LaneTruths lane_numbers{0, 1, 2, 3, 4, 5, 6, 7};
 inline constexpr LaneTruths lane_numbers{0, 1, 2, 3};
 #endif
 
-inline Lanes min_of(Lanes a, Lanes b) { return a < b ? a : b; }
-inline Lanes max_of(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes min_of(Lanes a, Lanes b) {
+#if defined(__AVX__)
+  return _mm256_min_ps(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+inline Lanes max_of(Lanes a, Lanes b) {
+#if defined(__AVX__)
+  return _mm256_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
 inline double max_of(double a, double b) { return a > b ? a : b; }
 
 inline Lanes sqrt_of(Lanes lanes) {
@@ -110,11 +147,30 @@ inline double sqrt_of(double number) { return std::sqrt(number); }
 /// Whether a comparison holds in some lane.
 inline bool any_of(LaneTruths holds) { return bits_of(holds) != 0; }
 
-/// The sum of all lanes, in their order.
+/// A loop over lanes would leave them in memory, and with them what a loop over pairs adds up.
+inline double sum_of(DoubleLanes lanes) {
+#if defined(__AVX__)
+  const __m128d halves = _mm256_castpd256_pd128(lanes) + _mm256_extractf128_pd(lanes, 1);
+  return halves[0] + halves[1];
+#else
+  return lanes[0] + lanes[1];
+#endif
+}
+
+/// The first and the second half of the lanes, in double precision.
+inline std::pair<DoubleLanes, DoubleLanes> in_double_precision(Lanes lanes) {
+#if defined(__AVX__)
+  return {_mm256_cvtps_pd(_mm256_castps256_ps128(lanes)), _mm256_cvtps_pd(_mm256_extractf128_ps(lanes, 1))};
+#else
+  return {__builtin_convertvector(__builtin_shufflevector(lanes, lanes, 0, 1), DoubleLanes),
+          __builtin_convertvector(__builtin_shufflevector(lanes, lanes, 2, 3), DoubleLanes)};
+#endif
+}
+
+/// The sum of all lanes, added up in double precision.
 inline double sum_of(Lanes lanes) {
-  double sum = lanes[0];
-  for (int n = 1; n < lane_count; ++n) sum += lanes[n];
-  return sum;
+  const auto [low, high] = in_double_precision(lanes);
+  return sum_of(low + high);
 }
 
 inline double largest_of(Lanes lanes) {
@@ -137,12 +193,11 @@ Mat<Dim> sum_of(const MatLanes<Dim>& lanes) {
   return sum;
 }
 
-/// The same of symmetric matrices of which only the entries on and below the diagonal were summed up.
 template <int Dim>
-Mat<Dim> sum_of_lower(const MatLanes<Dim>& lanes) {
+Mat<Dim> sum_of(const SymmetricLanes<Dim>& lanes) {
   Mat<Dim> sum;
   for (int b = 0; b < Dim; ++b) {
-    for (int a = b; a < Dim; ++a) sum(a, b) = sum(b, a) = sum_of(lanes.column[b].at[a]);
+    for (int a = b; a < Dim; ++a) sum(a, b) = sum(b, a) = sum_of(lanes(a, b));
   }
   return sum;
 }
@@ -151,22 +206,13 @@ Mat<Dim> sum_of_lower(const MatLanes<Dim>& lanes) {
 class LaneSum {
  public:
   void operator+=(Lanes terms) {
-#if defined(__AVX__)
-    low_ += _mm256_cvtps_pd(_mm256_castps256_ps128(terms));
-    high_ += _mm256_cvtps_pd(_mm256_extractf128_ps(terms, 1));
-#else
-    low_ += __builtin_convertvector(__builtin_shufflevector(terms, terms, 0, 1), DoubleLanes);
-    high_ += __builtin_convertvector(__builtin_shufflevector(terms, terms, 2, 3), DoubleLanes);
-#endif
+    const auto [low, high] = in_double_precision(terms);
+    low_ += low;
+    high_ += high;
   }
   void operator-=(Lanes terms) { *this += -terms; }
 
-  double total() const {
-    const DoubleLanes sums = low_ + high_;
-    double total = sums[0];
-    for (int n = 1; n < double_lane_count; ++n) total += sums[n];
-    return total;
-  }
+  double total() const { return sum_of(low_ + high_); }
 
  private:
   DoubleLanes low_{};
@@ -204,11 +250,7 @@ class LaneIndices {
  public:
   explicit LaneIndices(IntegerLanes indices) { std::memcpy(index_.data(), &indices, sizeof(indices)); }
 
-  Lanes operator()(const float* array) const {
-    Lanes lanes;
-    for (int n = 0; n < lane_count; ++n) lanes[n] = array[index_[n]];
-    return lanes;
-  }
+  Lanes operator()(const float* array) const { return read(array, std::make_index_sequence<lane_count>()); }
   /// Rounded to single precision.
   Lanes operator()(const double* array) const { return read(array, std::make_index_sequence<double_lane_count>()); }
 
@@ -232,6 +274,10 @@ class LaneIndices {
   }
 
  private:
+  template <std::size_t... Lane>
+  Lanes read(const float* from, std::index_sequence<Lane...>) const {
+    return Lanes{from[index_[Lane]]...};
+  }
   template <std::size_t... Lane>
   Lanes read(const double* from, std::index_sequence<Lane...>) const {
     const DoubleLanes low{from[index_[Lane]]...};

@@ -42,7 +42,7 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
 /// two particles to the last bit.
 template <int Dim>
 struct PairLanes {
-  PlaceLanes<Dim> place;
+  const PlaceLanes<Dim>& place;
   Lanes F;                   ///< of the kernel
   VecLanes<Dim> difference;  ///< m/s; u_j - u_i
   Lanes viscosity;           ///< m^2/s; mean of both
@@ -53,8 +53,9 @@ struct PairLanes {
   bool is_in_layer;          ///< of i; a boundary layer
   Lanes layer_viscosity;     ///< m^2/s; of j
 
-  PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
-            const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends, double spacing, std::size_t i)
+  [[gnu::always_inline]] PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
+                                   const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends,
+                                   double spacing, std::size_t i)
       : place(place_of_pairs), F(F_of_pairs) {
     const auto other = j.numbers(ends.data());
     const ViscousEnd<Dim>& own = ends[i];
@@ -170,9 +171,9 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
           VecLanes<Dim> terms{};
-          PairLanes<Dim>(neighbour_places(pairs, range, j, i), range.load(pairs.F.data()), j, particles, ends, spacing,
-                         i)
-              .add_noise_force(viscosity, terms);
+          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
+          const PairLanes<Dim> pair(place, range.load(pairs.F.data()), j, particles, ends, spacing, i);
+          pair.add_noise_force(viscosity, terms);
           for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
         });
     acceleration[i] += sum.total() / particles.volume[i];

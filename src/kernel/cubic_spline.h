@@ -10,27 +10,28 @@
 
 namespace tailwater {
 
-template <int Dim>
-struct CubicSpline {
+template <int Dim, class Real = double>
+class CubicSpline {
+ public:
   explicit CubicSpline(double support_radius)
-      : radius(support_radius),
-        scale((Dim == 2 ? 10.0 / 7.0 : 1.0) / (std::numbers::pi * power<Dim>(0.5 * support_radius))) {}
+      : radius_(support_radius),
+        scale_((Dim == 2 ? 10.0 / 7.0 : 1.0) / (std::numbers::pi * power<Dim>(0.5 * support_radius))) {}
+
+  Real radius() const { return radius_; }
 
   template <class Number>
   Number value(Number r) const {
-    using One = LaneOf<Number>;
-    const Number s = One(2.0 / radius) * r;
-    const Number a = max_of(Number{}, One(2.0) - s);
-    const Number b = max_of(Number{}, One(1.0) - s);
-    return One(0.25 * scale) * (a * a * a - One(4.0) * b * b * b);
+    const Number s = (Real(2.0) / radius_) * r;
+    const Number a = max_of(Number{}, Real(2.0) - s);
+    const Number b = max_of(Number{}, Real(1.0) - s);
+    return (Real(0.25) * scale_) * (a * a * a - Real(4.0) * b * b * b);
   }
 
   template <class Number>
   Number derivative(Number r) const {
-    using One = LaneOf<Number>;
-    const Number s = One(2.0 / radius) * r;
-    const Number a = max_of(Number{}, One(2.0) - s);
-    return One(-1.5 * scale / radius) * (s < One(1.0) ? s * (One(4.0) - One(3.0) * s) : a * a);
+    const Number s = (Real(2.0) / radius_) * r;
+    const Number a = max_of(Number{}, Real(2.0) - s);
+    return (Real(-1.5) * scale_ / radius_) * (s < Real(1.0) ? s * (Real(4.0) - Real(3.0) * s) : a * a);
   }
 
   template <class Number>
@@ -38,8 +39,9 @@ struct CubicSpline {
     return -derivative(r) / r;
   }
 
-  double radius;
-  double scale;
+ private:
+  Real radius_;
+  Real scale_;
 };
 
 }  // namespace tailwater

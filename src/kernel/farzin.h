@@ -9,22 +9,23 @@
 
 namespace tailwater {
 
-template <int Dim>
-struct FarzinKernel {
+template <int Dim, class Real = double>
+class FarzinKernel {
+ public:
   explicit FarzinKernel(double support_radius)
-      : radius(support_radius), scale((Dim == 2 ? 6.0 : 7.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+      : radius_(support_radius), scale_((Dim == 2 ? 6.0 : 7.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+
+  Real radius() const { return radius_; }
 
   template <class Number>
   Number value(Number r) const {
-    using One = LaneOf<Number>;
-    const Number a = max_of(Number{}, One(1.0) - r / One(radius));
-    return One(scale) * a * a;
+    const Number a = max_of(Number{}, Real(1.0) - r / radius_);
+    return scale_ * a * a;
   }
 
   template <class Number>
   Number derivative(Number r) const {
-    using One = LaneOf<Number>;
-    return One(-2.0 * scale / radius) * max_of(Number{}, One(1.0) - r / One(radius));
+    return (Real(-2.0) * scale_ / radius_) * max_of(Number{}, Real(1.0) - r / radius_);
   }
 
   template <class Number>
@@ -32,8 +33,9 @@ struct FarzinKernel {
     return -derivative(r) / r;
   }
 
-  double radius;
-  double scale;
+ private:
+  Real radius_;
+  Real scale_;
 };
 
 }  // namespace tailwater

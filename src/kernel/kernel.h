@@ -10,48 +10,58 @@
 
 namespace tailwater {
 
-/// One of the kernels, chosen by name. Every alternative has `radius` [m], `value(r)` [1/m^Dim], `derivative(r)` =
-/// dW/dr [1/m^(Dim+1)] and `steepness(r)`, F = -(dW/dr)/r [1/m^(Dim+2)].
-template <int Dim>
-using Kernel = std::variant<WendlandC2<Dim>, CubicSpline<Dim>, FarzinKernel<Dim>>;
+/// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim], `derivative(r)` =
+/// dW/dr [1/m^(Dim+1)] and `steepness(r)`, F = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the kind of its constants: double
+/// where r is one, float where it is in lanes.
+template <int Dim, class Real = double>
+using Kernel = std::variant<WendlandC2<Dim, Real>, CubicSpline<Dim, Real>, FarzinKernel<Dim, Real>>;
 
-template <int Dim>
-Kernel<Dim> make_kernel(KernelName name, double radius) {
+template <int Dim, class Real = double>
+Kernel<Dim, Real> make_kernel(KernelName name, double radius) {
   switch (name) {
     case KernelName::cubic_spline:
-      return CubicSpline<Dim>(radius);
+      return CubicSpline<Dim, Real>(radius);
     case KernelName::farzin:
-      return FarzinKernel<Dim>(radius);
+      return FarzinKernel<Dim, Real>(radius);
     case KernelName::wendland_c2:
       break;
   }
-  return WendlandC2<Dim>(radius);
+  return WendlandC2<Dim, Real>(radius);
 }
 
 template <int Dim>
 double kernel_radius(const Kernel<Dim>& kernel) {
-  return std::visit([](const auto& chosen) { return chosen.radius; }, kernel);
+  return std::visit([](const auto& chosen) { return chosen.radius(); }, kernel);
+}
+
+/// The same kernel for distances in lanes.
+template <int Dim>
+Kernel<Dim, float> in_single_precision(const Kernel<Dim>& kernel) {
+  return std::visit(
+      []<template <int, class> class Chosen>(const Chosen<Dim, double>& chosen) -> Kernel<Dim, float> {
+        return Chosen<Dim, float>(chosen.radius());
+      },
+      kernel);
 }
 
 /// Calls body with the kernel that was chosen. The default one is asked for first, and in the caller's loop.
-template <int Dim, class Body>
-inline auto with_kernel(const Kernel<Dim>& kernel, Body&& body) {
-  if (const auto* wendland = std::get_if<WendlandC2<Dim>>(&kernel)) [[likely]] {
+template <int Dim, class Real, class Body>
+inline auto with_kernel(const Kernel<Dim, Real>& kernel, Body&& body) {
+  if (const auto* wendland = std::get_if<WendlandC2<Dim, Real>>(&kernel)) [[likely]] {
     return body(*wendland);
   }
   return std::visit(body, kernel);
 }
 
-/// At one distance, or at several in lanes.
-template <int Dim, class Number>
-inline Number kernel_value(const Kernel<Dim>& kernel, Number r) {
-  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.value(r); });
+template <int Dim, class Real, class Number>
+inline Number kernel_value(const Kernel<Dim, Real>& kernel, Number r) {
+  return with_kernel<Dim, Real>(kernel, [r](const auto& chosen) { return chosen.value(r); });
 }
 
 /// -(dW/dr)/r, never negative; r is not 0.
-template <int Dim, class Number>
-inline Number kernel_steepness(const Kernel<Dim>& kernel, Number r) {
-  return with_kernel<Dim>(kernel, [r](const auto& chosen) { return chosen.steepness(r); });
+template <int Dim, class Real, class Number>
+inline Number kernel_steepness(const Kernel<Dim, Real>& kernel, Number r) {
+  return with_kernel<Dim, Real>(kernel, [r](const auto& chosen) { return chosen.steepness(r); });
 }
 
 template <int Dim>

@@ -2,7 +2,6 @@
 // pairing. Wendland (1995); Dehnen & Aly (2012), table 1.
 #pragma once
 
-#include <algorithm>
 #include <numbers>
 
 #include "base/lanes.h"
@@ -10,37 +9,48 @@
 
 namespace tailwater {
 
-template <int Dim>
-struct WendlandC2 {
+template <int Dim, class Real = double>
+class WendlandC2 {  // products in pairs, because loops wait for the longest chain of them
+ public:
   explicit WendlandC2(double support_radius)
-      : radius(support_radius),
-        inverse_radius(1.0 / support_radius),
-        scale((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))) {}
+      : radius_(support_radius),
+        inverse_radius_(1.0 / support_radius),
+        scale_((Dim == 2 ? 7.0 : 10.5) / (std::numbers::pi * power<Dim>(support_radius))),
+        slope_of_last_factor_(4.0 * scale_ * inverse_radius_),
+        steepness_scale_(20.0 * scale_ * inverse_radius_ * inverse_radius_) {}
+
+  Real radius() const { return radius_; }
 
   template <class Number>
   Number value(Number r) const {
-    using One = LaneOf<Number>;
-    const Number q = r * One(inverse_radius);
-    const Number a = max_of(Number{}, One(radius) - r) * One(inverse_radius);  // 1 - q, and 0 exactly at the rim
-    return One(scale) * a * a * a * a * (One(1.0) + One(4.0) * q);
+    const Number a = distance_to_rim(r);
+    const Number squared = a * a;
+    return squared * squared * (scale_ + slope_of_last_factor_ * r);
   }
 
   template <class Number>
   Number steepness(Number r) const {
-    using One = LaneOf<Number>;
-    const Number a = max_of(Number{}, One(radius) - r) * One(inverse_radius);
-    return One(20.0 * scale * inverse_radius * inverse_radius) * a * a * a;
+    const Number a = distance_to_rim(r);
+    return (a * a) * (steepness_scale_ * a);
   }
 
-  double derivative(double r) const {
-    const double q = r * inverse_radius;
-    const double a = std::max(0.0, radius - r) * inverse_radius;
-    return -20.0 * scale * inverse_radius * q * a * a * a;
+  template <class Number>
+  Number derivative(Number r) const {
+    return -steepness(r) * r;
   }
 
-  double radius;
-  double inverse_radius;
-  double scale;
+ private:
+  /// 1 - q, and 0 exactly at the rim
+  template <class Number>
+  Number distance_to_rim(Number r) const {
+    return max_of(Number{}, radius_ - r) * inverse_radius_;
+  }
+
+  Real radius_;
+  Real inverse_radius_;
+  Real scale_;
+  Real slope_of_last_factor_;
+  Real steepness_scale_;
 };
 
 }  // namespace tailwater

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "base/batch.h"
 #include "base/for_each.h"
@@ -14,6 +15,9 @@
 
 namespace tailwater {
 namespace {
+
+/// By how much the square of a distance may be rounded below that of the least distance.
+constexpr double parted_tolerance = 1e-3;
 
 /// Bit n is set if index n of a batch is at least `begin` and less than `end`.
 inline unsigned bits_between(const std::int32_t* indices, std::int32_t begin, std::int32_t end) {
@@ -123,6 +127,56 @@ class NeighbourRow {
   std::size_t count_ = 0;
 };
 
+/// Finds F and sees_wall. Returns in how many rows neighbours are nearer than the least distance.
+template <int Dim>
+std::size_t find_slopes(Pairs<Dim>& pairs) {
+  return std::visit(
+      [&](const auto kernel) {
+        const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
+        const Lanes too_near = in_all_lanes(1.0 - parted_tolerance) * least_squared;
+        return count_each(pairs.owned(), [&](std::size_t i) {
+          Lanes least_square = in_all_lanes(std::numeric_limits<float>::max());
+          Lanes least_volume{};
+          for_each_lanes(
+              pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
+                const PlaceLanes<Dim> place = neighbour_places(pairs, range, range.neighbours(pairs.j.data()), i);
+                const Lanes square = place.d.dot(place.d);
+                range.store(kernel.steepness(sqrt_of(max_of(square, least_squared))), pairs.F.data() + range.begin);
+                least_square = min_of(least_square, square);
+                least_volume = min_of(least_volume, place.signed_volume);
+              });
+          pairs.sees_wall[i] = any_of(least_volume < Lanes{}) ? 1 : 0;
+          return any_of(least_square < too_near);
+        });
+      },
+      pairs.kernel_in_lanes);
+}
+
+/// Of each two neighbours that are too near puts the one with the larger id where Pairs::d sees it, so that loops in
+/// lanes need not ask. A particle that sees both as ghosts sees them at one place.
+template <int Dim>
+void part_coinciding(Pairs<Dim>& pairs) {
+  const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
+  const double too_near = (1.0 - parted_tolerance) * pairs.least_distance * pairs.least_distance;
+  const auto squared_distance = [&](const Place<Dim>& a, const Place<Dim>& b) {
+    double squared = 0.0;
+    for (int d = 0; d < Dim; ++d) {
+      const double apart = pairs.unit[d] * static_cast<double>(static_cast<std::int32_t>(a.at[d] - b.at[d]));
+      squared += apart * apart;
+    }
+    return squared;
+  };
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: a place that was changed is compared again
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const std::size_t j = pairs.j[k];
+      if (squared_distance(pairs.place[i], pairs.place[j]) >= too_near) continue;
+      const auto [stays, goes] = pairs.id[i] < pairs.id[j] ? std::pair(i, j) : std::pair(j, i);
+      pairs.place[goes].at = pairs.place[stays].at;
+      pairs.place[goes].at[0] -= least;
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -140,6 +194,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.id = particles.id;
   pairs.least_distance = least_distance;
   pairs.kernel = kernel;
+  pairs.kernel_in_lanes = in_single_precision(kernel);
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
   // Finds the neighbours of particle i, and itself if it sees its kind. Returns how many.
@@ -160,7 +215,10 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
     pairs.row_begin[i + 1] = end - pairs.j.data();
   }
   pairs.j.resize(pairs.row_begin.back());
-  find_slopes(pairs);
+  make_room(pairs.F, pairs.j.size());
+  pairs.F.resize(pairs.j.size());
+  pairs.sees_wall.resize(pairs.owned());
+  while (find_slopes(pairs) > 0) part_coinciding(pairs);
 }
 
 template <int Dim>
@@ -184,39 +242,9 @@ void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& dom
   });
 }
 
-template <int Dim>
-void find_slopes(Pairs<Dim>& pairs) {
-  make_room(pairs.F, pairs.j.size());
-  pairs.F.resize(pairs.j.size());
-  pairs.sees_wall.resize(pairs.owned());
-  pairs.some_coincide = true;
-  const std::size_t rows_that_coincide = std::visit(
-      [&](const auto chosen) {
-        const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-        return count_each(pairs.owned(), [&](std::size_t i) {
-          Lanes least_square = in_all_lanes(std::numeric_limits<float>::max());
-          Lanes least_volume{};
-          for_each_lanes(
-              pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-                const PlaceLanes<Dim> place = neighbour_places(pairs, range, range.neighbours(pairs.j.data()), i);
-                const Lanes square = place.d.dot(place.d);
-                range.store(chosen.steepness(sqrt_of(max_of(square, least_squared))), pairs.F.data() + range.begin);
-                least_square = min_of(least_square, square);
-                least_volume = min_of(least_volume, place.signed_volume);
-              });
-          pairs.sees_wall[i] = any_of(least_volume < Lanes{}) ? 1 : 0;
-          return any_of(least_square <= 2.0F * least_squared);
-        });
-      },
-      pairs.kernel);
-  pairs.some_coincide = rows_that_coincide > 0;
-}
-
 template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);
 template void find_pairs<3>(const Kernel<3>&, const CellGrid<3>&, const Particles<3>&, WallRows, double, Pairs<3>&);
 template void find_places<2>(const Particles<2>&, const PeriodicDomain<2>&, double, Pairs<2>&);
 template void find_places<3>(const Particles<3>&, const PeriodicDomain<3>&, double, Pairs<3>&);
-template void find_slopes<2>(Pairs<2>&);
-template void find_slopes<3>(Pairs<3>&);
 
 }  // namespace tailwater

@@ -22,8 +22,4 @@ template <int Dim>
 void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
                 WallRows wall_rows, double least_distance, Pairs<Dim>& pairs);
 
-/// Finds pairs.F, sees_wall and some_coincide of the pairs that there are.
-template <int Dim>
-void find_slopes(Pairs<Dim>& pairs);
-
 }  // namespace tailwater

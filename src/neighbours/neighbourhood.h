@@ -29,10 +29,6 @@ class Neighbourhood {
     tailwater::keep_pairs(pairs_, keep);
   }
 
-  /// Frees the slopes of all pairs, pairs().F, which nothing may read until they are found anew: the same numbers.
-  void forget_slopes() { UnwrittenArray<float>().swap(pairs_.F); }
-  void find_slopes() { tailwater::find_slopes(pairs_); }
-
   /// Moves particles that left a periodic domain in again at its other end. Call between steps only.
   void wrap(Particles<Dim>& particles) const { wrap_positions<Dim>(domain_, particles); }
 

@@ -18,19 +18,6 @@ struct PlaceLanes {
   Lanes of_fluid(Lanes lanes) const { return signed_volume > Lanes{} ? lanes : Lanes{}; }
 };
 
-/// `d` with those of two particles at one place as pairs.d has them.
-template <int Dim, class Range>
-[[gnu::noinline, gnu::cold]] VecLanes<Dim> with_directions(const Pairs<Dim>& pairs, const Range& range, std::size_t i,
-                                                           VecLanes<Dim> d) {
-  const LaneTruths is_least = d.dot(d) <= in_all_lanes(pairs.least_distance * pairs.least_distance);
-  for (int n = 0; n < lane_count; ++n) {
-    if (is_least[n] == 0) continue;
-    const Vec<Dim> apart = pairs.d(i, range.entry(n));
-    for (int a = 0; a < Dim; ++a) d.at[a][n] = static_cast<float>(apart[a]);
-  }
-  return d;
-}
-
 /// Of neighbours of particle i of which `numbers` are those of their Place, maybe with others behind it.
 template <int Dim, class Range, std::size_t size>
 [[gnu::always_inline]] inline PlaceLanes<Dim> place_lanes(const Pairs<Dim>& pairs, const Range& range,
@@ -43,11 +30,6 @@ template <int Dim, class Range, std::size_t size>
     lanes.d.at[a] = pairs.unit[a] * __builtin_convertvector(apart, Lanes);
   }
   lanes.signed_volume = range.only(numbers[Dim]);
-  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-  if (pairs.some_coincide && any_of(lanes.d.dot(lanes.d) <= least_squared)) [[unlikely]] {
-    const VecLanes<Dim> d = with_directions<Dim>(pairs, range, i, lanes.d);
-    for (int a = 0; a < Dim; ++a) lanes.d.at[a] = d.at[a];
-  }
   return lanes;
 }
 
@@ -61,7 +43,7 @@ template <int Dim, class Range>
 /// pairs.value of pairs with these differences.
 template <int Dim>
 [[gnu::always_inline]] inline Lanes kernel_at(const Pairs<Dim>& pairs, const VecLanes<Dim>& d) {
-  return kernel_value(pairs.kernel, sqrt_of(d.dot(d)));
+  return kernel_value(pairs.kernel_in_lanes, sqrt_of(d.dot(d)));
 }
 
 /// pairs.gradient of pairs with these differences.

@@ -32,13 +32,13 @@ struct Pairs {
   UnwrittenArray<std::int32_t> j;       ///< neighbour: in each row those below i, those above it, then ghosts
   UnwrittenArray<float> F;              ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
   std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
-  bool some_coincide = true;            ///< false: no two neighbours are at one place
-  std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found
+  std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found; no two neighbours have the same
   std::array<float, Dim> unit{};        ///< m; of places
   std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;         ///< of all particles
   double least_distance = 0.0;          ///< m; two particles nearer than this count as this far apart
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
+  Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 
   /// r_ij = r_i - r_j [m] of entry k of row i, from j to i, never 0. Two particles at one place get an arbitrary
   /// direction, opposite for the two (by their ids), so that they can separate.

@@ -22,23 +22,24 @@ struct KernelSums {
 
 template <int Dim>
 KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, double W_0) {
-  LaneSum concentration;
+  Lanes concentration{};
   VecLanes<Dim> gradient{};
-  MatLanes<Dim> moment{};
+  SymmetricLanes<Dim> moment{};
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
         concentration += place.volume() * kernel_at(pairs, place.d);
         const Lanes volume_F = place.volume() * range.load(pairs.F.data());
-        for (int b = 0; b < Dim; ++b) {
-          const Lanes weight = volume_F * place.d.at[b];
-          gradient.at[b] -= weight;
-          for (int a = b; a < Dim; ++a) moment.column[b].at[a] += weight * place.d.at[a];
+        VecLanes<Dim> weights;
+        for (int a = 0; a < Dim; ++a) {
+          weights.at[a] = volume_F * place.d.at[a];
+          gradient.at[a] -= weights.at[a];
         }
+        moment.add(weights, place.d);
       });
   const double volume_i = std::abs(pairs.place[i].signed_volume);
-  return {volume_i * W_0 + concentration.total(), sum_of(gradient), sum_of_lower(moment)};
+  return {volume_i * W_0 + sum_of(concentration), sum_of(gradient), sum_of(moment)};
 }
 
 }  // namespace tailwater

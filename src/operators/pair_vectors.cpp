@@ -95,9 +95,9 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     equation.open[i].setZero();
     if (to_surface ? input.kind[i] != ParticleKind::fluid : share == 0.0) return;
     const bool is_near_surface = to_surface && share < 1.0;
-    VecSum<Dim> sums;
-    VecSum<Dim> kernel_sums;
-    LaneSum weights;
+    VecLanes<Dim> sums{};
+    VecLanes<Dim> kernel_sums{};
+    Lanes weights{};
     for_each_lanes(
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
@@ -108,12 +108,12 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
           for (int a = 0; is_near_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.place.d.at[a];
           weights += weight;
         });
-    const Vec<Dim> open = sums.total();
-    equation.weights[i] = weights.total();
+    const Vec<Dim> open = sum_of(sums);
+    equation.weights[i] = sum_of(weights);
     equation.open[i] = open;
     equation.share[i] = to_surface ? 1.0 : share;
     equation.rhs[i] = 0.5 * open;
-    if (is_near_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - kernel_sums.total());
+    if (is_near_surface) equation.rhs[i] = share * equation.rhs[i] + (1.0 - share) * (open - sum_of(kernel_sums));
   });
   return equation;
 }

@@ -90,14 +90,8 @@ struct PairVectorField {
     const auto other = j.numbers(ends.data());
     const PairVectorEnd<Dim>& own = ends[i];
     PairVectorLanes<Dim> pair{place_lanes<Dim>(pairs, range, other, i), range.load(pairs.F.data()), {}};
-    MatLanes<Dim> corrections;
-    int n = 0;
-    for (int c = 0; c < Dim; ++c) {
-      for (int d = c; d < Dim; ++d) {
-        corrections.column[c].at[d] = corrections.column[d].at[c] = own.correction[n] + other[correction + n];
-        ++n;
-      }
-    }
+    SymmetricLanes<Dim> corrections;
+    for (int n = 0; n < symmetric_size<Dim>; ++n) corrections.packed[n] = own.correction[n] + other[correction + n];
     const VecLanes<Dim> corrected = corrections.times(pair.place.d);
     for (int a = 0; a < Dim; ++a) {
       pair.a.at[a] = -pair.F * (0.5F * corrected.at[a] - (own.l[a] - other[l + a]));

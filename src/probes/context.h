@@ -86,7 +86,7 @@ void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&&
       [&](const auto& kernel) {
         context.grid.for_each_near(x, [&](std::int32_t j) {
           const double squared = (x - context.particles.position[j]).squaredNorm();
-          if (squared < kernel.radius * kernel.radius && !is_hidden_from(context, x, j)) {
+          if (squared < kernel.radius() * kernel.radius() && !is_hidden_from(context, x, j)) {
             body(j, context.particles.volume[j] * kernel.value(std::sqrt(squared)));
           }
         });

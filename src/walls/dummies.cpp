@@ -13,7 +13,7 @@ namespace {
 template <int Dim, class Also>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, Also&& also) {
   const Pairs<Dim>& pairs = scene.pairs;
-  VecSum<Dim> sum;
+  VecLanes<Dim> sum{};
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
@@ -22,7 +22,7 @@ double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& forc
         for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
         also(range, j, weight);
       });
-  return force.hydrostatic_difference(scene.particles, i, sum.total() / scene.here.wall_fluid_weight[i]);
+  return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);
 }
 
 template <int Dim>

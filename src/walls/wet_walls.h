@@ -17,7 +17,7 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
 template <int Dim>
 Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double fluid_weight,
                                 std::span<const Four> velocity) {
-  VecSum<Dim> sum;
+  VecLanes<Dim> sum{};
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
@@ -25,7 +25,7 @@ Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double f
         const VecLanes<Dim> u = j.template vectors<Dim>(velocity.data());
         for (int a = 0; a < Dim; ++a) sum.at[a] += weight * u.at[a];
       });
-  return sum.total() / fluid_weight;
+  return sum_of(sum) / fluid_weight;
 }
 
 }  // namespace tailwater

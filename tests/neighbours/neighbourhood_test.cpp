@@ -239,7 +239,7 @@ TYPED_TEST(NeighbourhoodTest, CoincidentParticlesGetOppositeDirections) {
   EXPECT_TRUE(std::isfinite(pairs.F[0]));
 }
 
-TYPED_TEST(NeighbourhoodTest, RowsTellWhetherTheySeeAWallAndWhetherNeighboursCoincide) {
+TYPED_TEST(NeighbourhoodTest, RowsTellWhetherTheySeeAWall) {
   constexpr int Dim = TypeParam::value;
   Particles<Dim> particles = random_fluid<Dim>(300, 13);
   for (std::size_t j = 0; j < particles.size(); ++j) {
@@ -258,26 +258,30 @@ TYPED_TEST(NeighbourhoodTest, RowsTellWhetherTheySeeAWallAndWhetherNeighboursCoi
   }
   EXPECT_GT(rows_that_see, 30);
   EXPECT_LT(rows_that_see, 270);
-  EXPECT_FALSE(pairs.some_coincide);
-  for (const double apart : {0.0, 0.5e-6 * spacing}) {  // both less than what counts as apart
-    particles.position[7] = particles.position[200] + apart * Vec<Dim>::UnitX();
-    neighbourhood.update(particles);
-    EXPECT_TRUE(pairs.some_coincide);
-  }
 }
 
-TYPED_TEST(NeighbourhoodTest, SlopesAreFoundAgainAsTheyWere) {
+TYPED_TEST(NeighbourhoodTest, PlacesOfCoincidingParticlesArePartedByTheirIds) {
   constexpr int Dim = TypeParam::value;
-  Particles<Dim> particles = random_fluid<Dim>(200, 13);
-  particles.position[1] = particles.position[0];
-  auto neighbourhood = make_neighbourhood<Dim>();
-  neighbourhood.update(particles);
-  const auto before = neighbourhood.pairs().F;
-  for (Vec<Dim>& position : particles.position) position *= 1.1;  // pairs stay where they were found
-  neighbourhood.forget_slopes();
-  EXPECT_TRUE(neighbourhood.pairs().F.empty());
-  neighbourhood.find_slopes();
-  EXPECT_EQ(neighbourhood.pairs().F, before);
+  Particles<Dim> particles = random_fluid<Dim>(300, 13);
+  Neighbourhood<Dim> neighbourhood = make_neighbourhood<Dim>();
+  const auto place = [&](std::size_t i) { return neighbourhood.pairs().place[i].at; };
+  const std::array<std::size_t, 3> those_that_meet = {200, 7, 90};
+  for (const double apart : {0.0, 0.4e-6 * spacing}) {  // both less than what counts as apart
+    for (const std::size_t n : {1, 2}) {
+      particles.position[those_that_meet[n]] =
+          particles.position[200] + static_cast<double>(n) * apart * Vec<Dim>::UnitX();
+    }
+    neighbourhood.update(particles);
+    const Pairs<Dim>& pairs = neighbourhood.pairs();
+    const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
+    ASSERT_GT(least, 10U);
+    std::array<std::size_t, 3> by_id = those_that_meet;
+    std::ranges::sort(by_id, {}, [&](std::size_t i) { return particles.id[i]; });
+    for (std::size_t n = 1; n < by_id.size(); ++n) {
+      EXPECT_EQ(place(by_id[n - 1])[0] - place(by_id[n])[0], least);
+      for (int a = 1; a < Dim; ++a) EXPECT_EQ(place(by_id[n - 1])[a], place(by_id[n])[a]);
+    }
+  }
 }
 
 TYPED_TEST(NeighbourhoodTest, PairsKeepTheirGeometryWhenParticlesJump) {
