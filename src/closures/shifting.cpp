@@ -4,40 +4,9 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
-
-template <int Dim>
-struct LindShift {
-  Vec<Dim> direction;
-  double mean_interior;  ///< over fluid neighbours
-};
-
-template <int Dim>
-LindShift<Dim> lind_shift(const ShiftingLaw& law, const Pairs<Dim>& pairs, std::span<const double> interior,
-                          std::size_t i) {
-  const auto inverse_W = static_cast<float>(1.0 / law.W_spacing);
-  VecLanes<Dim> sum{};
-  Lanes interiors{};
-  Lanes weights{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes W = kernel_at(pairs, place.d);
-        const Lanes ratio = W * inverse_W;
-        const Lanes weight =
-            place.volume() * (1.0F + 0.2F * ratio * ratio * ratio * ratio) * range.load(pairs.F.data());
-        for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
-        const Lanes W_of_fluid = place.of_fluid(W);
-        interiors += W_of_fluid * j(interior.data());
-        weights += W_of_fluid;
-      });
-  const double weight = sum_of(weights);
-  return {law.spacing * sum_of(sum), weight > 0.0 ? sum_of(interiors) / weight : 0.0};
-}
 
 template <int Dim>
 Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
@@ -63,16 +32,14 @@ double kept_share(double interior, double mean_interior) {
 
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, std::span<const double> interior,
-                          std::span<Vec<Dim>> shift) {
+                          const Particles<Dim>& particles, const Surroundings<Dim>& here, std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || interior[i] == 0.0) return false;
-    double kept = interior[i];
+    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || here.interior[i] == 0.0) return false;
+    double kept = here.interior[i];
     if (law.kind == ShiftingKind::lind) {
-      const LindShift<Dim> lind = lind_shift(law, pairs, interior, i);
-      shift[i] = std::min(law.strength * largest_speed * dt, law.spacing) * lind.direction;
-      kept = kept_share(interior[i], lind.mean_interior);
+      shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * here.crowding[i];
+      kept = kept_share(here.interior[i], here.mean_interior[i]);
     } else {
       shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
     }
@@ -85,7 +52,7 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
 
 #define TAILWATER_INSTANTIATE(Dim)                                                               \
   template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
-                                          const Particles<Dim>&, std::span<const double>, std::span<Vec<Dim>>);
+                                          const Particles<Dim>&, const Surroundings<Dim>&, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

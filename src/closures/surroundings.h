@@ -22,6 +22,8 @@ struct Surroundings {
   std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;          ///< ghosts too
   std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
+  std::vector<double> mean_interior;             ///< of owned fluid inside: over its fluid neighbours, weights W
+  std::vector<Vec<Dim>> crowding;                ///< 1/m; of owned fluid (concentration.h)
   PairVectorField<Dim> pair_vectors;             ///< what they are made of (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
 

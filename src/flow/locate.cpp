@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "closures/fluid_pairs.h"
 #include "closures/free_surface.h"
 #include "flow/verbs.h"
 #include "operators/concentration.h"
@@ -9,21 +10,24 @@
 namespace tailwater {
 namespace {
 
-/// C/C_0 of owned particles, and for fluid the first moment and, where it is asked for, the gradient of C.
+/// C/C_0 of owned particles, and for fluid the first moment, the crowding and, where it is asked for, the gradient of
+/// C.
 template <int Dim>
 void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool with_gradient = flow.setup.uses_concentration_gradient();
+  here.crowding.resize(particles.owned);
   for_each(particles.owned, [&](std::size_t i) {
     here.concentration[i] = 1.0;
     if (with_gradient) here.concentration_gradient[i].setZero();
     here.first_moment[i].setIdentity();
     if (!flow.has_equation(i)) return;
-    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.W_0);
+    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
     here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;
     if (with_gradient) here.concentration_gradient[i] = sums.gradient;
     here.first_moment[i] = sums.first_moment;
+    here.crowding[i] = sums.crowding;
   });
 }
 
@@ -35,16 +39,24 @@ void find_surface(Flow<Dim>& flow, bool keep_marks) {
   const Pairs<Dim>& pairs = flow.pairs();
   Surroundings<Dim>& here = flow.here;
   const bool surface_is_air = setup.scheme.surface == SurfaceTreatment::air;
-  if (surface_is_air) find_interior<Dim>(pairs, particles, here.concentration, setup.W_0, here.interior);
+  if (surface_is_air) find_interior<Dim>(pairs, particles, here.concentration, setup.kernel_values.W_0, here.interior);
   if (!keep_marks) {
-    find_free_surface<Dim>(setup.scheme.surface,
-                           {pairs, particles, here.concentration, here.concentration_gradient, here.tensors,
-                            setup.spacing, setup.lattice.concentration, setup.W_0, setup.scheme.surface_density},
-                           here.is_surface);
+    find_free_surface<Dim>(
+        setup.scheme.surface,
+        {pairs, particles, here.concentration, here.concentration_gradient, here.tensors, setup.spacing,
+         setup.lattice.concentration, setup.kernel_values.W_0, setup.scheme.surface_density},
+        here.is_surface);
     flow.halo().exchange(here.is_surface);
     if (!surface_is_air) find_interior_by_marks<Dim>(pairs, particles, setup.spacing, here.is_surface, here.interior);
   }
   flow.halo().exchange(here.interior);
+}
+
+template <int Dim>
+void find_mean_interior(const Flow<Dim>& flow, Surroundings<Dim>& here) {
+  for_each(here.mean_interior.size(), [&](std::size_t i) {
+    if (here.interior[i] > 0.0) here.mean_interior[i] = mean_over_fluid<Dim>(flow.pairs(), i, here.interior, 0.0);
+  });
 }
 
 template <int Dim>
@@ -53,6 +65,7 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   if (setup.scheme.pair_vectors == PairVectors::kernel) {
     find_kernel_gradients(flow.pairs(), here.pair_vectors);
     here.open_faces = here.concentration_gradient;
+    find_mean_interior(flow, here);
     return;
   }
   const Particles<Dim>& particles = flow.state.particles;
@@ -62,7 +75,7 @@ void find_pair_vectors(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   find_corrected_pair_vectors<Dim>(
       flow.pairs(), flow.halo(),
       {kernel_radius(setup.kernel), particles.volume, particles.kind, here.interior, here.first_moment}, reach,
-      closing_sweeps(reach), here.pair_vectors, here.open_faces);
+      closing_sweeps(reach), here.pair_vectors, here.open_faces, here.mean_interior);
 }
 
 }  // namespace
@@ -82,13 +95,18 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   Surroundings<Dim>& here = flow.here;
   here.resize(particles.size(), setup.uses_tensors(), setup.uses_concentration_gradient());
 
-  find_wet_walls<Dim>(pairs, particles, setup.W_0, here.wall_fluid_weight, here.is_wet);
+  find_wet_walls<Dim>(pairs, particles, setup.kernel_values.W_0, here.wall_fluid_weight, here.is_wet);
   for_each(particles.owned, [&](std::size_t i) { here.takes_part[i] = particles.is_fluid(i) || here.is_wet[i]; });
   sum_kernel(flow, here);
   flow.halo().exchange(here.is_wet, here.takes_part, here.concentration, here.first_moment);
   if (setup.uses_tensors()) compute_renormalisation<Dim>(pairs, particles.volume, here.takes_part, here.tensors);
   find_surface(flow, keep_marks);
-  if (setup.uses_pair_vectors()) find_pair_vectors(flow, here);
+  here.mean_interior.assign(particles.owned, 0.0);
+  if (setup.uses_pair_vectors()) {
+    find_pair_vectors(flow, here);
+  } else {
+    find_mean_interior(flow, here);
+  }
   flow.is_located = true;
 }
 

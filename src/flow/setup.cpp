@@ -129,7 +129,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       damping(make_damping<Dim>(spec)),
       kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),
       lattice(lattice_sums(kernel, spacing)),
-      W_0(kernel_value(kernel, 0.0)),
+      kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)},
       eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
       air_law(kernel, spacing) {
   body_of_wall.assign(drawing.walls.boundary.walls.size(), -1);
@@ -152,8 +152,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
   shifting_law = {.kind = scheme.shifting,
                   .strength = scheme.shifting_strength,
                   .cap = scheme.shifting_cap * spacing,
-                  .spacing = spacing,
-                  .W_spacing = kernel_value(kernel, spacing)};
+                  .spacing = spacing};
   const double reference_speed = std::sqrt(2.0 * g * length);
   time_step_rule = {.courant = scheme.courant, .spacing = spacing, .reference_speed = reference_speed};
   if (scheme.name == SchemeName::farmani2020) time_step_rule.viscous_share = 0.1;  // (B20)

@@ -14,6 +14,7 @@
 #include "geometry/sampling.h"
 #include "geometry/wall_motion.h"
 #include "neighbours/halo.h"
+#include "operators/concentration.h"
 #include "operators/lattice.h"
 #include "parallel/communicator.h"
 #include "walls/shared_rows.h"
@@ -64,7 +65,7 @@ struct Setup {
   std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;
   LatticeSums lattice;
-  double W_0;          ///< 1/m^Dim; W(0)
+  KernelValues kernel_values;
   double eta_squared;  ///< m^2; eta^2 of (B8)
   AirLaw air_law;
   ViscosityLaw viscosity_law;

@@ -38,8 +38,8 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   if (setup.scheme.shifting == ShiftingKind::none) return interventions;
   Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> shift(particles.owned);
-  interventions.capped_shifts = compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles,
-                                                   flow.here.interior, shift);
+  interventions.capped_shifts =
+      compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles, flow.here, shift);
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.is_in_end_stretch(i)) shift[i].setZero();
   });

@@ -1,10 +1,12 @@
 // Sums of the kernel and of its gradient over a particle's neighbours:
 //
 //   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j dW e_ij,    M_i = sum_j w_j r (-dW) e_ij e_ij
+//   crowding_i = sum_j w_j (1 + 0.2 (W_ij/W(dx))^4) dW e_ij
 //
 // C is the share of space around the particle that is filled: 1 (up to quadrature, see lattice.h) inside and smaller at
 // a surface; -grad C points out of the fluid. M, the first moment, is what the kernel's gradient makes of a linear
-// field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface.
+// field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface. The crowding is grad C with a weight
+// of Lind et al. (2012) against pairs: it points to where particles are too close together.
 #pragma once
 
 #include <cmath>
@@ -18,28 +20,41 @@ struct KernelSums {
   double concentration;   ///< C_i
   Vec<Dim> gradient;      ///< 1/m; grad C_i
   Mat<Dim> first_moment;  ///< M_i
+  Vec<Dim> crowding;      ///< 1/m
+};
+
+/// Values of the kernel [1/m^Dim].
+struct KernelValues {
+  double W_0;        ///< W(0)
+  double W_spacing;  ///< W(dx)
 };
 
 template <int Dim>
-KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, double W_0) {
+KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const KernelValues& values) {
+  const auto inverse_W = static_cast<float>(1.0 / values.W_spacing);
   Lanes concentration{};
   VecLanes<Dim> gradient{};
+  VecLanes<Dim> crowding{};
   SymmetricLanes<Dim> moment{};
   for_each_lanes(
       pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
         const LaneIndices j = range.neighbours(pairs.j.data());
         const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        concentration += place.volume() * kernel_at(pairs, place.d);
+        const Lanes W = kernel_at(pairs, place.d);
+        concentration += place.volume() * W;
         const Lanes volume_F = place.volume() * range.load(pairs.F.data());
+        const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
+        const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
         VecLanes<Dim> weights;
         for (int a = 0; a < Dim; ++a) {
           weights.at[a] = volume_F * place.d.at[a];
           gradient.at[a] -= weights.at[a];
+          crowding.at[a] -= weights.at[a] * pairing;
         }
         moment.add(weights, place.d);
       });
   const double volume_i = std::abs(pairs.place[i].signed_volume);
-  return {volume_i * W_0 + sum_of(concentration), sum_of(gradient), sum_of(moment)};
+  return {volume_i * values.W_0 + sum_of(concentration), sum_of(gradient), sum_of(moment), sum_of(crowding)};
 }
 
 }  // namespace tailwater

@@ -33,10 +33,10 @@ struct alignas(Dim == 2 ? 16 : 32) InteriorMoment {
   std::array<float, symmetric_size<Dim>> first_moment;  ///< M, packed
 };
 
-/// B_i of owned particles.
+/// B_i of owned particles, and the mean of `interior`.
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, CorrectionReach reach,
-                             std::span<Packed<Dim>> correction) {
+                             std::span<Packed<Dim>> correction, std::span<double> mean_interior) {
   std::vector<InteriorMoment<Dim>> moments(input.interior.size());
   for_each(moments.size(), [&](std::size_t i) {
     moments[i].interior = static_cast<float>(input.interior[i]);
@@ -55,15 +55,23 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     // Weights 1 - (r/R)^2: a mean over as many neighbours as there are, and continuous.
     std::array<Lanes, symmetric_size<Dim>> sums{};
     Lanes weight_sums{};
+    Lanes interiors{};
+    Lanes kernel_sums{};
     for_each_lanes(
         pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
           const LaneIndices j = range.neighbours(pairs.j.data());
-          const VecLanes<Dim> d = neighbour_places(pairs, range, j, i).d;
+          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
+          const Lanes squared = place.d.dot(place.d);
           const auto other = j.numbers(moments.data());
-          const Lanes weight = range.only(other[0]) * (1.0F - d.dot(d) * inverse_square);
+          const Lanes weight = range.only(other[0]) * (1.0F - squared * inverse_square);
           for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[1 + n];
           weight_sums += weight;
+          const Lanes W = place.of_fluid(kernel_value(pairs.kernel_in_lanes, sqrt_of(squared)));
+          interiors += W * other[0];
+          kernel_sums += W;
         });
+    const double kernel_sum = sum_of(kernel_sums);
+    mean_interior[i] = kernel_sum > 0.0 ? sum_of(interiors) / kernel_sum : 0.0;
     Packed<Dim> sum = share * packed<Dim>(input.first_moment[i]);
     for (int n = 0; n < symmetric_size<Dim>; ++n) sum[n] += sum_of(sums[n]);
     const double weights = share + sum_of(weight_sums);
@@ -154,10 +162,10 @@ void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_v
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
                                  CorrectionReach reach, int sweeps, PairVectorField<Dim>& pair_vectors,
-                                 std::vector<Vec<Dim>>& open_faces) {
+                                 std::vector<Vec<Dim>>& open_faces, std::span<double> mean_interior) {
   const std::size_t size = input.volume.size();
   std::vector<Packed<Dim>> correction(size);
-  find_moment_corrections<Dim>(pairs, input, reach, correction);
+  find_moment_corrections<Dim>(pairs, input, reach, correction, mean_interior);
   halo.exchange(correction);
   begin(pairs, pair_vectors, [&](std::size_t i) { return correction[i]; });
   const ClosingEquation<Dim> equation = pose_closing_equation<Dim>(pairs, input, reach, pair_vectors);
@@ -190,10 +198,11 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                 \
-  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, PairVectorField<Dim>&);                              \
-  template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, const CorrectionInput<Dim>&, \
-                                                 CorrectionReach, int, PairVectorField<Dim>&, std::vector<Vec<Dim>>&);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
+  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, PairVectorField<Dim>&);                                 \
+  template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, const CorrectionInput<Dim>&,    \
+                                                 CorrectionReach, int, PairVectorField<Dim>&, std::vector<Vec<Dim>>&, \
+                                                 std::span<double>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -112,10 +112,11 @@ template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_vectors);
 
 /// The corrected vectors, and of each owned particle what they leave open of its faces, sum_j w_j a_ij [1/m], after so
-/// many sweeps; with the reach `inside` only where `interior` is not 0, elsewhere 0. Collective.
+/// many sweeps; with the reach `inside` only where `interior` is not 0, elsewhere 0. Found on the way, where `interior`
+/// is not 0: its mean over the fluid neighbours, weighted with the kernel. Collective.
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
                                  CorrectionReach reach, int sweeps, PairVectorField<Dim>& pair_vectors,
-                                 std::vector<Vec<Dim>>& open_faces);
+                                 std::vector<Vec<Dim>>& open_faces, std::span<double> mean_interior);
 
 }  // namespace tailwater

@@ -58,7 +58,7 @@ struct Marks {
     std::vector<double> filling(set.size());
     std::vector<Vec<Dim>> gradient(set.size());
     for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-      const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, W_0);
+      const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {W_0, 1.0});
       filling[i] = sums.concentration / C_0;
       gradient[i] = sums.gradient;
     }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "closures/fluid_pairs.h"
+#include "operators/concentration.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
 
@@ -30,7 +32,15 @@ struct Shifted {
   Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, const std::vector<double>& interior)
       : set(moving(points, speed), make_kernel<Dim>(KernelName::wendland_c2, radius), dx),
         shift(set.size(), Vec<Dim>::Ones()) {
-    beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, interior, shift);
+    Surroundings<Dim> here;
+    here.interior = interior;
+    const KernelValues values{kernel_value(set.neighbourhood.kernel(), 0.0),
+                              kernel_value(set.neighbourhood.kernel(), dx)};
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      here.mean_interior.push_back(mean_over_fluid<Dim>(set.pairs(), i, interior, 0.0));
+      here.crowding.push_back(kernel_sums<Dim>(set.pairs(), i, values).crowding);
+    }
+    beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, here, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {
@@ -47,11 +57,7 @@ struct Shifted {
 
 template <int Dim>
 ShiftingLaw law_of(ShiftingKind kind, double cap) {
-  return {.kind = kind,
-          .strength = kind == ShiftingKind::lind ? 2.0 : 0.1,
-          .cap = cap,
-          .spacing = dx,
-          .W_spacing = kernel_value(make_kernel<Dim>(KernelName::wendland_c2, radius), dx)};
+  return {.kind = kind, .strength = kind == ShiftingKind::lind ? 2.0 : 0.1, .cap = cap, .spacing = dx};
 }
 
 template <int Dim>

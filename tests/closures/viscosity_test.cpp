@@ -172,7 +172,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
   const std::vector<Four> in_single = in_fours<Dim>(velocity);
   std::vector<Mat<Dim>> gradient(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, 0.0);
+    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {0.0, 1.0});
     gradient[i] = corrected_gradient<Dim>(set.pairs(), i, sums.first_moment, in_single);
   }
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());

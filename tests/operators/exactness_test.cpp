@@ -199,6 +199,34 @@ TYPED_TEST(ExactnessTest, NeighboursThatDoNotSpanSpaceGiveNoTensors) {
   }
 }
 
+TYPED_TEST(ExactnessTest, KernelSumsAreThoseOfThePairs) {
+  constexpr int Dim = TypeParam::value;
+  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx);
+  const ParticleSet<Dim> set(jittered_cube<Dim>(7, dx, 0.3), kernel, dx);
+  const Pairs<Dim>& pairs = set.pairs();
+  const KernelValues values{kernel_value(kernel, 0.0), kernel_value(kernel, dx)};
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    KernelSums<Dim> expected{set.particles.volume[i] * values.W_0, Vec<Dim>::Zero(), Mat<Dim>::Zero(),
+                             Vec<Dim>::Zero()};
+    double steepnesses = 0.0;  // 1/m; what the sums over directions may cancel
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const double volume = set.particles.volume[pairs.j[k]];
+      const double pairing = 1.0 + 0.2 * std::pow(pairs.value(i, k) / values.W_spacing, 4);
+      expected.concentration += volume * pairs.value(i, k);
+      expected.gradient += volume * pairs.gradient(i, k);
+      expected.first_moment -= volume * pairs.d(i, k) * pairs.gradient(i, k).transpose();
+      expected.crowding += volume * pairing * pairs.gradient(i, k);
+      steepnesses += volume * pairing * pairs.gradient(i, k).norm();
+    }
+    const KernelSums<Dim> found = kernel_sums<Dim>(pairs, i, values);
+    const double in_single = 16.0 * single_eps;
+    ASSERT_NEAR(found.concentration, expected.concentration, in_single);
+    ASSERT_LT((found.gradient - expected.gradient).norm(), in_single * steepnesses);
+    ASSERT_LT((found.first_moment - expected.first_moment).norm(), in_single);
+    ASSERT_LT((found.crowding - expected.crowding).norm(), in_single * steepnesses);
+  }
+}
+
 TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
   constexpr int Dim = TypeParam::value;
   for (const KernelName name : all_kernels) {
@@ -227,11 +255,12 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       // Some hundred positive terms, whose distances are known to eps relative to the cube's size of 16 dx.
       const double relative = 1e4 * eps;
       const double in_single = 10.0 * single_eps;
-      EXPECT_NEAR(kernel_sums<Dim>(pairs, i, kernel_value(kernel, 0.0)).concentration, sums.concentration, in_single);
+      const KernelValues values{kernel_value(kernel, 0.0), kernel_value(kernel, dx)};
+      EXPECT_NEAR(kernel_sums<Dim>(pairs, i, values).concentration, sums.concentration, in_single);
       EXPECT_NEAR(morris, sums.morris, in_single * sums.morris);
       // The system of B2 loses some digits more: its pivots are of the order 0.1.
       EXPECT_NEAR(consistent, sums.consistent, 10.0 * relative * sums.consistent);
-      EXPECT_LT(kernel_sums<Dim>(pairs, i, kernel_value(kernel, 0.0)).gradient.norm() * dx, in_single);
+      EXPECT_LT(kernel_sums<Dim>(pairs, i, values).gradient.norm() * dx, in_single);
       // By symmetry the two standard forms see linear fields scaled by -sum w dW r/Dim, no other part.
       EXPECT_LT((conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, linear) -
                  first_moment * some_vector<Dim>())

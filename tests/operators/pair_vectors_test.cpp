@@ -74,6 +74,33 @@ TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
   }
 }
 
+TYPED_TEST(PairVectorsTest, TheMeanOfInteriorIsFoundOnTheWay) {
+  constexpr int Dim = TypeParam::value;
+  ParticleSet<Dim> set(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
+                       make_kernel<Dim>(KernelName::wendland_c2, radius), dx);
+  Noise noise(52);
+  const auto is_wall = [](const Vec<Dim>& x) { return x[0] < -2.0 * dx; };
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (is_wall(set.position(i))) set.particles.kind[i] = ParticleKind::wall;
+  }
+  set.neighbourhood.update(set.particles);
+  const auto interior = sample(set, [&](const Vec<Dim>& x) { return is_wall(x) ? 0.0 : 0.5 + 0.5 * noise(); });
+  const Pairs<Dim>& pairs = set.pairs();
+  const std::vector<double> found = corrected_pair_vectors_and_faces<Dim>(set, interior).mean_interior;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (interior[i] == 0.0) continue;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      const double weight = set.particles.is_fluid(j) ? pairs.value(i, k) : 0.0;
+      sum += weight * interior[j];
+      weights += weight;
+    }
+    ASSERT_NEAR(found[i], sum / weights, 16.0 * single_eps);
+  }
+}
+
 TYPED_TEST(PairVectorsTest, AreTheKernelsGradientsWhereNothingIsInside) {
   constexpr int Dim = TypeParam::value;
   const ParticleSet<Dim> set(jittered_cube<Dim>(7, dx, 0.3), make_kernel<Dim>(KernelName::wendland_c2, radius), dx);

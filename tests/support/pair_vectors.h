@@ -21,6 +21,7 @@ template <int Dim>
 struct CorrectedPairVectors {
   PairVectorField<Dim> vectors;
   std::vector<Vec<Dim>> open_faces;
+  std::vector<double> mean_interior;
 };
 
 /// After so many sweeps, as many as a run makes if none are given. `interior` has an entry per particle, ghosts
@@ -34,13 +35,15 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
   const Halo<Dim>& halo = set.neighbourhood.halo();
   std::vector<Mat<Dim>> moment(set.size());
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    moment[i] = kernel_sums<Dim>(pairs, i, 0.0).first_moment;
+    moment[i] = kernel_sums<Dim>(pairs, i, {0.0, 1.0}).first_moment;
   }
   halo.exchange(moment);
   CorrectedPairVectors<Dim> found;
   const double radius = kernel_radius(set.neighbourhood.kernel());
+  found.mean_interior.resize(pairs.owned());
   find_corrected_pair_vectors<Dim>(pairs, halo, {radius, set.particles.volume, set.particles.kind, interior, moment},
-                                   reach, sweeps.value_or(closing_sweeps(reach)), found.vectors, found.open_faces);
+                                   reach, sweeps.value_or(closing_sweeps(reach)), found.vectors, found.open_faces,
+                                   found.mean_interior);
   return found;
 }
 
