@@ -84,7 +84,7 @@ struct FluidGrid {
 /// The neighbours of one particle at a time. Its arrays are written up to a batch beyond their ends.
 class NeighbourRow {
  public:
-  explicit NeighbourRow(std::size_t most) : found_(most + batch), behind_(most + batch), ghosts_(most + batch) {}
+  explicit NeighbourRow(std::size_t all) : all_(static_cast<std::int32_t>(all)), found_(all + batch) {}
 
   /// Finds the particles nearer to `point` than `radius`, in the order of the grid. Returns how many.
   template <int Dim>
@@ -106,24 +106,23 @@ class NeighbourRow {
   /// ghosts, each kind in the order in which they were found. Returns the end of the row, which has room for a batch
   /// behind it.
   std::int32_t* write_in_order(std::int32_t self, std::int32_t owned, std::int32_t* row) {
-    constexpr std::int32_t beyond_all = std::numeric_limits<std::int32_t>::max();
-    std::int32_t* behind_end = behind_.data();
-    std::int32_t* ghosts_end = ghosts_.data();
-    for (std::size_t n = 0; n < count_; n += batch) {
-      const std::int32_t* const indices = found_.data() + n;
-      const unsigned counts = first_bits(count_ - n);
-      row = write_chosen(indices, bits_between(indices, 0, self) & counts, row);
-      behind_end = write_chosen(indices, bits_between(indices, self + 1, owned) & counts, behind_end);
-      ghosts_end = write_chosen(indices, bits_between(indices, owned, beyond_all) & counts, ghosts_end);
-    }
-    row = std::copy(behind_.data(), behind_end, row);
-    return std::copy(ghosts_.data(), ghosts_end, row);
+    row = write_those_between(0, self, row);
+    row = write_those_between(self + 1, owned, row);
+    return write_those_between(owned, all_, row);
   }
 
  private:
+  std::int32_t* write_those_between(std::int32_t begin, std::int32_t end, std::int32_t* row) const {
+    if (begin == end) return row;
+    for (std::size_t n = 0; n < count_; n += batch) {
+      const std::int32_t* const indices = found_.data() + n;
+      row = write_chosen(indices, bits_between(indices, begin, end) & first_bits(count_ - n), row);
+    }
+    return row;
+  }
+
+  std::int32_t all_;  ///< how many particles there are
   std::vector<std::int32_t> found_;
-  std::vector<std::int32_t> behind_;
-  std::vector<std::int32_t> ghosts_;
   std::size_t count_ = 0;
 };
 
