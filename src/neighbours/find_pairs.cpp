@@ -156,7 +156,8 @@ std::size_t find_slopes(Pairs<Dim>& pairs) {
 template <int Dim>
 void part_coinciding(Pairs<Dim>& pairs) {
   const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
-  const double too_near = (1.0 - parted_tolerance) * pairs.least_distance * pairs.least_distance;
+  // More than find_slopes finds too near, whatever was rounded there: what it finds again has moved.
+  const double too_near = (1.0 - 0.5 * parted_tolerance) * pairs.least_distance * pairs.least_distance;
   const auto squared_distance = [&](const Place<Dim>& a, const Place<Dim>& b) {
     double squared = 0.0;
     for (int d = 0; d < Dim; ++d) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "neighbours/pair_lanes.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
 
@@ -280,6 +281,15 @@ TYPED_TEST(NeighbourhoodTest, PlacesOfCoincidingParticlesArePartedByTheirIds) {
     for (std::size_t n = 1; n < by_id.size(); ++n) {
       EXPECT_EQ(place(by_id[n - 1])[0] - place(by_id[n])[0], least);
       for (int a = 1; a < Dim; ++a) EXPECT_EQ(place(by_id[n - 1])[a], place(by_id[n])[a]);
+    }
+    // Loops in lanes see two of them as loops pair by pair do.
+    const std::size_t i = by_id[0];
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      if (static_cast<std::size_t>(pairs.j[k]) != by_id[1]) continue;
+      const LaneRange<false> one{k, 1};
+      const VecLanes<Dim> d = neighbour_places(pairs, one, one.neighbours(pairs.j.data()), i).d;
+      EXPECT_EQ(pairs.r(i, k), pairs.least_distance);
+      for (int a = 0; a < Dim; ++a) EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], 2.0 * pairs.unit[0]);
     }
   }
 }
