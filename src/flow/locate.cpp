@@ -52,8 +52,10 @@ void find_surface(Flow<Dim>& flow, bool keep_marks) {
   flow.halo().exchange(here.interior);
 }
 
+/// For shifts, where no correction of pair vectors finds it.
 template <int Dim>
 void find_mean_interior(const Flow<Dim>& flow, Surroundings<Dim>& here) {
+  if (flow.setup.scheme.shifting != ShiftingKind::lind) return;
   for_each(here.mean_interior.size(), [&](std::size_t i) {
     if (here.interior[i] > 0.0) here.mean_interior[i] = mean_over_fluid<Dim>(flow.pairs(), i, here.interior, 0.0);
   });
