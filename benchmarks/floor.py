@@ -36,8 +36,8 @@ class Pass:
 
 
 def candidates(d):
-    """Particles in the cells that a search looks at, per pair: seven cells of a third of the support along each axis."""
-    return (7 / 3) ** d / {2: math.pi, 3: 4 / 3 * math.pi}[d]
+    """Particles in the cells of a third of the support that a search looks at (docs/theory/neighbours.md), per pair."""
+    return {2: 46, 3: 278}[d] / 3**d / {2: math.pi, 3: 4 / 3 * math.pi}[d]
 
 
 SLOPE = 13  # operations: F from the square of the distance, with a root
@@ -51,7 +51,7 @@ def pair_vector(d):
 # At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
 # to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
-    Pass("search", lambda d: 2 * INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + SLOPE),
+    Pass("search", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + SLOPE),
     # With what shifts go by: the crowding here, the mean of `interior` with the moment correction.
     Pass("kernel sums", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 5 * d + 8),
     Pass("interior", lambda d: INDEX, lambda d: INDEX, lambda d: 4),

@@ -110,7 +110,6 @@ struct SymmetricLanes {
 };
 
 inline Lanes in_all_lanes(double value) { return Lanes{} + static_cast<float>(value); }
-inline DoubleLanes in_all_double_lanes(double value) { return DoubleLanes{} + value; }
 
 #if defined(__AVX__)
 inline constexpr LaneTruths lane_numbers{0, 1, 2, 3, 4, 5, 6, 7};

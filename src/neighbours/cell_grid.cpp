@@ -25,6 +25,9 @@ std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
   return axes;
 }
 
+/// Added to the square of a reach, as a share of it: more than what is rounded.
+constexpr double rounding = 1e-6;
+
 }  // namespace
 
 template <int Dim>
@@ -42,22 +45,29 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
 
   // A few distant particles must not make the grid huge. Coarser cells are slower, never wrong.
   const double most_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
+  const auto cells_along = [&](int d) {
+    return std::floor((high[axis_[d]] - low[axis_[d]]) / edge_) + 1.0 + 2.0 * rim;
+  };
   for (;; edge_ *= 2.0) {
     double cells = 1.0;
-    for (int d = 0; d < Dim; ++d) {
-      cells *= std::floor((high[d] - low[d]) / edge_) + 1.0;
-    }
+    for (int d = 0; d < Dim; ++d) cells *= cells_along(d);
     if (cells <= most_cells) break;
   }
   std::int64_t cells = 1;
   for (int d = 0; d < Dim; ++d) {
-    count_[d] = static_cast<std::int64_t>((high[axis_[d]] - low[axis_[d]]) / edge_) + 1;
+    count_[d] = static_cast<std::int64_t>(cells_along(d));
     cells *= count_[d];
   }
+  find_rows();
 
   // A counting sort: find each particle's cell, count the particles of each cell, and place them.
   std::vector<std::int64_t> cell(positions.size());
-  for_each(positions.size(), [&](std::size_t i) { cell[i] = flat_index(positions[i]); });
+  for_each(positions.size(), [&](std::size_t i) {
+    cell[i] = 0;
+    for (int d = 0; d < Dim; ++d) {
+      cell[i] = cell[i] * count_[d] + static_cast<std::int64_t>(in_cells(positions[i], d));
+    }
+  });
   cell_begin_.assign(cells + 1, 0);
   for (const std::int64_t c : cell) ++cell_begin_[c + 1];
   for (std::int64_t c = 0; c < cells; ++c) {
@@ -71,25 +81,49 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
 }
 
 template <int Dim>
-std::array<std::int64_t, Dim> CellGrid<Dim>::cell_of(const Vec<Dim>& place) const {
-  std::array<std::int64_t, Dim> cell;
-  for (int d = 0; d < Dim; ++d) {
-    // Clamped before the cast: a place far outside has no cell, and its index may not fit an integer.
-    const double index = std::floor((place[axis_[d]] - origin_[axis_[d]]) / edge_);
-    constexpr double beyond = cells_per_reach + 1.0;
-    cell[d] = static_cast<std::int64_t>(std::clamp(index, -beyond, static_cast<double>(count_[d]) + beyond));
+void CellGrid<Dim>::find_rows() {
+  constexpr int n = cells_per_reach;
+  for (int part = 0; part < (1 << Dim); ++part) {
+    const auto begins = [&](int d) { return 0.5 * (part >> d & 1); };  // the part of a cell along axis d
+    const auto ends = [&](int d) { return begins(d) + 0.5; };
+    const auto gap = [&](int d, int cells) { return std::max({cells - ends(d), begins(d) - (cells + 1), 0.0}); };
+    constexpr int along = Dim - 1;
+    constexpr int between = Dim - 2;
+    for (int slab = Dim == 3 ? -n : 0; slab <= (Dim == 3 ? n : 0); ++slab) {
+      for (int row = -n; row <= n; ++row) {
+        double squared = n * n * (1.0 + rounding) - gap(between, row) * gap(between, row);
+        if (Dim == 3) squared -= gap(0, slab) * gap(0, slab);
+        if (squared < 0.0) continue;
+        const double reach = std::sqrt(squared);
+        const auto first = std::max<std::int64_t>(std::floor(begins(along) - reach), -n);
+        const auto last = std::min<std::int64_t>(std::floor(ends(along) + reach), n);
+        const std::int64_t cell = ((Dim == 3 ? slab * count_[between] : 0) + row) * count_[along];
+        rows_[part].push_back({cell + first, cell + last + 1});
+      }
+    }
   }
-  return cell;
 }
 
 template <int Dim>
-std::int64_t CellGrid<Dim>::flat_index(const Vec<Dim>& place) const {
-  const auto cell = cell_of(place);
-  std::int64_t index = 0;
+int CellGrid<Dim>::find_ranges_near(const Vec<Dim>& place, Ranges& ranges) const {
+  std::int64_t cell = 0;
+  int part = 0;
   for (int d = 0; d < Dim; ++d) {
-    index = index * count_[d] + std::min(cell[d], count_[d] - 1);
+    const double coordinate = in_cells(place, d);
+    // Compared before it is cast: the index of a place far outside may not fit an integer.
+    if (!(coordinate >= cells_per_reach && coordinate < static_cast<double>(count_[d] - cells_per_reach))) return 0;
+    const auto halves = static_cast<std::int64_t>(2.0 * coordinate);
+    cell = cell * count_[d] + halves / 2;
+    part |= static_cast<int>(halves % 2) << d;
   }
-  return index;
+  const std::int32_t* const begin = cell_begin_.data() + cell;
+  Range* next = ranges.data();
+  for (const Row& row : rows_[part]) {  // without a branch, which would be taken as good as at random
+    const Range range{begin[row.begin], begin[row.end]};
+    *next = range;
+    next += range.begin < range.end ? 1 : 0;
+  }
+  return static_cast<int>(next - ranges.data());
 }
 
 template class CellGrid<2>;

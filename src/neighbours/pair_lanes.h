@@ -18,16 +18,20 @@ struct PlaceLanes {
   Lanes of_fluid(Lanes lanes) const { return signed_volume > Lanes{} ? lanes : Lanes{}; }
 };
 
+/// The difference along one axis between a particle at `own` and others at `places`, in `unit` [m].
+[[gnu::always_inline]] inline Lanes difference(float unit, std::uint32_t own, IntegerLanes places) {
+  using SignedLanes = std::int32_t __attribute__((vector_size(4 * lane_count)));
+  return unit * __builtin_convertvector(reinterpret_cast<SignedLanes>(own - places), Lanes);
+}
+
 /// Of neighbours of particle i of which `numbers` are those of their Place, maybe with others behind it.
 template <int Dim, class Range, std::size_t size>
 [[gnu::always_inline]] inline PlaceLanes<Dim> place_lanes(const Pairs<Dim>& pairs, const Range& range,
                                                           const std::array<Lanes, size>& numbers, std::size_t i) {
-  using SignedLanes = std::int32_t __attribute__((vector_size(4 * lane_count)));
   PlaceLanes<Dim> lanes;
   const Place<Dim>& own = pairs.place[i];
   for (int a = 0; a < Dim; ++a) {
-    const auto apart = reinterpret_cast<SignedLanes>(own.at[a] - reinterpret_cast<IntegerLanes>(numbers[a]));
-    lanes.d.at[a] = pairs.unit[a] * __builtin_convertvector(apart, Lanes);
+    lanes.d.at[a] = difference(pairs.unit[a], own.at[a], reinterpret_cast<IntegerLanes>(numbers[a]));
   }
   lanes.signed_volume = range.only(numbers[Dim]);
   return lanes;

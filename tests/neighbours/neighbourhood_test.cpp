@@ -347,6 +347,34 @@ TYPED_TEST(NeighbourhoodTest, FarOutlierAndEmptySet) {
   EXPECT_EQ(neighbourhood.pairs().owned(), 0u);
 }
 
+/// Places are integers that repeat after 16 supports (Place). In the coarse cells that a distant particle asks for, a
+/// search meets particles that far away.
+TYPED_TEST(NeighbourhoodTest, ParticlesWhosePlacesRepeatAreNoNeighbours) {
+  constexpr int Dim = TypeParam::value;
+  Particles<Dim> particles = random_fluid<Dim>(200, 15);
+  const std::size_t half = particles.owned / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    particles.kind[half + i] = i % 2 == 0 ? ParticleKind::fluid : ParticleKind::wall;
+    particles.position[half + i] = particles.position[i] + 16.0 * radius * Vec<Dim>::Unit(i % Dim);
+  }
+  particles.position[0] = Vec<Dim>::Constant(1e6);
+  auto neighbourhood = make_neighbourhood<Dim>();
+  neighbourhood.update(particles);
+  const Pairs<Dim>& pairs = neighbourhood.pairs();
+  for (int d = 0; d < Dim; ++d) {
+    ASSERT_LT(std::abs(static_cast<std::int32_t>(pairs.place[1].at[d] - pairs.place[half + 1].at[d])), 1000)
+        << "in units of 2^-28 supports";
+  }
+  ASSERT_GT(neighbourhood.grid().reach(), 16.0 * radius);
+  expect_rows_hold_the_support<Dim>(particles, neighbourhood, {}, radius);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const bool has_wall = std::any_of(pairs.j.begin() + static_cast<std::ptrdiff_t>(pairs.begin(i)),
+                                      pairs.j.begin() + static_cast<std::ptrdiff_t>(pairs.end(i)),
+                                      [&](std::int32_t j) { return !particles.is_fluid(j); });
+    EXPECT_EQ(pairs.sees_wall[i] != 0, has_wall);
+  }
+}
+
 TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
   constexpr int Dim = TypeParam::value;
   const PeriodicDomain<Dim> domain = unit_domain<Dim>(1);

@@ -5,6 +5,7 @@ import contextlib
 import csv
 import importlib.util
 import io
+import itertools
 import json
 import math
 import sys
@@ -192,9 +193,12 @@ class Floor(unittest.TestCase):
                     self.assertGreaterEqual(row.now_bytes, row.best_bytes, row.name)
                     self.assertGreaterEqual(row.now, row.best, row.name)
 
-    def test_a_search_of_the_plane_looks_at_a_square_of_seven_cells(self):
-        # 7 cells of a third of 3 dx: 7^2 particles, of which pi 3^2 are pairs.
-        self.assertAlmostEqual(self.floor.candidates(2) * math.pi * 9, 7.0**2, places=9)
+    def test_a_search_looks_at_the_cells_that_its_part_of_a_cell_can_reach(self):
+        # Cells of a third of 3 dx hold a particle each. Distances are from the half of a cell that begins at 0.
+        apart = [max(cell - 0.5, -(cell + 1), 0) for cell in range(-3, 4)]
+        for d, pairs in {2: math.pi * 9, 3: 4 / 3 * math.pi * 27}.items():
+            reached = [gaps for gaps in itertools.product(apart, repeat=d) if sum(gap**2 for gap in gaps) <= 9]
+            self.assertAlmostEqual(self.floor.candidates(d) * pairs, len(reached), places=9)
 
 
 class Command(ProgramTest):
