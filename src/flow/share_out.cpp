@@ -3,16 +3,24 @@
 namespace tailwater {
 
 template <int Dim>
+void sort_particles(Flow<Dim>& flow) {
+  flow.neighbourhood.reorder(flow.state.particles,
+                             flow.pressure_solver.needs_cells() ? ParticleOrder::z_curve : ParticleOrder::slabs);
+}
+
+template <int Dim>
 Sharing share_out(Flow<Dim>& flow) {
   flow.neighbourhood.wrap(flow.state.particles);
   const Sharing sharing =
       flow.decomposition.share_out(flow.state.particles, flow.neighbourhood.work(flow.state.particles));
   if (sharing.moved > 0) flow.shared_rows.find_rows(flow.walls, flow.state.particles, 0, flow.setup.first_wall_id);
   regather_walls(flow);
-  flow.neighbourhood.reorder(flow.state.particles);
+  sort_particles(flow);
   return sharing;
 }
 
+template void sort_particles<2>(Flow<2>&);
+template void sort_particles<3>(Flow<3>&);
 template Sharing share_out<2>(Flow<2>&);
 template Sharing share_out<3>(Flow<3>&);
 

@@ -79,6 +79,12 @@ bool let_in(Flow<Dim>& flow);
 template <int Dim>
 void count_passing(Flow<Dim>& flow, const StepStart<Dim>& start);
 
+/// Sorts the particles of this rank in the order that suits the pressure solver: in slabs where it sweeps through the
+/// rows of the matrix, along a Z curve where a multigrid takes them by cells (docs/theory/neighbours.md). Indices
+/// change; call between steps only.
+template <int Dim>
+void sort_particles(Flow<Dim>& flow);
+
 /// Hands particles to the ranks that own their places and sorts those of each rank for the cache. Cuts space again when
 /// work is shared too unevenly. Indices change; call between steps only.
 template <int Dim>

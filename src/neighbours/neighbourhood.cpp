@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "base/z_curve.h"
 
 namespace tailwater {
 namespace {
@@ -14,6 +15,19 @@ constexpr double least_distance_over_spacing = 1e-6;
 /// Cost of a row and of a wall particle's pair, in pairs of a fluid particle (docs/scaling.md).
 constexpr double row_cost = 10.0;
 constexpr double wall_pair_cost = 0.3;
+
+/// The indices of `positions` in the order in which a Z curve through cells of the given edge meets them.
+template <int Dim>
+std::vector<std::int32_t> order_along_z_curve(std::span<const Vec<Dim>> positions, double edge) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> numbered(positions.size());
+  for_each(positions.size(), [&](std::size_t i) {
+    numbered[i] = {z_number<Dim>(positions[i], edge), static_cast<std::int32_t>(i)};
+  });
+  std::ranges::sort(numbered);
+  std::vector<std::int32_t> order(positions.size());
+  for_each(order.size(), [&](std::size_t n) { order[n] = numbered[n].second; });
+  return order;
+}
 
 template <class Value>
 void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
@@ -52,10 +66,14 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
 }
 
 template <int Dim>
-void Neighbourhood<Dim>::reorder(Particles<Dim>& particles) {
+void Neighbourhood<Dim>::reorder(Particles<Dim>& particles, ParticleOrder order) {
   wrap(particles);
   particles.resize(particles.owned);
-  keep(particles, CellGrid<Dim>(particles.position, kernel_radius(kernel_)).order());
+  if (order == ParticleOrder::slabs) {
+    keep(particles, CellGrid<Dim>(particles.position, kernel_radius(kernel_)).order());
+  } else {
+    keep(particles, order_along_z_curve<Dim>(particles.position, spacing_));
+  }
 }
 
 template <int Dim>

@@ -12,6 +12,10 @@
 
 namespace tailwater {
 
+/// How particles follow each other in memory: by the cells of a grid, in slabs across the direction of largest spread
+/// and row by row in a slab, or along a Z curve (base/z_curve.h) through cells of dx.
+enum class ParticleOrder { slabs, z_curve };
+
 template <int Dim>
 class Neighbourhood {
  public:
@@ -35,10 +39,9 @@ class Neighbourhood {
   /// The equivalent of `position` inside a periodic domain.
   Vec<Dim> wrapped(const Vec<Dim>& position) const { return tailwater::wrapped<Dim>(domain_, position); }
 
-  /// Wraps the owned particles, sorts them in the order of a cell grid (slabs across the direction of largest spread),
-  /// and forgets pairs and ghosts. Particles near in space are then near in memory, and an incomplete factorisation in
-  /// this order needs the fewest iterations. Call between steps only: indices change.
-  void reorder(Particles<Dim>& particles);
+  /// Wraps the owned particles, sorts them, so that particles near in space are near in memory, and forgets pairs and
+  /// ghosts. Call between steps only: indices change.
+  void reorder(Particles<Dim>& particles, ParticleOrder order);
 
   /// Forgets pairs and ghosts; the next `update` finds them as if for the first time.
   void forget(Particles<Dim>& particles);

@@ -33,7 +33,7 @@ constexpr double program_memory = 5e7;
 /// s; for one step of the flow, after the first
 template <int Dim>
 double time_of_a_step(Flow<Dim>& flow, double end) {
-  flow.neighbourhood.reorder(flow.state.particles);
+  sort_particles(flow);
   advance(flow, std::min(next_time_step(flow), end));
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < trial_steps; ++k) advance(flow, std::min(next_time_step(flow), end));

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/z_curve.h"
 #include "neighbours/pair_lanes.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
@@ -375,8 +376,9 @@ TYPED_TEST(NeighbourhoodTest, ParticlesWhosePlacesRepeatAreNoNeighbours) {
   }
 }
 
-TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
-  constexpr int Dim = TypeParam::value;
+/// Particles that `reorder` has sorted, after a check that they are those from before, inside the domain.
+template <int Dim>
+Particles<Dim> reordered(ParticleOrder order) {
   const PeriodicDomain<Dim> domain = unit_domain<Dim>(1);
   Particles<Dim> particles = random_fluid<Dim>(300, 8);
   Noise noise(9);
@@ -391,10 +393,10 @@ TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
   const Particles<Dim> before = particles;
   auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, domain);
   neighbourhood.update(particles);
-  neighbourhood.reorder(particles);
+  neighbourhood.reorder(particles, order);
 
-  ASSERT_EQ(particles.size(), before.owned);
-  ASSERT_EQ(particles.owned, before.owned);
+  EXPECT_EQ(particles.size(), before.owned);
+  EXPECT_EQ(particles.owned, before.owned);
   std::set<std::int64_t> ids;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     const auto id = static_cast<std::size_t>(particles.id[i]);  // was its place before
@@ -413,6 +415,24 @@ TYPED_TEST(NeighbourhoodTest, ReorderKeepsTheSetAndWrapsIt) {
 
   EXPECT_TRUE(neighbourhood.update(particles));
   expect_rows_hold_the_support<Dim>(particles, neighbourhood, domain, radius);
+  return particles;
+}
+
+TYPED_TEST(NeighbourhoodTest, ReorderInSlabsPutsRowsOfCellsSideBySide) {
+  constexpr int Dim = TypeParam::value;
+  const Particles<Dim> particles = reordered<Dim>(ParticleOrder::slabs);
+  const CellGrid<Dim> grid(std::span(particles.position).first(particles.owned), radius);
+  EXPECT_TRUE(std::ranges::is_sorted(grid.order()));
+}
+
+TYPED_TEST(NeighbourhoodTest, ReorderAlongAZCurvePutsCellsOfCellsSideBySide) {
+  constexpr int Dim = TypeParam::value;
+  const Particles<Dim> particles = reordered<Dim>(ParticleOrder::z_curve);
+  for (std::size_t i = 1; i < particles.owned; ++i) {
+    for (const double edge : {spacing, 2.0 * spacing, 4.0 * spacing}) {
+      EXPECT_LE(z_number<Dim>(particles.position[i - 1], edge), z_number<Dim>(particles.position[i], edge));
+    }
+  }
 }
 
 TYPED_TEST(NeighbourhoodTest, KeepTakesTheOthersOut) {

@@ -74,7 +74,7 @@ std::size_t count_fluid(const Flow<Dim>& flow) {
 template <int Dim>
 StepReport step(Flow<Dim>& flow) {
   constexpr int steps_between_sorts = 10;
-  if (flow.state.step % steps_between_sorts == 0) flow.neighbourhood.reorder(flow.state.particles);
+  if (flow.state.step % steps_between_sorts == 0) sort_particles(flow);
   return advance(flow, next_time_step(flow));
 }
 

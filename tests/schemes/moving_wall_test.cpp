@@ -115,7 +115,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {0.0, 0.55}};
   spec.fluid = {water};
   Flow<2> flow(spec);
-  flow.neighbourhood.reorder(flow.state.particles);
+  sort_particles(flow);
   start(flow);
   const double felt = std::hypot(g, a);
   const double settling = std::sqrt(felt * dx / std::numbers::pi);  // as in a tank at rest
