@@ -51,7 +51,7 @@ def pair_vector(d):
 # At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
 # to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
-    Pass("search", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + 3 * d + SLOPE),
+    Pass("search", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + SLOPE),
     # With what shifts go by: the crowding here, the mean of `interior` with the moment correction.
     Pass("kernel sums", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 5 * d + 8),
     Pass("interior", lambda d: INDEX, lambda d: INDEX, lambda d: 4),
