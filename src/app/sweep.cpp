@@ -40,18 +40,18 @@ constexpr std::chrono::duration<double> least_time_for_a_member(1.0);
 /// A member has not ended before its last files are written.
 constexpr double largest_share_at_work = 0.999;
 
-/// The end of a table that has its last line.
+/// The end of a table that has its last line whole.
 constexpr std::streamoff tail_of_a_table = 4096;
 
-/// Of the last line of a run's steps [s]; 0 before there is one.
+/// Of the last whole line of a run's steps [s]; 0 before there is one.
 double time_reached(const fs::path& run) {
   std::ifstream file(run / "steps.csv");
   file.seekg(0, std::ios::end);
   file.seekg(std::max<std::streamoff>(0, file.tellg() - tail_of_a_table));
+  std::string line;
+  std::getline(file, line);  // the names of the columns, or what is left of a line, which can start with any column
   double time = 0.0;
-  for (std::string line; std::getline(file, line);) {
-    if (!file.eof()) time = std::max(time, std::strtod(line.c_str(), nullptr));
-  }
+  while (std::getline(file, line) && !file.eof()) time = std::strtod(line.c_str(), nullptr);
   return time;
 }
 

@@ -92,6 +92,14 @@ class Sweep(ProgramTest):
         self.call("resume", "sweep", "--quiet", "--wall-time", "1.5s", "--jobs", "2", expect=130, errors_only=False)
         self.assertEqual(self.rows()[0]["status"], "done")
 
+    def test_steps_are_read_from_the_end_of_their_table_on_wherever_a_line_is_cut(self):
+        self.call(*SWEEP, "--quiet", "--wall-time", "0.5s", expect=130, errors_only=False)
+        line = "0.001," + ",".join(["nan"] * 50) + "\n"
+        for zeros in range(4):  # the end begins with n, a, n or a comma
+            end = "0.05" + zeros * "0" + "\n"
+            (self.folder / "sweep" / MEMBERS[0] / "steps.csv").write_text("time_s\n" + 40 * line + end)
+            self.call("resume", "sweep", "--quiet", "--wall-time", "0.5s", expect=130, errors_only=False)
+
     def test_members_end_with_the_sweep_that_is_killed(self):
         out = self.folder / "sweep"
         sweep = self.start("run", "small.toml", "--out", out, *SWEPT, "--set", "time.end=1000", "--set", "output.fields_interval=1")
