@@ -36,7 +36,8 @@ class Pass:
 
 
 def candidates(d):
-    """Particles in the cells of a third of the support that a search looks at (docs/theory/neighbours.md), per pair."""
+    """Particles in the cells of a third of the support that the support reaches from half of a cell, per pair. A search
+    for groups compares with more, and finds them at less cost (docs/theory/neighbours.md)."""
     return {2: 46, 3: 278}[d] / 3**d / {2: math.pi, 3: 4 / 3 * math.pi}[d]
 
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/batch.h"
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -25,9 +26,6 @@ std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
   return axes;
 }
 
-/// Added to the square of a reach, as a share of it: more than what is rounded.
-constexpr double rounding = 1e-6;
-
 }  // namespace
 
 template <int Dim>
@@ -45,9 +43,7 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
 
   // A few distant particles must not make the grid huge. Coarser cells are slower, never wrong.
   const double most_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
-  const auto cells_along = [&](int d) {
-    return std::floor((high[axis_[d]] - low[axis_[d]]) / edge_) + 1.0 + 2.0 * rim;
-  };
+  const auto cells_along = [&](int d) { return std::floor((high[axis_[d]] - low[axis_[d]]) / edge_) + 1.0; };
   for (;; edge_ *= 2.0) {
     double cells = 1.0;
     for (int d = 0; d < Dim; ++d) cells *= cells_along(d);
@@ -58,7 +54,6 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
     count_[d] = static_cast<std::int64_t>(cells_along(d));
     cells *= count_[d];
   }
-  find_rows();
 
   // A counting sort: find each particle's cell, count the particles of each cell, and place them.
   std::vector<std::int64_t> cell(positions.size());
@@ -74,56 +69,11 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
     cell_begin_[c + 1] += cell_begin_[c];
   }
   std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
-  order_.resize(positions.size());
+  size_ = positions.size();
+  order_.resize(size_ + batch);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     order_[next[cell[i]]++] = static_cast<std::int32_t>(i);
   }
-}
-
-template <int Dim>
-void CellGrid<Dim>::find_rows() {
-  constexpr int n = cells_per_reach;
-  for (int part = 0; part < (1 << Dim); ++part) {
-    const auto begins = [&](int d) { return 0.5 * (part >> d & 1); };  // the part of a cell along axis d
-    const auto ends = [&](int d) { return begins(d) + 0.5; };
-    const auto gap = [&](int d, int cells) { return std::max({cells - ends(d), begins(d) - (cells + 1), 0.0}); };
-    constexpr int along = Dim - 1;
-    constexpr int between = Dim - 2;
-    for (int slab = Dim == 3 ? -n : 0; slab <= (Dim == 3 ? n : 0); ++slab) {
-      for (int row = -n; row <= n; ++row) {
-        double squared = n * n * (1.0 + rounding) - gap(between, row) * gap(between, row);
-        if (Dim == 3) squared -= gap(0, slab) * gap(0, slab);
-        if (squared < 0.0) continue;
-        const double reach = std::sqrt(squared);
-        const auto first = std::max<std::int64_t>(std::floor(begins(along) - reach), -n);
-        const auto last = std::min<std::int64_t>(std::floor(ends(along) + reach), n);
-        const std::int64_t cell = ((Dim == 3 ? slab * count_[between] : 0) + row) * count_[along];
-        rows_[part].push_back({cell + first, cell + last + 1});
-      }
-    }
-  }
-}
-
-template <int Dim>
-int CellGrid<Dim>::find_ranges_near(const Vec<Dim>& place, Ranges& ranges) const {
-  std::int64_t cell = 0;
-  int part = 0;
-  for (int d = 0; d < Dim; ++d) {
-    const double coordinate = in_cells(place, d);
-    // Compared before it is cast: the index of a place far outside may not fit an integer.
-    if (!(coordinate >= cells_per_reach && coordinate < static_cast<double>(count_[d] - cells_per_reach))) return 0;
-    const auto halves = static_cast<std::int64_t>(2.0 * coordinate);
-    cell = cell * count_[d] + halves / 2;
-    part |= static_cast<int>(halves % 2) << d;
-  }
-  const std::int32_t* const begin = cell_begin_.data() + cell;
-  Range* next = ranges.data();
-  for (const Row& row : rows_[part]) {  // without a branch, which would be taken as good as at random
-    const Range range{begin[row.begin], begin[row.end]};
-    *next = range;
-    next += range.begin < range.end ? 1 : 0;
-  }
-  return static_cast<int>(next - ranges.data());
 }
 
 template class CellGrid<2>;

@@ -1,9 +1,12 @@
 // Particles sorted into the cells of a regular grid: all particles within reach of a place are in the cells around it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -15,8 +18,6 @@ class CellGrid {
  public:
   /// With three, a search looks at half as many particles as with cells of the whole reach.
   static constexpr int cells_per_reach = 3;
-  /// How many cells hold what is within reach, at most.
-  static constexpr int cells_across = 2 * cells_per_reach + 1;
 
   CellGrid() = default;
 
@@ -27,52 +28,83 @@ class CellGrid {
   /// The reach asked for, or larger.
   double reach() const { return cells_per_reach * edge_; }
 
-  /// Particle indices cell by cell: slab by slab along the direction of largest spread, and row by row in a slab.
-  std::span<const std::int32_t> order() const { return order_; }
+  /// Particle indices cell by cell: slab by slab along the direction of largest spread, and row by row in a slab. May
+  /// be read a batch beyond its end, where it is 0.
+  std::span<const std::int32_t> order() const { return std::span(order_).first(size_); }
 
-  /// Entries of order() that lie side by side.
-  struct Range {
-    std::int32_t begin;
-    std::int32_t end;
-  };
-  /// One for each row of cells.
-  using Ranges = std::array<Range, Dim == 3 ? cells_across * cells_across : cells_across>;
-
-  /// Finds ranges, in the order of order(), that hold all particles within reach() of `place`, and some farther away.
-  /// Returns how many there are; they come first in `ranges`.
-  int find_ranges_near(const Vec<Dim>& place, Ranges& ranges) const;
+  /// Calls body(begin, end) for ranges of order(), one after the other, that hold all particles within reach() of the
+  /// box from `low` to `high`, and some farther away.
+  template <class Body>
+  [[gnu::always_inline]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high, Body&& body) const {
+    Vec<Dim> first;
+    Vec<Dim> last;
+    for (int d = 0; d < Dim; ++d) {
+      first[d] = in_cells(low, d);
+      last[d] = in_cells(high, d);
+    }
+    const auto visit_row = [&](std::int64_t row, double squared) __attribute__((always_inline)) {
+      if (squared < 0.0) return;
+      const auto [begin, end] = cells_within(Dim - 1, std::sqrt(squared), first, last);
+      const std::int32_t* const cell_begin = cell_begin_.data() + row * count_[Dim - 1];
+      body(cell_begin[begin], cell_begin[end]);
+    };
+    const auto visit_slab = [&](std::int64_t slab, double squared) __attribute__((always_inline)) {
+      const auto [begin, end] = cells_within(Dim - 2, reach_in_cells, first, last);
+      for (std::int64_t row = begin; row < end; ++row) {
+        visit_row(slab * count_[Dim - 2] + row, squared - squared_gap(Dim - 2, row, first, last));
+      }
+    };
+    constexpr double squared_reach = reach_in_cells * reach_in_cells;
+    if constexpr (Dim == 2) {
+      visit_slab(0, squared_reach);
+    } else {
+      const auto [begin, end] = cells_within(0, reach_in_cells, first, last);
+      for (std::int64_t slab = begin; slab < end; ++slab) {
+        visit_slab(slab, squared_reach - squared_gap(0, slab, first, last));
+      }
+    }
+  }
 
   /// Calls body(j) for all particles within reach() of `place`, and for some farther away.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {
-    Ranges ranges;
-    const int count = find_ranges_near(place, ranges);
-    for (int r = 0; r < count; ++r) {
-      for (std::int32_t n = ranges[r].begin; n < ranges[r].end; ++n) body(order_[n]);
-    }
+    for_each_range_near(place, place, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t n = begin; n < end; ++n) body(order_[n]);
+    });
   }
 
  private:
-  /// Empty cells beside the others, so that a search looks at the same cells wherever it begins.
-  static constexpr int rim = 2 * cells_per_reach;
-
-  /// Cells of one row that hold particles within reach, as distances of their indices from that of the cell in whose
-  /// neighbourhood they are.
-  struct Row {
-    std::int64_t begin;
-    std::int64_t end;
-  };
+  /// The reach in cells, and more than what is rounded.
+  static constexpr double reach_in_cells = cells_per_reach * (1.0 + 1e-6);
 
   /// Where `place` is along axis_[d], in edges of a cell from the first one.
-  double in_cells(const Vec<Dim>& place, int d) const { return (place[axis_[d]] - origin_[axis_[d]]) / edge_ + rim; }
-  void find_rows();
+  double in_cells(const Vec<Dim>& place, int d) const { return (place[axis_[d]] - origin_[axis_[d]]) / edge_; }
+
+  /// The cells along axis_[d] that have some part within `reach` of what is between `first` and `last`, all in cells.
+  std::pair<std::int64_t, std::int64_t> cells_within(int d, double reach, const Vec<Dim>& first,
+                                                     const Vec<Dim>& last) const {
+    // Compared before it is cast: the index of a place far outside may not fit an integer.
+    const auto cell = [&](double place) {
+      return static_cast<std::int64_t>(std::min(std::max(0.0, place), static_cast<double>(count_[d])));
+    };
+    return {cell(first[d] - reach), cell(last[d] + reach + 1.0)};
+  }
+
+  /// Between a cell along axis_[d] and what is between `first` and `last`.
+  static double squared_gap(int d, std::int64_t cell, const Vec<Dim>& first, const Vec<Dim>& last) {
+    const auto begin = static_cast<double>(cell);
+    const double before = first[d] - (begin + 1.0);
+    const double behind = begin - last[d];
+    const double gap = (before > 0.0 ? before : 0.0) + (behind > 0.0 ? behind : 0.0);  // one of both is 0
+    return gap * gap;
+  }
 
   Vec<Dim> origin_ = Vec<Dim>::Zero();
   double edge_ = 1.0;
   std::array<int, Dim> axis_{};            ///< directions: first the one across the slabs, last the one along the rows
-  std::array<std::int64_t, Dim> count_{};  ///< cells along each axis_, with the rim
-  std::array<std::vector<Row>, 1 << Dim> rows_;  ///< for each part of a cell: halves along each axis
+  std::array<std::int64_t, Dim> count_{};  ///< cells along each axis_
   std::vector<std::int32_t> cell_begin_;
+  std::size_t size_ = 0;  ///< how many particles there are
   std::vector<std::int32_t> order_;
 };
 

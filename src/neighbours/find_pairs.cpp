@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -23,42 +22,158 @@ constexpr double parted_tolerance = 1e-3;
 /// into it.
 constexpr double rounded_at_rim = 1e-6;
 
-/// Places repeat after 16 supports. A grid whose reach is up to half as many offers none that far away, but one whose
-/// cells are coarse, because some particles are distant, may.
-constexpr double places_differ_within = 8.0;
+/// Particles that are searched for together are at most so many, and no farther apart along any axis than this share of
+/// the support.
+constexpr int most_in_group = 32;
+constexpr double group_extent = 1.4;
 
-/// Bit n is set if index n of a batch is at least `begin` and less than `end`.
-inline unsigned bits_between(const std::int32_t* indices, std::int32_t begin, std::int32_t end) {
-  const auto all = batch_at<IndexBatch>(indices);
-  return bits_of((all >= begin) & (all < end));
-}
-
-/// The places of particles in the order of a grid, number by number, so that those of a range of cells are read in
-/// lanes. The last range may be read beyond its end.
+/// A grid of the fluid alone. Most dummies are dry: in it they find empty cells only.
 template <int Dim>
-class OrderedPlaces {
- public:
-  OrderedPlaces(std::span<const std::int32_t> order, std::span<const Place<Dim>> place)
-      : index_(order.begin(), order.end()) {
-    index_.resize(order.size() + batch);
-    for (int d = 0; d < Dim; ++d) {
-      at_[d].resize(index_.size());
-      for_each(order.size(), [&](std::size_t n) { at_[d][n] = place[index_[n]].at[d]; });
-    }
-    signed_volume_.resize(index_.size());
-    for_each(order.size(), [&](std::size_t n) { signed_volume_[n] = place[index_[n]].signed_volume; });
+struct FluidGrid {
+  FluidGrid(const Particles<Dim>& particles, double reach) {
+    const std::vector<std::size_t> fluid =
+        indices_where(particles.size(), [&](std::size_t n) { return particles.is_fluid(n); });
+    std::vector<Vec<Dim>> position(fluid.size());
+    for_each(fluid.size(), [&](std::size_t n) { position[n] = particles.position[fluid[n]]; });
+    grid = CellGrid<Dim>(position, reach);
+    order.resize(fluid.size() + batch);
+    for_each(fluid.size(), [&](std::size_t n) { order[n] = static_cast<std::int32_t>(fluid[grid.order()[n]]); });
   }
 
-  /// Where the numbers of place n of the order and those behind it are. Outside the class, so that a loop that writes
-  /// keeps the addresses in registers.
-  struct View {
-    const std::int32_t* index;                 ///< of the particle
-    std::array<const std::uint32_t*, Dim> at;  ///< in units of Pairs::unit
-    const float* signed_volume;                ///< m^Dim; negative of a wall particle
+  CellGrid<Dim> grid;
+  std::vector<std::int32_t> order;
+};
 
-    /// The squares of the distances [m^2] to `own`.
-    FloatBatch squared_distances(const std::array<float, Dim>& unit, const Place<Dim>& own, std::size_t n) const {
-      FloatBatch squared;
+/// What a search goes through.
+template <int Dim>
+struct Searched {
+  const CellGrid<Dim>& grid;
+  const std::int32_t* order;  ///< of the grid, as indices of particles; may be read a batch beyond its end
+  bool holds_those_who_search;
+};
+
+/// Particles that follow each other and are near each other. Their neighbours are looked for among the same candidates.
+template <int Dim>
+struct Group {
+  Group(std::span<const Vec<Dim>> position, std::size_t first)
+      : begin(static_cast<std::int32_t>(first)), end(begin + 1), low(position[first]), high(low) {}
+
+  /// Takes the next particle in, unless the box would then be longer than `extent` [m].
+  bool take(const Vec<Dim>& position, double extent) {
+    const Vec<Dim> new_low = low.cwiseMin(position);
+    const Vec<Dim> new_high = high.cwiseMax(position);
+    if ((new_high - new_low).maxCoeff() > extent) return false;
+    low = new_low;
+    high = new_high;
+    ++end;
+    return true;
+  }
+
+  std::int32_t begin;
+  std::int32_t end;
+  Vec<Dim> low;  ///< m; of the box around them
+  Vec<Dim> high;
+};
+
+/// Indices of particles, written a batch at a time. May be read a batch beyond the end, where there are indices too.
+class IndexList {
+ public:
+  void clear() { count_ = 0; }
+  /// For so many more.
+  void make_room(std::size_t more) {
+    if (count_ + more + batch > index_.size()) index_.resize(2 * (count_ + more + batch));
+  }
+  /// Those of a batch whose bit is set.
+  void add(const std::int32_t* indices, unsigned bits) {
+    count_ = write_chosen(indices, bits, index_.data() + count_) - index_.data();
+  }
+  /// Those that are in memory, from where they may be read a batch beyond the end.
+  void add(std::span<const std::int32_t> indices) {
+    make_room(indices.size());
+    for (std::size_t n = 0; n < indices.size(); n += batch) {
+      std::memcpy(index_.data() + count_ + n, indices.data() + n, batch * sizeof(std::int32_t));
+    }
+    count_ += indices.size();
+  }
+  /// From `begin` to `end`.
+  void add_all(std::int32_t begin, std::int32_t end) {
+    make_room(end - begin);
+    for (; begin < end; ++begin) index_[count_++] = begin;
+  }
+  template <class Condition>
+  void remove_if(const Condition& condition) {
+    count_ = std::remove_if(index_.begin(), index_.begin() + static_cast<std::ptrdiff_t>(count_), condition) -
+             index_.begin();
+  }
+
+  std::size_t size() const { return count_; }
+  const std::int32_t* data() const { return index_.data(); }
+
+ private:
+  std::vector<std::int32_t> index_ = std::vector<std::int32_t>(batch);
+  std::size_t count_ = 0;
+};
+
+/// All that may be neighbours of the particles of a group, number by number, so that they are read in lanes. They have
+/// the order of a row: indices below the group, the group, indices above it, ghosts.
+template <int Dim>
+class Candidates {
+ public:
+  void find(const Searched<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
+    const auto owned = static_cast<std::int32_t>(pairs.owned());
+    for (IndexList& list : lists_) list.clear();
+    auto& [below, own, above, ghosts] = lists_;
+    const bool has_ghosts = pairs.owned() < pairs.place.size();
+    // Copied before they are told apart, because most ranges are shorter than a batch.
+    near_.clear();
+    searched.grid.for_each_range_near(
+        group.low, group.high, [&](std::int32_t begin, std::int32_t end) __attribute__((always_inline)) {
+          near_.add({searched.order + begin, searched.order + end});
+        });
+    for (IndexList* list : {&below, &above, &ghosts}) list->make_room(near_.size());
+    for (std::size_t n = 0; n < near_.size(); n += batch) {
+      const std::int32_t* const indices = near_.data() + n;
+      const auto index = batch_at<IndexBatch>(indices);
+      const unsigned all = first_bits(near_.size() - n);
+      below.add(indices, all & bits_of(index < group.begin));
+      above.add(indices, all & bits_of((index >= group.end) & (index < owned)));
+      if (has_ghosts) ghosts.add(indices, all & bits_of(index >= owned));
+    }
+    if (searched.holds_those_who_search) own.add_all(group.begin, group.end);
+
+    // In the coarse cells that a distant particle asks for, most are far away, some so far that places repeat.
+    const double radius = kernel_radius(pairs.kernel);
+    const bool is_coarse = searched.grid.reach() > 1.5 * radius;
+    count_ = 0;
+    for (IndexList& list : lists_) {
+      if (is_coarse) {
+        list.remove_if([&](std::int32_t j) { return squared_distance(pairs.position[j], group) > radius * radius; });
+      }
+      append(pairs, list);
+    }
+    for (int n = 0; n < batch; ++n) at_[0][count_ + n] = pairs.place[group.begin].at[0] + farthest;
+  }
+
+  std::size_t size() const { return count_; }
+
+  /// Writes the neighbours of particle i of the group to `j` and the squares of their distances [m^2] to `squared`, and
+  /// up to a batch beyond both. Returns how many there are.
+  std::size_t write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j, float* squared,
+                               std::uint8_t& sees_wall) const {
+    const double radius = kernel_radius(pairs.kernel);
+    const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
+    const Place<Dim> own = pairs.place[i];
+    const std::array<float, Dim> unit = pairs.unit;
+    // Out of the vectors, so that a loop that writes keeps the addresses in registers.
+    const std::int32_t* const index = index_.data();
+    const float* const signed_volume = signed_volume_.data();
+    std::array<const std::uint32_t*, Dim> at;
+    for (int a = 0; a < Dim; ++a) at[a] = at_[a].data();
+    const std::size_t count = count_;
+    std::int32_t* end = j;
+    IndexBatch walls{};
+    for (std::size_t n = 0; n < count; n += batch) {
+      FloatBatch distances;
       for (int m = 0; m < batch; m += lane_count) {
         VecLanes<Dim> d;
         for (int a = 0; a < Dim; ++a) {
@@ -67,130 +182,51 @@ class OrderedPlaces {
           d.at[a] = difference(unit[a], own.at[a], places);
         }
         const Lanes square = d.dot(d);
-        std::memcpy(reinterpret_cast<float*>(&squared) + m, &square, sizeof(square));
+        std::memcpy(reinterpret_cast<float*>(&distances) + m, &square, sizeof(square));
       }
-      return squared;
+      const IndexBatch is_near = (distances < radius_squared) & (batch_at<IndexBatch>(index + n) != i);
+      walls |= is_near & (batch_at<FloatBatch>(signed_volume + n) < 0.0F);
+      const unsigned near = bits_of(is_near);
+      write_chosen(reinterpret_cast<const float*>(&distances), near, squared + (end - j));
+      end = write_chosen(index + n, near, end);
     }
-  };
-  View view() const {
-    View view{.index = index_.data(), .at = {}, .signed_volume = signed_volume_.data()};
-    for (int d = 0; d < Dim; ++d) view.at[d] = at_[d].data();
-    return view;
-  }
-
- private:
-  std::vector<std::int32_t> index_;
-  std::array<std::vector<std::uint32_t>, Dim> at_;
-  std::vector<float> signed_volume_;
-};
-
-/// A grid of the fluid alone. Most dummies are dry: in it they find empty cells only.
-template <int Dim>
-struct FluidGrid {
-  FluidGrid(const Particles<Dim>& particles, double reach) {
-    for (const std::size_t j : indices_where(particles.size(), [&](std::size_t n) { return particles.is_fluid(n); })) {
-      order.push_back(static_cast<std::int32_t>(j));
-    }
-    std::vector<Vec<Dim>> position(order.size());
-    for_each(order.size(), [&](std::size_t n) { position[n] = particles.position[order[n]]; });
-    grid = CellGrid<Dim>(position, reach);
-    const std::vector<std::int32_t> fluid = order;
-    for_each(order.size(), [&](std::size_t n) { order[n] = fluid[grid.order()[n]]; });
-  }
-
-  CellGrid<Dim> grid;
-  std::vector<std::int32_t> order;  ///< of the grid, as indices of particles
-};
-
-/// What a search goes through.
-template <int Dim>
-struct Searched {
-  const CellGrid<Dim>& grid;
-  OrderedPlaces<Dim> places;
-};
-
-/// The neighbours of one particle at a time, and the squares of their distances. Its arrays, and those to which it
-/// writes, are written up to a batch beyond their ends.
-template <int Dim>
-class NeighbourRow {
- public:
-  explicit NeighbourRow(std::size_t all)
-      : all_(static_cast<std::int32_t>(all)), j_(all + batch), squared_(all + batch) {}
-
-  /// Finds the particles in the support of particle i, itself too if it is among those searched, in the order of the
-  /// grid. Returns how many.
-  std::size_t find(const Searched<Dim>& searched, const Pairs<Dim>& pairs, std::size_t i) {
-    const double radius = kernel_radius(pairs.kernel);
-    const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
-    typename CellGrid<Dim>::Ranges ranges;
-    const int range_count = searched.grid.find_ranges_near(pairs.position[i], ranges);
-    const auto places = searched.places.view();
-    const Place<Dim> own = pairs.place[i];
-    const std::array<float, Dim> unit = pairs.unit;
-    std::int32_t* j_end = j_.data();
-    float* squared_end = squared_.data();
-    int walls = 0;
-    for (int r = 0; r < range_count; ++r) {
-      const std::int32_t end = ranges[r].end;
-      for (std::int32_t n = ranges[r].begin; n < end; n += batch) {
-        const FloatBatch squared = places.squared_distances(unit, own, n);
-        const unsigned near = bits_of(squared < radius_squared) & first_bits(end - n);
-        const unsigned wall = bits_of(batch_at<FloatBatch>(places.signed_volume + n) < 0.0F);
-        j_end = write_chosen(places.index + n, near, j_end);
-        squared_end = write_chosen(reinterpret_cast<const float*>(&squared), near, squared_end);
-        walls += std::popcount(near & wall);
-      }
-    }
-    count_ = j_end - j_.data();
-    walls_ = walls;
-    if (searched.grid.reach() > places_differ_within * radius) drop_far(pairs, i);
-    return count_;
-  }
-
-  /// Writes what was found without `self`, neighbours to `j` and the squares of their distances to `squared`: the
-  /// indices below `self`, those above it and those from `owned` on, ghosts, each kind in the order in which they were
-  /// found. Returns how many.
-  std::size_t write_in_order(std::int32_t self, std::int32_t owned, std::int32_t* j, float* squared) const {
-    std::int32_t* end = j;
-    const auto write_those_between = [&](std::int32_t begin_index, std::int32_t end_index) {
-      if (begin_index == end_index) return;
-      for (std::size_t n = 0; n < count_; n += batch) {
-        const unsigned chosen = bits_between(j_.data() + n, begin_index, end_index) & first_bits(count_ - n);
-        write_chosen(squared_.data() + n, chosen, squared + (end - j));
-        end = write_chosen(j_.data() + n, chosen, end);
-      }
-    };
-    write_those_between(0, self);
-    write_those_between(self + 1, owned);
-    write_those_between(owned, all_);
+    sees_wall = bits_of(walls != 0) != 0 ? 1 : 0;
     return end - j;
   }
 
-  /// How many wall particles were found, itself counted too.
-  int walls() const { return walls_; }
-
  private:
-  /// Drops those that are as far away as places take to repeat.
-  void drop_far(const Pairs<Dim>& pairs, std::size_t i) {
-    const double far = 4.0 * kernel_radius(pairs.kernel) * kernel_radius(pairs.kernel);
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < count_; ++n) {
-      const std::int32_t j = j_[n];
-      if ((pairs.position[i] - pairs.position[j]).squaredNorm() > far) {
-        walls_ -= pairs.place[j].signed_volume < 0.0F ? 1 : 0;
-        continue;
-      }
-      j_[kept] = j;
-      squared_[kept++] = squared_[n];
-    }
-    count_ = kept;
+  /// From any place, and from those of a group nearly, the place farthest from it.
+  static constexpr std::uint32_t farthest = 1U << 31;
+
+  static double squared_distance(const Vec<Dim>& position, const Group<Dim>& group) {
+    return (position - position.cwiseMax(group.low).cwiseMin(group.high)).squaredNorm();
   }
 
-  std::int32_t all_;  ///< how many particles there are
-  std::vector<std::int32_t> j_;
-  std::vector<float> squared_;  ///< m^2
+  /// Reads and writes up to a batch beyond the end.
+  void append(const Pairs<Dim>& pairs, const IndexList& list) {
+    const std::size_t room = count_ + list.size() + batch;
+    if (room > index_.size()) {
+      index_.resize(2 * room);
+      signed_volume_.resize(2 * room);
+      for (auto& at : at_) at.resize(2 * room);
+    }
+    for (std::size_t n = 0; n < list.size(); n += lane_count) {
+      IntegerLanes j;
+      std::memcpy(&j, list.data() + n, sizeof(j));
+      const auto numbers = LaneIndices(j).numbers(pairs.place.data());
+      std::memcpy(index_.data() + count_ + n, &j, sizeof(j));
+      for (int a = 0; a < Dim; ++a) std::memcpy(at_[a].data() + count_ + n, &numbers[a], sizeof(j));
+      std::memcpy(signed_volume_.data() + count_ + n, &numbers[Dim], sizeof(j));
+    }
+    count_ += list.size();
+  }
+
+  IndexList near_;
+  std::array<IndexList, 4> lists_;
+  std::vector<std::int32_t> index_;
+  std::array<std::vector<std::uint32_t>, Dim> at_;  ///< in units of Pairs::unit
+  std::vector<float> signed_volume_;                ///< m^Dim; negative of a wall particle
   std::size_t count_ = 0;
-  int walls_ = 0;
 };
 
 /// Of row i finds F from the squares of distances in its place. Returns whether some are less than the least one's.
@@ -241,35 +277,51 @@ void part_coinciding(Pairs<Dim>& pairs) {
 template <int Dim>
 std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, const Particles<Dim>& particles,
                       WallRows wall_rows, Pairs<Dim>& pairs) {
-  const Searched<Dim> all{grid, {grid.order(), pairs.place}};
-  const Searched<Dim> only_fluid{fluid.grid, {fluid.order, pairs.place}};
+  const Searched<Dim> all{grid, grid.order().data(), true};
+  const Searched<Dim> only_fluid{fluid.grid, fluid.order.data(), false};  // searched by walls
   const auto sees_all = [&](std::size_t i) { return wall_rows == WallRows::all || particles.is_fluid(i); };
-  NeighbourRow<Dim> row(particles.size());
-  const auto find_row = [&](std::size_t i) { return row.find(sees_all(i) ? all : only_fluid, pairs, i); };
+  const double extent = group_extent * kernel_radius(pairs.kernel);
+  Candidates<Dim> candidates;
+  const auto for_each_row = [&](auto&& body) {
+    for (std::size_t i = 0; i < particles.owned;) {  // in order: a group begins where the last one ends
+      Group<Dim> group(pairs.position, i);
+      while (group.end - group.begin < most_in_group && group.end < static_cast<std::int32_t>(particles.owned) &&
+             sees_all(group.end) == sees_all(i) && group.take(pairs.position[group.end], extent)) {
+      }
+      candidates.find(sees_all(i) ? all : only_fluid, pairs, group);
+      for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(i);
+    }
+  };
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
   pairs.sees_wall.resize(particles.owned);
   // The first pairs are counted before they are kept; later ones are about as many as the last.
-  const std::size_t before = pairs.j.size();
-  const std::size_t expected = before > 0 ? before : count_each(particles.owned, find_row);
+  std::size_t expected = pairs.j.size();
+  if (expected == 0) {
+    std::vector<std::int32_t> j;
+    std::vector<float> squared;
+    for_each_row([&](std::size_t i) {
+      j.resize(std::max(j.size(), candidates.size() + batch));
+      squared.resize(j.size());
+      expected += candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j.data(), squared.data(),
+                                              pairs.sees_wall[i]);
+    });
+  }
   make_room(pairs.j, expected);
   make_room(pairs.F, expected);
   std::size_t crowded = 0;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: rows are put one behind the other
+  for_each_row([&](std::size_t i) {  // in order: rows are put one behind the other
     const std::size_t begin = pairs.row_begin[i];
-    const std::size_t most = begin + find_row(i) + batch;
+    const std::size_t most = begin + candidates.size() + batch;
     if (most > pairs.j.size()) {
       pairs.j.resize(std::max(most, pairs.j.capacity()));
       pairs.F.resize(pairs.j.size());
     }
-    const std::size_t count =
-        row.write_in_order(static_cast<std::int32_t>(i), static_cast<std::int32_t>(particles.owned),
-                           pairs.j.data() + begin, pairs.F.data() + begin);
-    pairs.row_begin[i + 1] = begin + count;
-    const int finds_itself_as_wall = sees_all(i) && !particles.is_fluid(i) ? 1 : 0;
-    pairs.sees_wall[i] = row.walls() > finds_itself_as_wall ? 1 : 0;
+    pairs.row_begin[i + 1] =
+        begin + candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), pairs.j.data() + begin,
+                                            pairs.F.data() + begin, pairs.sees_wall[i]);
     crowded += find_steepness(pairs, i) ? 1 : 0;
-  }
+  });
   pairs.j.resize(pairs.row_begin.back());
   pairs.F.resize(pairs.row_begin.back());
   return crowded;

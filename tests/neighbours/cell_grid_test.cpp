@@ -55,6 +55,31 @@ TYPED_TEST(CellGridTest, OffersEverythingWithinReachAndOrdersAll) {
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], static_cast<std::int32_t>(i));
 }
 
+TYPED_TEST(CellGridTest, OffersEverythingWithinReachOfABoxInRangesThatFollowEachOther) {
+  constexpr int Dim = TypeParam::value;
+  const auto positions = random_places<Dim>(500, 5);
+  const CellGrid<Dim> grid(positions, 0.3);
+  for (const Vec<Dim>& low : random_places<Dim>(100, 6)) {
+    const Vec<Dim> high = low + Vec<Dim>::LinSpaced(0.0, 0.25);
+    std::vector<int> offered(positions.size(), 0);
+    std::int32_t last = 0;
+    grid.for_each_range_near(low, high, [&](std::int32_t begin, std::int32_t end) {
+      EXPECT_LE(last, begin);
+      last = end;
+      for (std::int32_t n = begin; n < end; ++n) ++offered[grid.order()[n]];
+    });
+    std::size_t within_reach = 0;
+    for (std::size_t j = 0; j < positions.size(); ++j) {
+      const Vec<Dim> nearest = positions[j].cwiseMax(low).cwiseMin(high);
+      if ((positions[j] - nearest).norm() > grid.reach()) continue;
+      ++within_reach;
+      EXPECT_EQ(offered[j], 1) << "particle " << j;
+    }
+    const auto all = std::count(offered.begin(), offered.end(), 1);
+    EXPECT_LE(all, 20 + 2 * within_reach) << "many that are far";
+  }
+}
+
 TYPED_TEST(CellGridTest, SurvivesAFarOutlier) {
   constexpr int Dim = TypeParam::value;
   auto positions = random_places<Dim>(300, 3);
