@@ -292,6 +292,9 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
       for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(i);
     }
   };
+  const auto write_row = [&](std::size_t i, std::int32_t* j, float* squared) {
+    return candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j, squared, pairs.sees_wall[i]);
+  };
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
   pairs.sees_wall.resize(particles.owned);
@@ -303,8 +306,7 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
     for_each_row([&](std::size_t i) {
       j.resize(std::max(j.size(), candidates.size() + batch));
       squared.resize(j.size());
-      expected += candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j.data(), squared.data(),
-                                              pairs.sees_wall[i]);
+      expected += write_row(i, j.data(), squared.data());
     });
   }
   make_room(pairs.j, expected);
@@ -317,9 +319,7 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
       pairs.j.resize(std::max(most, pairs.j.capacity()));
       pairs.F.resize(pairs.j.size());
     }
-    pairs.row_begin[i + 1] =
-        begin + candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), pairs.j.data() + begin,
-                                            pairs.F.data() + begin, pairs.sees_wall[i]);
+    pairs.row_begin[i + 1] = begin + write_row(i, pairs.j.data() + begin, pairs.F.data() + begin);
     crowded += find_steepness(pairs, i) ? 1 : 0;
   });
   pairs.j.resize(pairs.row_begin.back());

@@ -315,18 +315,29 @@ TYPED_TEST(NeighbourhoodTest, PairsKeepTheirGeometryWhenParticlesJump) {
   }
 }
 
-TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhosts) {
+TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhostsEachInTheOrderOfTheGrid) {
   constexpr int Dim = TypeParam::value;
+  constexpr std::size_t most_in_group = 32;  // those that are searched for with a particle have the order of indices
   Particles<Dim> particles = random_fluid<Dim>(400, 13);
   auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, unit_domain<Dim>(Dim));
   for (const bool is_sorted : {false, true}) {  // sorted, many particles are searched for together
     if (is_sorted) neighbourhood.reorder(particles, ParticleOrder::z_curve);
     neighbourhood.update(particles);
     const Pairs<Dim>& pairs = neighbourhood.pairs();
+    std::vector<std::size_t> place(particles.size());
+    for (std::size_t n = 0; n < place.size(); ++n) place[neighbourhood.grid().order()[n]] = n;
     for (std::size_t i = 0; i < particles.owned; ++i) {
-      const auto kind = [&](std::size_t j) { return j < i ? 0 : j < particles.owned ? 1 : 2; };
-      for (std::size_t k = pairs.begin(i) + 1; k < pairs.end(i); ++k) {
-        ASSERT_LE(kind(pairs.j[k - 1]), kind(pairs.j[k]));
+      int last_kind = 0;
+      auto last_far = std::pair(-1, std::size_t{0});
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        const auto j = static_cast<std::size_t>(pairs.j[k]);
+        const int kind = static_cast<int>(j >= i) + static_cast<int>(j >= particles.owned);
+        ASSERT_LE(last_kind, kind);
+        last_kind = kind;
+        const std::size_t apart = std::max(i, j) - std::min(i, j);
+        if (apart < most_in_group) continue;
+        ASSERT_LT(last_far, std::pair(kind, place[j]));
+        last_far = {kind, place[j]};
       }
     }
   }
