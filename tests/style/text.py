@@ -1,5 +1,6 @@
-"""What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, and loops over
-particles go through base/for_each.h or say on their line why they are plain loops (`// in order: appends`).
+"""What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, only notebooks
+name commits, and loops over particles go through base/for_each.h or say on their line why they are plain loops
+(`// in order: appends`).
 Usage: text.py markdown|citations|loops ROOT"""
 import pathlib
 import re
@@ -8,6 +9,8 @@ import sys
 TEXTS = {".md", ".h", ".cpp", ".py", ".toml", ".txt", ".sh", ".csv"}
 LONGEST = 120
 WRITTEN = {"bench.md", "speed.md"}  # by the program, beside its runs
+COMMIT = re.compile(r"\b(?=[0-9a-f]*[0-9])(?=[0-9a-f]*[a-f])[0-9a-f]{7,12}\b")
+NAMES_COMMITS = {"docs/validation.md"}  # the one that its results are of
 
 
 def files(root):
@@ -35,12 +38,19 @@ def markdown(root):
                     yield file, number, f"{len(line)} characters; break the line at {LONGEST}"
 
 
+def may_name_commits(file, root):
+    path = file.relative_to(root)
+    return path.is_relative_to("docs/notebook") or str(path) in NAMES_COMMITS
+
+
 def citations(root):
     names = {file.name for file in files(root)} | WRITTEN
     for file in files(root):
         for number, line in numbered(file):
             for issue in re.findall(r"\bissue (?:#\s*)?\d+\b", line):
                 yield file, number, f'cites "{issue}", which is not in the tree; say here what it says'
+            for commit in COMMIT.findall(line) if file.suffix == ".md" and not may_name_commits(file, root) else []:
+                yield file, number, f"names commit {commit}; say what it measured, and leave commits to a notebook"
             for name in re.findall(r"[\w-]+\.md\b", line):
                 if name not in names:
                     yield file, number, f"cites {name}, which is not in the tree; say here what it says"
