@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [fuzz]   default: all but fuzz
+# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [site] [fuzz]   default: all but site, fuzz
 set -euo pipefail
 
 build=(
@@ -11,7 +11,8 @@ build=(
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
-tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}")
+site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
+tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}" "${site[@]}")
 
 (($# > 0)) || set -- build tests pictures benchmarks
 wanted=()
@@ -21,8 +22,9 @@ for group in "$@"; do
     tests) wanted+=("${tests[@]}") ;;
     pictures) wanted+=("${pictures[@]}") ;;
     benchmarks) wanted+=("${benchmarks[@]}") ;;
+    site) wanted+=("${site[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, fuzz" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, site, fuzz" >&2; exit 2 ;;
   esac
 done
 missing=()

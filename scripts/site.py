@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""Builds the site from the documents of the tree: out/site/index.html, which opens without a server and without the net.
+
+Usage: scripts/site.py [DIR]    DIR: where to put it (default: out/site)
+Needs `scripts/install.sh site`. Exit code 1 if mkdocs warns or a link is dead: every link of every page must lead to a
+page, to a place on it, or to a file that is there, and no page may load anything from the net.
+"""
+import html.parser
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+KATEX = pathlib.Path("/usr/share/javascript/katex")
+LINK = re.compile(r"(?<=\]\()([^)\s#]+)(?=[)#])")
+
+
+def pages():
+    """Documents of the tree, relative to it."""
+    return sorted(path.relative_to(ROOT) for pattern in ("*.md", "docs/**/*.md", "cases/*/README.md")
+                  for path in ROOT.glob(pattern))
+
+
+def title(page):
+    return next((line[2:] for line in (ROOT / page).read_text(encoding="utf-8").splitlines() if line.startswith("# ")),
+                page.stem)
+
+
+def stage(folder):
+    """Lays the documents out in `folder` as they are in the tree, with the files that they link to."""
+    for page in pages():
+        text = (ROOT / page).read_text(encoding="utf-8")
+        for link in set(LINK.findall(text)):
+            target = ((ROOT / page).parent / link).resolve()
+            if "://" in link or not target.is_relative_to(ROOT):
+                continue
+            if target.is_dir():  # a site has no folders to look at
+                to = f"{link.rstrip('/')}/README.md" if (target / "README.md").is_file() else None
+                text = text.replace(f"]({link})", f"]({to})") if to else re.sub(
+                    r"\[([^\]]*)\]\(" + re.escape(link) + r"\)", r"\1", text)
+            elif target.is_file() and target.suffix != ".md":
+                copy = folder / target.relative_to(ROOT)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(target, copy)
+        copy = folder / page
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(text, encoding="utf-8")
+    shutil.copytree(KATEX, folder / "katex", ignore=shutil.ignore_patterns("*.mjs", "contrib"))
+    shutil.copyfile(KATEX / "contrib" / "auto-render.js", folder / "katex" / "auto-render.js")
+    shutil.copyfile(ROOT / "site" / "formulas.js", folder / "formulas.js")
+
+
+def entries(pattern, newest_first=False):
+    chosen = [page for page in pages() if page.match(pattern)]
+    chosen.sort(key=lambda page: (page.name != "README.md" or "cases" in page.parts, page.name, str(page)),
+                reverse=newest_first)
+    return [{title(page): str(page)} for page in chosen]
+
+
+def configuration(source, target):
+    config = yaml.safe_load((ROOT / "site" / "mkdocs.yml").read_text(encoding="utf-8"))
+    lists = {"THEORY": entries("docs/theory/*.md"), "CASES": entries("cases/*/README.md"),
+             "NOTEBOOK": entries("docs/notebook/*.md", newest_first=True)}
+
+    def fill(node):
+        if isinstance(node, list):
+            return [fill(child) for child in node]
+        if isinstance(node, dict):
+            return {key: fill(child) for key, child in node.items()}
+        return lists.get(node, node)
+
+    return config | {"docs_dir": str(source), "site_dir": str(target), "nav": fill(config["nav"])}
+
+
+class Links(html.parser.HTMLParser):
+    """What a page links to, what it loads, and the places on it."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.loads, self.places = [], [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.places |= {values[key] for key in ("id", "name") if values.get(key)}
+        if tag == "a" and values.get("href"):
+            self.links.append(values["href"])
+        if tag in ("img", "script") and values.get("src"):
+            self.loads.append(values["src"])
+        if tag == "link" and values.get("rel") == "stylesheet":
+            self.loads.append(values["href"])
+
+
+def dead_links(site):
+    """[(page, link)] that lead nowhere or out of the machine."""
+    parsed = {path: Links(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+    dead = []
+    for page, found in parsed.items():
+        for link in found.links + found.loads:
+            address = urllib.parse.urlsplit(link)
+            if address.scheme in ("http", "https", "mailto"):
+                if link in found.loads:
+                    dead.append((page.relative_to(site), link))
+                continue
+            path = urllib.parse.unquote(address.path)
+            target = page if not path else (site / path.lstrip("/") if path.startswith("/") else (page.parent / path)).resolve()
+            if target.is_dir():
+                target = target / "index.html"
+            place = urllib.parse.unquote(address.fragment)
+            if page.name != "404.html" and (not target.is_file() or
+                                            (place and target in parsed and place not in parsed[target].places)):
+                dead.append((page.relative_to(site), link))
+    return dead
+
+
+def main(arguments):
+    if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
+        print(__doc__, file=sys.stderr)
+        return 2
+    site = pathlib.Path(arguments[0] if arguments else ROOT / "out" / "site").resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder) / "pages"
+        source.mkdir()
+        stage(source)
+        config = pathlib.Path(folder) / "mkdocs.yml"
+        config.write_text(yaml.safe_dump(configuration(source, site)), encoding="utf-8")
+        built = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--config-file", config], check=False)
+    if built.returncode != 0:
+        return 1
+    dead = dead_links(site)
+    for page, link in dead:
+        print(f"site.py: {page}: {link} leads nowhere")
+    if not dead:
+        print(f"site.py: {len(list(site.rglob('*.html')))} pages, no dead link: {site / 'index.html'}")
+    return 1 if dead else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
