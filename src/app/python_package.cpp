@@ -21,11 +21,12 @@ namespace {
 constexpr const char* python = "/usr/bin/python3";
 
 std::filesystem::path validation_folder(const std::string& module) {
-  const std::filesystem::path folder = std::filesystem::path(TAILWATER_SOURCE_DIR) / "validation";
+  const std::filesystem::path folder =
+      std::filesystem::path(this_program()).parent_path().parent_path() / "share" / "tailwater" / "validation";
   if (!std::filesystem::exists(folder / "tailwater_validation" / (module + ".py"))) {
     throw IoError(
-        fmt::format("the Python package that runs and scores cases is not in '{}', where this program was built from; "
-                    "remedy: keep the sources there, or build again",
+        fmt::format("the Python package that runs and scores cases is not in '{}', beside this program; "
+                    "remedy: install the program whole (cmake --install), or build it again",
                     folder.string()));
   }
   return folder;

@@ -1,0 +1,22 @@
+# The outside libraries, for this build and for programs that use the installed one (TailwaterConfig.cmake).
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(muparser REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C)
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
+# The flags that Debian built PETSc with. With them a room could not use the precompiled header of the others.
+set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+# That with which PETSc is linked: a process cannot hold two builds of HDF5.
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
+find_path(ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos REQUIRED)
+find_library(ZOLTAN_LIBRARY trilinos_zoltan REQUIRED)
+if(NOT TARGET Zoltan::zoltan)
+  add_library(Zoltan::zoltan INTERFACE IMPORTED)
+  target_include_directories(Zoltan::zoltan SYSTEM INTERFACE ${ZOLTAN_INCLUDE_DIR})
+  target_link_libraries(Zoltan::zoltan INTERFACE ${ZOLTAN_LIBRARY} MPI::MPI_C)
+endif()

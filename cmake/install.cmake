@@ -1,0 +1,34 @@
+# What `cmake --install` puts where: the program, what it needs at run time in share/tailwater, the library of all rooms
+# with its headers for find_package(Tailwater), and the documents. Nothing installed looks at the sources.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS tailwater RUNTIME COMPONENT program)
+set(data ${CMAKE_INSTALL_DATADIR}/tailwater)
+install(DIRECTORY validation/tailwater_validation DESTINATION ${data}/validation COMPONENT program
+        PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY cases DESTINATION ${data} COMPONENT program)
+install(FILES benchmarks/dam_break_3d.toml DESTINATION ${data}/benchmarks COMPONENT program)
+install(FILES LICENSE NOTICE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        COMPONENT documents)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+
+get_property(rooms GLOBAL PROPERTY tailwater_rooms)
+foreach(room ${rooms})
+  set_target_properties(tailwater_${room} PROPERTIES EXPORT_NAME ${room})
+  install(TARGETS tailwater_${room} EXPORT Tailwater ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/tailwater
+          COMPONENT library)
+  install(DIRECTORY src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tailwater COMPONENT library
+          FILES_MATCHING PATTERN *.h)
+endforeach()
+set_target_properties(tailwater_options PROPERTIES EXPORT_NAME options)
+install(TARGETS tailwater_options EXPORT Tailwater COMPONENT library)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Tailwater)
+install(EXPORT Tailwater NAMESPACE Tailwater:: DESTINATION ${package} COMPONENT library)
+configure_package_config_file(cmake/TailwaterConfig.cmake.in ${PROJECT_BINARY_DIR}/TailwaterConfig.cmake
+                              INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/TailwaterConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/TailwaterConfig.cmake ${PROJECT_BINARY_DIR}/TailwaterConfigVersion.cmake
+              cmake/TailwaterDependencies.cmake
+        DESTINATION ${package} COMPONENT library)

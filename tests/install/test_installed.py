@@ -1,0 +1,83 @@
+"""The installed program: every command works from a copy that knows nothing of the sources, and a program of one's own
+finds the library."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+BUILD = Path(os.environ["TAILWATER_BUILD"])
+SOURCES = Path(__file__).resolve().parents[2]
+SHORT = ["--set", "particles.spacing=0.05", "--set", "time.end=0.05"]
+
+
+def run(*command, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        cls.prefix = cls.folder / "usr"
+        run("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        cls.program = cls.prefix / "bin" / "tailwater"
+        cls.hidden = cls.hides_sources()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    @classmethod
+    def hides_sources(cls):
+        """What makes a command see an empty folder in place of the sources, where this machine allows that."""
+        words = ["unshare", "--mount", "sh", "-c", f'mount -t tmpfs none "{SOURCES}" && exec "$@"', "sh"]
+        allowed = subprocess.run([*words, "true"], capture_output=True, check=False).returncode == 0
+        return words if allowed else []
+
+    def tailwater(self, *arguments):
+        return run(*self.hidden, self.program, *arguments, cwd=self.folder, env={"PATH": os.environ["PATH"]})
+
+    def test_has_no_path_of_the_sources(self):
+        for path in [self.program, *self.prefix.glob("lib/cmake/Tailwater/*")]:
+            self.assertNotIn(str(SOURCES).encode() + b"/", path.read_bytes(), path)
+
+    def test_commands(self):
+        self.tailwater("new", "dam-break", "my.toml")
+        self.tailwater("check", "my.toml", *SHORT)
+        self.tailwater("run", "my.toml", "--out", "out", *SHORT)
+        self.assertIn("done", self.tailwater("info", "out"))
+        self.tailwater("resume", "out", "--set", "time.end=0.06")
+        self.tailwater("pictures", "out")
+        self.assertTrue(list(self.folder.glob("out/pictures/*.png")))
+        for command in ("validate", "bench robustness"):
+            self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
+        self.tailwater("waves", "--help")
+
+    def test_cases_are_there(self):
+        cases = self.prefix / "share" / "tailwater" / "cases"
+        self.tailwater("check", cases / "zhou1999" / "case.toml", "--set", "particles.spacing=0.1")
+
+    def test_library_builds_a_program(self):
+        build = self.folder / "build"
+        run("cmake", "-S", SOURCES / "tests" / "install" / "program", "-B", build, "-G", "Ninja",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O0")
+        run("cmake", "--build", build)
+        self.tailwater("new", "tank", "tank.toml")
+        text = (self.folder / "tank.toml").read_text(encoding="utf-8")
+        self.assertIn("end = ", text)
+        (self.folder / "tank.toml").write_text(
+            "\n".join("end = 0.01" if line.startswith("end = ") else line for line in text.splitlines()), encoding="utf-8")
+        run(build / "a_run", self.folder / "tank.toml", self.folder / "of_program")
+        summary = json.loads((self.folder / "of_program" / "summary.json").read_text(encoding="utf-8"))
+        self.assertEqual(summary["status"], "done")
+
+
+if __name__ == "__main__":
+    unittest.main()
