@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [site] [fuzz]   default: all but site, fuzz
+# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [web] [site] [fuzz]   default: all but site, fuzz
 set -euo pipefail
 
 build=(
@@ -10,11 +10,20 @@ build=(
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
+web=(chromium)  # for the tests of the page; what builds it is Node, below
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
 tests=(libgtest-dev clang-format clang-tidy "${pictures[@]}" "${site[@]}")
 
-(($# > 0)) || set -- build tests pictures benchmarks
+# The page is built by the Node that is there, else by Debian's. Debian's npm does not install beside a newer Node, which
+# brings its own.
+if ! command -v node >/dev/null; then
+  web+=(nodejs npm)
+elif ! command -v npm >/dev/null && [[ $(dpkg-query -W -f='${Version}' nodejs 2>/dev/null) == *dfsg* ]]; then
+  web+=(npm)
+fi
+
+(($# > 0)) || set -- build tests pictures benchmarks web
 wanted=()
 for group in "$@"; do
   case $group in
@@ -22,9 +31,10 @@ for group in "$@"; do
     tests) wanted+=("${tests[@]}") ;;
     pictures) wanted+=("${pictures[@]}") ;;
     benchmarks) wanted+=("${benchmarks[@]}") ;;
+    web) wanted+=("${web[@]}"); page=yes ;;
     site) wanted+=("${site[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, site, fuzz" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, web, site, fuzz" >&2; exit 2 ;;
   esac
 done
 missing=()
@@ -32,18 +42,33 @@ for package in "${wanted[@]}"; do
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
   [[ $status == "install ok installed" ]] || missing+=("$package")
 done
-if ((${#missing[@]} == 0)); then
-  exit 0
-fi
 
-as_root=()
-if ((EUID != 0)); then
-  command -v sudo >/dev/null || {
-    echo "install.sh: run as root or install sudo; missing packages: ${missing[*]}" >&2
+install_missing() {
+  ((${#missing[@]} > 0)) || return 0
+  local as_root=()
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || {
+      echo "install.sh: run as root or install sudo; missing packages: ${missing[*]}" >&2
+      exit 1
+    }
+    as_root=(sudo)
+  fi
+  echo "install.sh: installing ${missing[*]}" >&2
+  "${as_root[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# What web/package-lock.json names, as it names it.
+install_page() {
+  cd "$(dirname "${BASH_SOURCE[0]}")/../web"
+  [[ node_modules/.package-lock.json -nt package-lock.json ]] && return 0
+  command -v npm >/dev/null || {
+    echo "install.sh: this Node has no npm; remedy: install the npm that belongs to it, or remove it for Debian's" >&2
     exit 1
   }
-  as_root=(sudo)
-fi
-echo "install.sh: installing ${missing[*]}" >&2
-"${as_root[@]}" apt-get update -qq
-DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  echo "install.sh: installing what web/package-lock.json names" >&2
+  npm ci --silent
+}
+
+install_missing
+[[ -z ${page:-} ]] || install_page

@@ -12,5 +12,6 @@ if [[ $preset == asan ]]; then
 fi
 
 scripts/install.sh build tests
+scripts/install.sh web || echo "test.sh: the page's tests will be skipped" >&2
 scripts/build.sh "$preset" --tests
 ctest --test-dir "build/$preset" --output-on-failure --parallel 2 "$@"

@@ -1,0 +1,140 @@
+// What the parts of the page share: runs, clock, look, and where data come from.
+import type { State } from "./contract.ts";
+import { DecodeWorker } from "./frames/window.ts";
+import { savePicture } from "./picture/still.ts";
+import { RunModel } from "./run/model.ts";
+import type { Server, Source } from "./source.ts";
+import { Store, type Look } from "./store.ts";
+import { Player } from "./time/player.ts";
+import type { WaterView } from "./water/view.ts";
+
+const remembered = "tailwater-theme";
+
+export class App {
+  readonly player = new Player();
+  readonly data = new Store({ revision: 0 });
+  readonly look: Store<Look>;
+  readonly runs: RunModel[] = [];
+  state: State | null = null;
+  /** Why there is nothing to see. */
+  trouble = "";
+  view: WaterView | null = null;
+  /** Asks for a new picture. */
+  touch: () => void = () => {};
+  /** Called before each picture; a film listens here. */
+  drawing: (() => void) | null = null;
+  drawn: ((exact: boolean) => void) | null = null;
+  limits: [number, number] | null = null;
+  /** Kept by the time bar. */
+  playerShape: { on(listener: () => void): () => void } | null = null;
+  private worker: DecodeWorker;
+  private pending = false;
+
+  constructor(
+    readonly source: Source,
+    readonly server: Server | null,
+    workerCode: string,
+  ) {
+    this.worker = new DecodeWorker(workerCode);
+    this.look = new Store<Look>({
+      theme: theme(), colouring: "speed", map: "water", limits: {}, momentary: false, water: "particles", size: 1, section: null, labels: true,
+      walls: true, profiles: true, layout: "side", shown: [], probe: null, tab: "gauges", side: true, dialog: "",
+    });
+    document.documentElement.dataset["theme"] = this.look.now.theme;
+  }
+
+  async begin(): Promise<void> {
+    try {
+      this.state = await this.source.state();
+      document.title = `${this.state.runs[0]?.name ?? this.state.case?.path ?? "Tailwater"} · Tailwater`;
+      if (this.state.mode === "case") this.look.change({ tab: "case" });
+      const first = this.state.runs.slice(0, this.state.mode === "sweep" ? 4 : 1);
+      for (const run of first) await this.open(run.id);
+    } catch (error) {
+      this.trouble = error instanceof Error ? error.message : String(error);
+    }
+    this.changed();
+  }
+
+  /** Opens a run that the server knows, and shows it beside those that are shown. */
+  async open(id: string): Promise<void> {
+    const known = this.state?.runs.find((run) => run.id === id) ?? { id, name: id };
+    if (!this.runs.some((run) => run.id === id)) {
+      const run = await RunModel.open(this.source, this.worker, known, () => this.changed());
+      this.runs.push(run);
+      if (run.isLive && this.runs.length === 1) this.player.follow();
+    }
+    if (!this.look.now.shown.includes(id)) this.look.change({ shown: [...this.look.now.shown, id] });
+    this.changed();
+  }
+
+  shownRuns(): RunModel[] {
+    const { shown } = this.look.now;
+    const runs = shown.map((id) => this.runs.find((run) => run.id === id)).filter((run) => run !== undefined);
+    return runs.filter((run) => run.scene.dimension === runs[0]!.scene.dimension);
+  }
+
+  /** Shows these runs only. */
+  show(ids: string[]): void {
+    this.look.change({ shown: ids });
+    for (const id of ids) if (!this.runs.some((run) => run.id === id)) void this.open(id);
+  }
+
+  select(probe: string | null): void {
+    this.look.change({ probe: this.look.now.probe === probe ? null : probe, tab: "gauges", side: true });
+  }
+
+  setTheme(name: Look["theme"]): void {
+    document.documentElement.dataset["theme"] = name;
+    try {
+      localStorage.setItem(remembered, name);
+    } catch {
+      // a page from disk may have no storage
+    }
+    this.look.change({ theme: name });
+  }
+
+  savePicture(): Promise<void> {
+    return savePicture(this);
+  }
+
+  setLimits(limits: [number, number]): void {
+    const was = this.limits;
+    if (was && was[0] === limits[0] && was[1] === limits[1]) return;
+    this.limits = limits;
+    this.changed();
+  }
+
+  frameDrawn(exact: boolean): void {
+    this.drawn?.(exact);
+  }
+
+  /** Something of the data has changed: once per picture, however much comes. */
+  private changed(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      const ends = this.shownRuns().map((run) => run.end);
+      const start = Math.min(...this.shownRuns().map((run) => run.frames.list[0]?.time ?? 0), Infinity);
+      this.player.extend(Number.isFinite(start) ? start : 0, Math.max(0, ...ends));
+      this.data.change({ revision: this.data.now.revision + 1 });
+    });
+  }
+
+  emptyWord(): string {
+    if (this.trouble) return this.trouble;
+    if (this.state?.mode === "case") return "Checking the case …";
+    return "Reading the run …";
+  }
+}
+
+function theme(): Look["theme"] {
+  try {
+    const known = localStorage.getItem(remembered);
+    if (known === "light" || known === "dark") return known;
+  } catch {
+    // no storage: as the system has it
+  }
+  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+}

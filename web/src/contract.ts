@@ -1,0 +1,118 @@
+// What the program's server tells, as docs/reference/view.md has it. Lengths in m, times in s.
+
+export type Point = number[];
+/** First and last line of the case file, from 1; only in the drawing of a case. */
+export type Lines = [number, number];
+
+export interface State {
+  mode: "run" | "sweep" | "case";
+  runs: { id: string; name: string; path: string; parameters?: Record<string, string> }[];
+  case: { path: string } | null;
+  version: string;
+  ranks_most?: number;
+  out?: string;
+}
+
+export interface Wall {
+  name: string;
+  kind: "wall" | "gate" | "wave_maker" | "body" | "plate";
+  /** Which of a frame's poses moves it; null: at rest. */
+  moving: number | null;
+  polylines?: Point[][];
+  triangles?: { positions: number[]; indices: number[] };
+  plate?: boolean;
+  lines?: Lines;
+}
+
+export interface OpenEnd {
+  name: string;
+  from?: Point;
+  to?: Point;
+  corners?: Point[];
+  direction?: Point;
+  lines?: Lines;
+}
+
+export interface Probe {
+  name: string;
+  type: string;
+  /** One point, a line, or an outline; empty: it has no place. */
+  points: Point[];
+  columns: string[];
+  lines?: Lines;
+}
+
+export interface Measurement {
+  name: string;
+  probe: string;
+  column: string;
+  title?: string;
+  time: number[];
+  value: number[];
+  uncertainty?: number | null;
+  score?: string | null;
+}
+
+export interface Scene {
+  format: number;
+  title: string;
+  dimension: 2 | 3;
+  spacing: number;
+  gravity: number[];
+  end: number;
+  box: { min: Point; max: Point };
+  walls: Wall[];
+  bodies: { name: string; pose: number | null; lines?: Lines }[];
+  inlets: OpenEnd[];
+  outlets: OpenEnd[];
+  probes: Probe[];
+  scalars: { name: string; unit: string }[];
+  measurements: Measurement[];
+}
+
+export interface Drawing extends Scene {
+  fluids?: { name: string; lines?: Lines }[];
+  particles?: { count: number; shown: number; positions: string; fluid?: string };
+}
+
+export interface Info {
+  state: "waiting" | "running" | "done" | "stopped" | "failed";
+  time: number;
+  end: number;
+  progress: number;
+  time_left: number | null;
+  particles?: number;
+  lines: { label: string; text: string }[];
+  warnings: string[];
+  controls?: string[];
+}
+
+export interface SpecKey {
+  name: string;
+  type: string;
+  unit?: string;
+  range?: string;
+  default?: string;
+  choices?: string[];
+  text: string;
+  goes_with?: string;
+}
+
+export interface Spec {
+  tables: { name: string; array: boolean; text: string; keys: SpecKey[] }[];
+}
+
+export interface Finding {
+  severity: "error" | "warning" | "note";
+  line: number;
+  column: number;
+  end_column?: number;
+  key?: string;
+  message: string;
+}
+
+export interface Check {
+  findings: Finding[];
+  drawing: Drawing | null;
+  summary: string[];
+}

@@ -1,0 +1,16 @@
+/** Inflates a zlib stream by the browser's own inflater. Throws where it is damaged or not `size` long. */
+export async function inflate(bytes: Uint8Array, size: number): Promise<Uint8Array> {
+  const out = new Uint8Array(size);
+  const stream = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const reader = stream.getReader();
+  let at = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    if (at + value.length > size) throw new Error(`a frame inflates to more than its ${size} bytes`);
+    out.set(value, at);
+    at += value.length;
+  }
+  if (at !== size) throw new Error(`a frame inflates to ${at} bytes, not ${size}`);
+  return out;
+}

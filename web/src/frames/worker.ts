@@ -1,0 +1,44 @@
+// The worker: bytes of a frame in, particles out. Ids are posted only when they have changed.
+import { inflate } from "./inflate.ts";
+import { Decoder } from "./decode.ts";
+import { readHeader, type Frame } from "./format.ts";
+import { levels, type Levels } from "./levels.ts";
+
+export interface Order {
+  run: string;
+  bytes: Uint8Array;
+  /** Direction of gravity's axis and width of a column, m, for the level of the water. */
+  up: number;
+  sign: 1 | -1;
+  width: number;
+}
+
+export type Reply =
+  | { run: string; frame: Omit<Frame, "ids">; ids: Uint32Array | null; levels: Levels }
+  | { run: string; error: string };
+
+const decoders = new Map<string, { decoder: Decoder; posted: Uint32Array | null }>();
+
+async function decode(order: Order): Promise<void> {
+  const state = decoders.get(order.run) ?? { decoder: new Decoder(), posted: null };
+  decoders.set(order.run, state);
+  const header = readHeader(order.bytes);
+  const raw = await inflate(order.bytes.subarray(header.payload, header.payload + header.payloadBytes), header.rawBytes);
+  const { ids, ...frame } = state.decoder.decode(header, raw);
+  const known = ids === state.posted;
+  const copy = known ? null : ids.slice();
+  state.posted = ids;
+  const reply: Reply = { run: order.run, frame, ids: copy, levels: levels(frame, order.up, order.sign, order.width) };
+  postMessage(reply, { transfer: [frame.data.buffer as ArrayBuffer, ...(copy ? [copy.buffer] : [])] });
+}
+
+// One after the other: a frame is told as the difference to the one before.
+let queue = Promise.resolve();
+onmessage = (event: MessageEvent<Order>) => {
+  queue = queue.then(() =>
+    decode(event.data).catch((error: unknown) => {
+      const reply: Reply = { run: event.data.run, error: error instanceof Error ? error.message : String(error) };
+      postMessage(reply);
+    }),
+  );
+};

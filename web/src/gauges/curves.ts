@@ -1,0 +1,46 @@
+// What a probe's plot shows: curves over time of one column, of every run, and the laboratory's points.
+import type { Measurement, Probe } from "../contract.ts";
+import type { RunModel } from "../run/model.ts";
+import { split } from "../units.ts";
+
+export interface Curve {
+  run: RunModel;
+  x: number[];
+  y: number[];
+}
+
+/** Probes whose tables hold many places at each time. */
+export const isProfile = (probe: Probe) => probe.type === "profile" || probe.type === "velocity-profile";
+
+/** The columns of a probe that can be plotted over time, as its table has them. */
+export function choices(run: RunModel, probe: Probe): string[] {
+  const columns = run.table(probe.name)?.columns ?? probe.columns;
+  return columns.filter((name) => name !== "time_s" && !/^[xyz]_m$/.test(name));
+}
+
+/** The one that is asked for most often. */
+export function favourite(probe: Probe, columns: string[]): string {
+  const liked: Record<string, string[]> = {
+    depth: ["connected_m"], front: ["front_m"], energy: ["total_J"], volume: ["density_error_rms"], profile: ["connected_m"],
+    "velocity-profile": ["velocity_x_m_per_s"], "run-up": ["connected_m"],
+  };
+  return liked[probe.type]?.find((name) => columns.includes(name)) ?? columns[0] ?? "";
+}
+
+export function curves(runs: RunModel[], probe: string, column: string): Curve[] {
+  return runs.flatMap((run) => {
+    const table = run.table(probe);
+    const x = table?.values[0];
+    const y = table?.column(column);
+    return x && y ? [{ run, x, y }] : [];
+  });
+}
+
+export function laboratory(run: RunModel, probe: string, column: string): Measurement[] {
+  return run.scene.measurements.filter((m) => m.probe === probe && m.column === column);
+}
+
+export function axisLabel(column: string): string {
+  const { label, unit } = split(column);
+  return unit ? `${label}, ${unit}` : label;
+}

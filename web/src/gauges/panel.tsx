@@ -1,0 +1,155 @@
+// The gauges: a plot per probe, linked with the clock and with each other.
+import type uPlot from "uplot";
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { App } from "../app.ts";
+import { series } from "../colours.ts";
+import type { Probe } from "../contract.ts";
+import type { RunModel } from "../run/model.ts";
+import { useChanges } from "../store.ts";
+import { block, toCsv, valueAt } from "../tables.ts";
+import { colours } from "../theme.ts";
+import { number, split } from "../units.ts";
+import { axisLabel, choices, curves, favourite, isProfile, laboratory } from "./curves.ts";
+import { Plot, type Line } from "./plot.tsx";
+import { saveText } from "../picture/save.ts";
+import { toSvg } from "../picture/svg.ts";
+
+export function Gauges({ app }: { app: App }) {
+  useChanges(app.look, app.data);
+  const runs = app.shownRuns();
+  const probes = new Map<string, Probe>();
+  for (const run of runs) for (const probe of run.scene.probes) probes.set(probe.name, probes.get(probe.name) ?? probe);
+  if (probes.size === 0) return <p class="hint">This case has no probes. A [[probe]] in the case file measures levels, pressures, forces and more.</p>;
+  return (
+    <div class="gauges">
+      {runs.length > 1 && <RunKey app={app} runs={runs} />}
+      {[...probes.values()].map((probe) => (
+        <Gauge key={probe.name} app={app} runs={runs} probe={probe} />
+      ))}
+    </div>
+  );
+}
+
+export function RunKey({ app, runs }: { app: App; runs: RunModel[] }) {
+  const palette = series[app.look.now.theme];
+  return (
+    <ul class="run-key">
+      {runs.map((run, i) => (
+        <li key={run.id}>
+          <i style={{ background: palette[i % 6] }} /> {run.name}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function Gauge({ app, runs, probe }: { app: App; runs: RunModel[]; probe: Probe }) {
+  useChanges(...(isProfile(probe) ? [app.player] : []));
+  const owner = runs.find((run) => run.table(probe.name)) ?? runs[0]!;
+  const columns = choices(owner, probe);
+  const [chosen, choose] = useState("");
+  const column = columns.includes(chosen) ? chosen : favourite(probe, columns);
+  const lit = app.look.now.probe === probe.name;
+  const card = useRef<HTMLElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  useEffect(() => {
+    if (lit) card.current?.scrollIntoView({ block: "nearest", behavior: "smooth" });
+  }, [lit]);
+
+  const profile = isProfile(probe);
+  const lines = profile ? profileCurves(app, runs, probe, column) : overTime(app, runs, probe, column);
+  const rows = runs.map((run) => run.table(probe.name)?.rows ?? 0).join(" ");
+  const stamp = rows + column + (profile ? `@${blockStamp(owner, probe, app.player.time)}` : "");
+  const lab = laboratory(owner, probe.name, column);
+  const { unit } = split(column);
+  const save = (how: string) => {
+    if (how === "csv") saveText(`${probe.name}.csv`, "text/csv", csv(owner, probe.name));
+    else if (how === "svg") saveText(`${probe.name}.svg`, "image/svg+xml", toSvg(lines, profile ? "x, m" : "time, s", axisLabel(column), colours(), probe.name));
+    else if (how === "png") plot.current?.ctx.canvas.toBlob((blob) => blob && saveText(`${probe.name}.png`, "image/png", blob));
+  };
+  return (
+    <section class={`gauge${lit ? " lit" : ""}`} ref={card} data-probe={probe.name}>
+      <header>
+        <button class="gauge-name" aria-pressed={lit} onClick={() => app.select(probe.name)}>
+          {probe.name}
+        </button>
+        {columns.length > 1 ? (
+          <select aria-label={`Column of ${probe.name}`} value={column} onChange={(e) => choose(e.currentTarget.value)}>
+            {columns.map((name) => (
+              <option value={name}>{axisLabel(name)}</option>
+            ))}
+          </select>
+        ) : (
+          <span class="column">{axisLabel(column)}</span>
+        )}
+        {!profile && <Now app={app} run={owner} probe={probe.name} column={column} unit={unit} />}
+        <select class="save" aria-label={`Save ${probe.name}`} value="" onChange={(e) => { save(e.currentTarget.value); e.currentTarget.value = ""; }}>
+          <option value="">Save</option>
+          <option value="csv">CSV</option>
+          <option value="svg">SVG</option>
+          <option value="png">PNG</option>
+        </select>
+      </header>
+      <div class="read" aria-live="off" />
+      {owner.table(probe.name) ? (
+        <Plot lines={lines} xLabel={profile ? "x, m" : "time, s"} yLabel={axisLabel(column)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
+      ) : (
+        <p class="hint">No reading yet.</p>
+      )}
+      {lab.map((m) => (
+        <p class="score">
+          <i /> {m.title ?? m.name}
+          {m.score ? `: ${m.score}` : ""}
+        </p>
+      ))}
+    </section>
+  );
+}
+
+/** The value at the moment shown. */
+function Now({ app, run, probe, column, unit }: { app: App; run: RunModel; probe: string; column: string; unit: string }) {
+  const out = useRef<HTMLSpanElement>(null);
+  useEffect(() => {
+    const tell = () => {
+      const table = run.table(probe);
+      const value = table ? valueAt(table.values[0] ?? [], table.column(column) ?? [], app.player.time) : NaN;
+      if (out.current) out.current.textContent = Number.isNaN(value) ? "" : `${number(value, 4)} ${unit}`;
+    };
+    tell();
+    return app.player.on(tell);
+  });
+  return <span class="value" ref={out} />;
+}
+
+function overTime(app: App, runs: RunModel[], probe: Probe, column: string): Line[] {
+  const palette = series[app.look.now.theme];
+  const lines: Line[] = curves(runs, probe.name, column).map(({ run, x, y }) => ({
+    name: run.name, x, y, colour: palette[runs.indexOf(run) % 6]!,
+  }));
+  for (const m of laboratory(runs[0]!, probe.name, column)) {
+    lines.push({ name: m.title ?? "laboratory", x: m.time, y: m.value, colour: colours().text, points: true });
+  }
+  return lines;
+}
+
+function profileCurves(app: App, runs: RunModel[], probe: Probe, column: string): Line[] {
+  const palette = series[app.look.now.theme];
+  return runs.flatMap((run, i) => {
+    const table = run.table(probe.name);
+    const along = table?.column(probe.type === "velocity-profile" ? "height_m" : "x_m") ?? table?.values[1];
+    const y = table?.column(column);
+    if (!table || !along || !y) return [];
+    const [first, end] = block(table.values[0]!, app.player.time);
+    return [{ name: run.name, x: along.slice(first, end), y: y.slice(first, end), colour: palette[i % 6]! }];
+  });
+}
+
+function blockStamp(run: RunModel, probe: Probe, time: number): number {
+  const times = run.table(probe.name)?.values[0];
+  return times ? block(times, time)[0] : -1;
+}
+
+function csv(run: RunModel, probe: string): string {
+  const table = run.table(probe);
+  return table ? toCsv(table.columns, table.values) : "";
+}

@@ -1,0 +1,68 @@
+// The page: a picture of the water, plots of its gauges, what the run tells, and the case.
+import { render } from "preact";
+import { useState } from "preact/hooks";
+import workerCode from "worker:frames/worker.ts";
+import { App } from "./app.ts";
+import { Gauges } from "./gauges/panel.tsx";
+import { Icon } from "./icons.tsx";
+import { KeysDialog, listen } from "./keys.tsx";
+import { LookPanel } from "./look.tsx";
+import { RunPanel } from "./run/panel.tsx";
+import { Embedded, Server } from "./source.ts";
+import { useChanges, type Look } from "./store.ts";
+import { TimeBar } from "./time/bar.tsx";
+import { Picture } from "./water/picture.tsx";
+
+function Page({ app }: { app: App }) {
+  useChanges(app.look, app.data);
+  const [lookOpen, openLook] = useState(false);
+  const look = app.look.now;
+  const run = app.shownRuns()[0];
+  const tab = (name: Look["tab"], word: string) => (
+    <button role="tab" id={`tab-${name}`} aria-selected={look.tab === name} aria-controls="panel" onClick={() => app.look.change({ tab: name, side: true })}>
+      {word}
+    </button>
+  );
+  return (
+    <div class={`page${look.side ? "" : " wide"}${look.tab === "case" ? " case" : ""}`}>
+      <header class="top">
+        <svg class="mark" viewBox="0 0 32 32" width="22" height="22" aria-hidden="true"><path d="M3 6v20h26V16c-5 0-6 4-10 4S12 9 3 6z" fill="currentColor" /></svg>
+        <h1>{run?.scene.title || run?.name || "Tailwater"}</h1>
+        {run?.info && <span class={`chip ${run.info.state}`}>{run.info.state}</span>}
+        <span class="gap" />
+        <button class="icon" title="How the water is drawn" aria-label="How the water is drawn" aria-expanded={lookOpen} onClick={() => openLook(!lookOpen)}><Icon name="look" /></button>
+        <button class="icon" title="Show all (f)" aria-label="Show all" onClick={() => { app.view?.fit(); app.touch(); }}><Icon name="fit" /></button>
+        <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void app.savePicture()}><Icon name="camera" /></button>
+        <button class="icon" title="Light or dark (t)" aria-label="Light or dark page" onClick={() => app.setTheme(look.theme === "dark" ? "light" : "dark")}><Icon name={look.theme === "dark" ? "sun" : "moon"} /></button>
+        <button class="icon" title="Keys (?)" aria-label="Keys" onClick={() => app.look.change({ dialog: "keys" })}><Icon name="keys" /></button>
+        <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>
+      </header>
+      <main>
+        <Picture app={app} />
+        {lookOpen && <LookPanel app={app} />}
+      </main>
+      {look.side && (
+        <aside>
+          <div class="tabs" role="tablist" aria-label="Beside the picture">
+            {tab("gauges", "Gauges")}
+            {tab("run", "Run")}
+          </div>
+          <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${look.tab}`} tabIndex={-1}>
+            {look.tab === "gauges" && <Gauges app={app} />}
+            {look.tab === "run" && <RunPanel app={app} />}
+          </div>
+        </aside>
+      )}
+      <TimeBar app={app} />
+      {look.dialog === "keys" && <KeysDialog app={app} />}
+    </div>
+  );
+}
+
+const data = document.getElementById("tailwater-data")?.textContent;
+const server = data ? null : new Server();
+const app = new App(data ? new Embedded(data) : server!, server, workerCode);
+Object.assign(globalThis, { tailwater: app }); // for the tests, and for whoever opens the console
+listen(app);
+render(<Page app={app} />, document.getElementById("page")!);
+void app.begin();

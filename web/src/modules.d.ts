@@ -1,0 +1,5 @@
+declare module "worker:*" {
+  /** The worker's program, bundled. */
+  const code: string;
+  export default code;
+}

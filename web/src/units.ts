@@ -1,0 +1,72 @@
+// Numbers as people read them, and the units that the names of columns end with.
+
+/** `digits` significant digits, without an exponent between 1e-4 and 1e6. */
+export function number(x: number, digits = 4): string {
+  if (!Number.isFinite(x)) return Number.isNaN(x) ? "none" : x > 0 ? "∞" : "−∞";
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  if (size >= 1e6 || size < 1e-4) {
+    const [mantissa, exponent] = x.toExponential(Math.max(0, digits - 1)).split("e") as [string, string];
+    const shown = mantissa.includes(".") ? mantissa.replace(/\.?0+$/, "") : mantissa;
+    return `${shown}·10${superscript(Number(exponent))}`.replace("-", "−");
+  }
+  const places = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  const text = x.toFixed(Math.min(12, places));
+  return (text.includes(".") ? text.replace(/\.?0+$/, "") : text).replace("-", "−");
+}
+
+function superscript(n: number): string {
+  return String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]!));
+}
+
+const units: Record<string, string> = {
+  m: "m", s: "s", Pa: "Pa", J: "J", N: "N", Nm: "N m", kg: "kg", rad: "rad", deg: "°", m2: "m²", m3: "m³", Hz: "Hz", W: "W",
+};
+/** Ends of names that hold a unit, longest first. */
+const ends: [string, string][] = [
+  ["_m3_per_s_per_m", "m³/s/m"], ["_m3_per_s", "m³/s"], ["_m2_per_s", "m²/s"], ["_m_per_s2", "m/s²"], ["_m_per_s", "m/s"],
+  ["_rad_per_s", "rad/s"], ["_kg_per_s", "kg/s"], ["_kg_per_m3", "kg/m³"], ["_N_per_m", "N/m"], ["_N_m_per_m", "N m/m"], ["_N_m", "N m"], ["_per_s", "1/s"],
+  ...Object.entries(units).map(([end, unit]): [string, string] => [`_${end}`, unit]),
+];
+
+/** "connected_m" is "connected" in m; a name without a known unit is itself. */
+export function split(column: string): { label: string; unit: string } {
+  for (const [end, unit] of ends) {
+    if (column.endsWith(end) && column.length > end.length) return { label: words(column.slice(0, -end.length)), unit };
+  }
+  return { label: words(column), unit: "" };
+}
+
+const words = (name: string) => name.replaceAll("_", " ");
+
+/** "speed (m/s)" */
+export const labelled = (label: string, unit: string) => (unit ? `${label} (${unit})` : label);
+
+/** 1, 2 or 5 times a power of ten, at most `x`. */
+export function niceBelow(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [5, 2, 1].map((f) => f * power).find((f) => f <= x * (1 + 1e-9)) ?? power;
+}
+
+/** A length of a scale bar: "5 cm", "2 m", "1 km". */
+export function length(metres: number): string {
+  if (metres >= 1000) return `${number(metres / 1000, 3)} km`;
+  if (metres >= 1) return `${number(metres, 3)} m`;
+  if (metres >= 0.01) return `${number(metres * 100, 3)} cm`;
+  return `${number(metres * 1000, 3)} mm`;
+}
+
+/** "42 s", "3 min 20 s", "2 h 5 min" */
+export function duration(seconds: number): string {
+  if (seconds < 1) return "under 1 s";
+  const s = Math.round(seconds);
+  if (s < 60) return `${s} s`;
+  if (s < 3600) return `${Math.floor(s / 60)} min ${s % 60} s`;
+  if (s < 86400) return `${Math.floor(s / 3600)} h ${Math.floor((s % 3600) / 60)} min`;
+  return `${Math.floor(s / 86400)} d ${Math.floor((s % 86400) / 3600)} h`;
+}
+
+/** How many decimals tell the frames of a run apart. */
+export function timeDecimals(end: number): number {
+  return end <= 0 ? 2 : Math.min(5, Math.max(1, 3 - Math.floor(Math.log10(end))));
+}

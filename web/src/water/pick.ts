@@ -1,0 +1,52 @@
+// The particle under the pointer.
+import { Matrix4 } from "three";
+import { stride } from "../frames/format.ts";
+import type { Shown } from "../frames/window.ts";
+import type { RunModel } from "../run/model.ts";
+import type { Staging } from "./staging.ts";
+import { placeOf } from "./value.ts";
+import type { WaterView } from "./view.ts";
+
+export interface Picked {
+  place: number[];
+  run: RunModel | null;
+  frame: Shown | null;
+  i: number;
+}
+
+/** The particle nearest to a place of the canvas, at most 8 pixels off; in 2D without one, the place itself. */
+export function nearest(view: WaterView, staging: Staging, x: number, y: number): Picked | null {
+  const cell = view.cells.find((c) => x >= c.x && x < c.x + c.width && y >= c.y && y < c.y + c.height);
+  const eye = view.eye;
+  if (!cell || !eye) return null;
+  const px = (2 * (x - cell.x)) / cell.width - 1;
+  const py = 1 - (2 * (y - cell.y)) / cell.height;
+  const m = new Matrix4().multiplyMatrices(eye.camera.projectionMatrix, eye.camera.matrixWorldInverse).elements;
+  let best: Picked | null = null;
+  let closest = 8 ** 2;
+  let front = Infinity;
+  for (const { run, stage } of staging.shown) {
+    if (!cell.stages.includes(stage)) continue;
+    const at = run.frames.at(view.time);
+    if (!at) continue;
+    const { data, boxMin, boxMax, dim } = at.a;
+    const low = [0, 1, 2].map((d) => boxMin[d] ?? 0);
+    const step = [0, 1, 2].map((d) => ((boxMax[d] ?? 0) - low[d]!) / 65535);
+    for (let i = 0, o = 0; o < data.length; ++i, o += stride) {
+      const a = low[0]! + data[o]! * step[0]!;
+      const b = low[1]! + data[o + 1]! * step[1]!;
+      const c = dim === 3 ? low[2]! + data[o + 2]! * step[2]! : 0;
+      const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!;
+      const u = (((m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w - px) * cell.width) / 2;
+      const v = (((m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w - py) * cell.height) / 2;
+      const distance = u * u + v * v;
+      if (distance < closest - (dim === 3 ? 0 : 1e-9) || (dim === 3 && distance < 9 && w < front)) {
+        closest = Math.min(closest, Math.max(distance, dim === 3 ? 9 : 0));
+        front = w;
+        best = { place: placeOf(at.a, i), run, frame: at.a, i };
+      }
+    }
+  }
+  if (best) return best;
+  return eye.dim === 2 ? { place: eye.place(px, py), run: null, frame: null, i: -1 } : null;
+}

@@ -1,0 +1,137 @@
+// The picture and what lies over it: names, legend, scale, what the pointer reads. Drawn again only when something
+// has changed.
+import { useEffect, useRef } from "preact/hooks";
+import type { App } from "../app.ts";
+import { colours } from "../theme.ts";
+import { profileLines } from "../gauges/profiles.ts";
+import { useChanges } from "../store.ts";
+import { length, niceBelow, number } from "../units.ts";
+import { attach } from "./hands.ts";
+import { Labels } from "./labels.ts";
+import { Legend } from "./legend.tsx";
+import { nearest } from "./pick.ts";
+import { Staging } from "./staging.ts";
+import { colourings, valueOf } from "./value.ts";
+import { WaterView } from "./view.ts";
+
+export function Picture({ app }: { app: App }) {
+  useChanges(app.look, app.data);
+  const box = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const names = useRef<HTMLDivElement>(null);
+  const scale = useRef<HTMLDivElement>(null);
+  const reading = useRef<HTMLDivElement>(null);
+
+  useEffect(() => {
+    const view = new WaterView(canvas.current!);
+    const staging = new Staging(view);
+    const labels = new Labels(names.current!, (probe) => app.select(probe));
+    app.view = view;
+    let dirty = true;
+    const touch = () => (dirty = true);
+    const stops = [app.look.on(touch), app.data.on(touch), app.player.on(touch)];
+    app.touch = touch;
+
+    const resize = new ResizeObserver(([entry]) => {
+      const { width, height } = entry!.contentRect;
+      view.resize(width, height, Math.min(2, devicePixelRatio));
+      dirty = true;
+    });
+    resize.observe(box.current!);
+
+    const hands = attach(view, canvas.current!, {
+      moved: () => {
+        view.untouched = false;
+        dirty = true;
+      },
+      click: (x, y) => {
+        const probe = labels.probeNear(x, y);
+        if (probe) app.select(probe);
+      },
+      hover: (x, y) => read(x, y),
+      leave: () => (reading.current!.hidden = true),
+    });
+
+    function read(x: number, y: number): void {
+      const at = nearest(view, staging, x, y);
+      const out = reading.current!;
+      out.hidden = at === null;
+      if (!at) return;
+      const axes = ["x", "y", "z"];
+      const parts = at.place.map((c, d) => `${axes[d]} ${number(c, 4)}`).join("  ") + " m";
+      const values = at.run
+        ? colourings
+            .filter((c) => c.name === "speed" || c.name === "pressure")
+            .map((c) => [c, valueOf(at.run!, at.frame!, c.name, at.i)] as const)
+            .filter(([, v]) => !Number.isNaN(v))
+            .map(([c, v]) => `${c.title.toLowerCase()} ${number(v, 3)} ${c.unit}`)
+        : [];
+      out.textContent = [parts, ...values].join("\n");
+      out.style.transform = `translate(${Math.min(x + 14, view.canvas.clientWidth - 190)}px, ${Math.min(y + 14, view.canvas.clientHeight - 70)}px)`;
+    }
+
+    let before = performance.now();
+    let handle = 0;
+    const frame = (now: number) => {
+      handle = requestAnimationFrame(frame);
+      const seconds = Math.min(0.1, (now - before) / 1000);
+      before = now;
+      app.player.tick(seconds);
+      if (!dirty) return;
+      dirty = false;
+      app.drawing?.();
+      draw();
+    };
+    function draw(): void {
+      const look = app.look.now;
+      const theme = colours();
+      view.paper(theme.paper);
+      staging.sync(app.shownRuns(), look, theme);
+      let exact = true;
+      for (const { run, stage } of staging.shown) {
+        const at = run.frames.at(app.player.time);
+        stage.particles.points.visible = at !== null;
+        if (!at) continue;
+        exact &&= at.exact;
+        stage.show(at);
+        const limits = staging.colour(run, stage, at, look);
+        if (run === staging.shown[0]!.run) app.setLimits(limits);
+        stage.overlay(look.profiles ? profileLines(run, app.player.time) : []);
+        stage.select(look.probe);
+      }
+      staging.section(look.section);
+      view.time = app.player.time;
+      view.draw();
+      labels.sync(view, staging, look);
+      const cell = view.cells[0];
+      if (view.eye && cell) {
+        const metres = niceBelow((view.eye.span / cell.height) * Math.min(180, cell.width * 0.3));
+        const bar = scale.current!;
+        bar.style.width = `${(metres / view.eye.span) * cell.height}px`;
+        bar.textContent = length(metres);
+      }
+      app.frameDrawn(exact);
+    }
+    handle = requestAnimationFrame(frame);
+    return () => {
+      cancelAnimationFrame(handle);
+      stops.forEach((stop) => stop());
+      resize.disconnect();
+      hands();
+      staging.dispose();
+      view.dispose();
+    };
+  }, []);
+
+  const run = app.shownRuns()[0];
+  return (
+    <div class="picture" ref={box}>
+      <canvas ref={canvas} tabIndex={0} aria-label="The water. Arrow keys move the camera, plus and minus zoom, f shows all." />
+      <div class="names" ref={names} />
+      {run && <Legend app={app} run={run} />}
+      <div class="scale" ref={scale} aria-hidden="true" />
+      <div class="reading" ref={reading} hidden />
+      {app.shownRuns().length === 0 && <p class="empty">{app.emptyWord()}</p>}
+    </div>
+  );
+}

@@ -1,0 +1,112 @@
+// One run in the picture: its water, walls, open ends, probes and the lines that are measured over the water.
+import { Scene as ThreeScene, Vector4 } from "three";
+import type { OpenEnd, Scene } from "../contract.ts";
+import type { Shown } from "../frames/window.ts";
+import { upward } from "./eye.ts";
+import { LineMark } from "./lines.ts";
+import { ParticleMark } from "./particles.ts";
+import { WallMarks, type WallColours } from "./walls.ts";
+
+export interface StageColours extends WallColours {
+  open: string;
+  probe: string;
+  accent: string;
+  profile: string;
+}
+
+export class Stage {
+  readonly scene3 = new ThreeScene();
+  readonly particles: ParticleMark;
+  readonly walls: WallMarks;
+  readonly up: { axis: number; sign: 1 | -1 };
+  private ends: LineMark;
+  private probes: LineMark;
+  private lit: LineMark;
+  private profile: LineMark;
+
+  constructor(readonly scene: Scene) {
+    const dim = scene.dimension;
+    this.up = upward(scene.gravity, dim);
+    this.particles = new ParticleMark(dim, scene.spacing, this.up);
+    this.walls = new WallMarks(scene, dim);
+    this.ends = new LineMark({ colour: "#000", width: 2, dash: 12 });
+    this.probes = new LineMark({ colour: "#000", width: 1.5, onTop: true, opacity: 0.9 });
+    this.lit = new LineMark({ colour: "#000", width: 3.5, onTop: true });
+    this.profile = new LineMark({ colour: "#000", width: 2.5, onTop: dim === 2 });
+    this.ends.set([...scene.inlets, ...scene.outlets].map((end) => outline(end, dim)));
+    this.probes.set(scene.probes.map((probe) => probeLine(probe.points)));
+    this.scene3.add(this.walls.group, this.particles.points, this.ends.mesh, this.profile.mesh, this.probes.mesh, this.lit.mesh);
+    this.particles.points.renderOrder = dim === 2 ? -1 : 0;
+  }
+
+  colours(c: StageColours): void {
+    this.walls.colours(c);
+    this.ends.colour(c.open);
+    this.probes.colour(c.probe);
+    this.lit.colour(c.accent);
+    this.profile.colour(c.profile);
+  }
+
+  picture(width: number, height: number): void {
+    this.walls.picture(width, height);
+    for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.picture(width, height);
+  }
+
+  show(at: { a: Shown; b: Shown; share: number }): void {
+    this.particles.show(at.a, at.b, at.share);
+    this.walls.move(at.a.poses, at.b.poses, at.share);
+  }
+
+  /** Cuts away what lies before the plane n x + w >= 0; a finite thickness leaves a slice. */
+  section(plane: Vector4, thickness: number): void {
+    this.particles.set("plane", plane);
+    this.particles.set("thickness", thickness);
+    this.walls.section(plane);
+  }
+
+  select(probe: string | null): void {
+    const found = this.scene.probes.find((p) => p.name === probe);
+    this.lit.set(found ? [probeLine(found.points)] : []);
+  }
+
+  overlay(lines: number[][][]): void {
+    this.profile.set(lines);
+  }
+
+  /** A box around all there is to see. */
+  bounds(): { min: number[]; max: number[] } {
+    const { min, max } = this.scene.box;
+    return { min: [...min], max: [...max] };
+  }
+
+  dispose(): void {
+    this.particles.dispose();
+    this.walls.dispose();
+    for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.dispose();
+  }
+}
+
+/** The rim of an open end; in 3D a rectangle that `from` and `to` are corners of. */
+export function outline(end: OpenEnd, dim: 2 | 3): number[][] {
+  if (end.corners) return [...end.corners, end.corners[0]!];
+  if (!end.from || !end.to) return [];
+  return dim === 2 ? [end.from, end.to] : rectangle(end.from, end.to);
+}
+
+/** The flat axis-parallel rectangle between opposite corners. */
+function rectangle(from: number[], to: number[]): number[][] {
+  const flat = [0, 1, 2].find((d) => from[d] === to[d]) ?? 2;
+  const [u] = [0, 1, 2].filter((d) => d !== flat) as [number, number];
+  const second = [...from];
+  second[u] = to[u]!;
+  const fourth = [...to];
+  fourth[u] = from[u]!;
+  return [from, second, to, fourth, from];
+}
+
+function probeLine(points: number[][]): number[][] {
+  if (points.length < 2) return [];
+  if (points.length === 2) return points;
+  const closed = points[0]!.every((x, d) => x === points.at(-1)![d]);
+  return closed ? points : [...points, points[0]!];
+}

@@ -1,0 +1,97 @@
+// Which runs are on stage, and how they look: keeps the stages of the view in step with what is chosen.
+import { Color, Vector2, Vector4 } from "three";
+import { series } from "../colours.ts";
+import type { RunModel } from "../run/model.ts";
+import type { Look } from "../store.ts";
+import type { Theme } from "../theme.ts";
+import type { Shown } from "../frames/window.ts";
+import { Stage } from "./stage.ts";
+import { origins, quantity, spread } from "./value.ts";
+import type { WaterView } from "./view.ts";
+
+export class Staging {
+  shown: { run: RunModel; stage: Stage }[] = [];
+  private key = "";
+  private lookKey = "";
+  private spreads = new WeakMap<RunModel, { by: Map<string, [number, number]>; seen: WeakSet<Shown> }>();
+  private ownOf = new WeakMap<Stage, Shown>();
+
+  constructor(private view: WaterView) {}
+
+  sync(runs: RunModel[], look: Look, theme: Theme): void {
+    const key = runs.map((run) => run.id).join(" ") + look.layout;
+    if (key !== this.key) {
+      const before = this.shown;
+      this.shown = runs.map((run) => before.find((s) => s.run === run) ?? { run, stage: new Stage(run.scene) });
+      for (const old of before) if (!this.shown.includes(old)) old.stage.dispose();
+      this.view.set(this.shown.map((s) => s.stage), look.layout === "over");
+      this.key = key;
+      this.lookKey = "";
+    }
+    const lookKey = JSON.stringify([look, theme]);
+    if (lookKey === this.lookKey) return;
+    this.lookKey = lookKey;
+    const over = look.layout === "over" && runs.length > 1;
+    this.shown.forEach(({ run, stage }, i) => {
+      stage.colours(theme);
+      stage.walls.group.visible = look.walls;
+      const mark = stage.particles;
+      mark.colours(look.map);
+      mark.colourBy(over ? "plain" : quantity(run, look.colouring));
+      mark.set("radius", 0.5 * run.scene.spacing * look.size * (run.scene.dimension === 2 ? 1.12 : 1));
+      const tint = new Color(over ? series[look.theme][i % 6] : theme.water).convertLinearToSRGB();
+      mark.set("tint", new Vector4(tint.r, tint.g, tint.b, 0));
+      mark.set("opacity", over && i > 0 ? 0.55 : 1);
+    });
+  }
+
+  /** Limits of the colours, and what is uploaded only for some of them. */
+  colour(run: RunModel, stage: Stage, at: { a: Shown }, look: Look): [number, number] {
+    const limits = this.limits(run, stage, at.a, look);
+    stage.particles.set("limits", new Vector2(...limits));
+    if (look.colouring === "origin" && this.ownOf.get(stage) !== at.a) {
+      const first = run.frames.frame(0) ?? at.a;
+      stage.particles.own(origins(first, at.a, stage.up.axis === 0 ? 1 : 0, run.scene.inlets.length > 0));
+      this.ownOf.set(stage, at.a);
+    }
+    return limits;
+  }
+
+  limits(run: RunModel, stage: Stage, frame: Shown, look: Look): [number, number] {
+    const { colouring } = look;
+    if (colouring === "origin" || colouring === "plain") return [0, 1];
+    const fixed = look.limits[colouring];
+    if (fixed) return fixed;
+    if (look.momentary) return spread(run, frame, colouring, stage.up);
+    const known = this.spreads.get(run) ?? { by: new Map<string, [number, number]>(), seen: new WeakSet<Shown>() };
+    this.spreads.set(run, known);
+    if (!known.seen.has(frame)) {
+      known.seen.add(frame);
+      for (const name of ["speed", "pressure", "depth"] as const) {
+        const [low, high] = spread(run, frame, name, stage.up);
+        const [l, h] = known.by.get(name) ?? [low, high];
+        known.by.set(name, [Math.min(l, low), Math.max(h, high)]);
+      }
+    }
+    const [low, high] = known.by.get(colouring)!;
+    return [colouring === "speed" ? 0 : low, high];
+  }
+
+  section(cut: Look["section"]): void {
+    for (const { stage } of this.shown) {
+      if (!cut || stage.scene.dimension === 2) {
+        stage.section(new Vector4(0, 0, 0, 1), 1e9);
+        continue;
+      }
+      const { min, max } = stage.bounds();
+      const x = min[cut.axis]! + cut.share * (max[cut.axis]! - min[cut.axis]!);
+      const sign = cut.flip ? -1 : 1;
+      const plane = new Vector4(0, 0, 0, -sign * x).setComponent(cut.axis, sign);
+      stage.section(plane, cut.slice ? 2 * stage.scene.spacing : 1e9);
+    }
+  }
+
+  dispose(): void {
+    for (const { stage } of this.shown) stage.dispose();
+  }
+}

@@ -1,0 +1,116 @@
+// The picture: stages in one canvas, side by side or one over the other, seen by one camera.
+import { Color, Vector4, WebGLRenderer } from "three";
+import { Eye } from "./eye.ts";
+import type { Stage } from "./stage.ts";
+
+export interface Cell {
+  stages: Stage[];
+  /** In the canvas, CSS pixels from its upper left corner. */
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+export class WaterView {
+  readonly renderer: WebGLRenderer;
+  eye: Eye | null = null;
+  cells: Cell[] = [];
+  /** The moment that is shown, s. */
+  time = 0;
+  /** The camera has not been moved: it may follow the size of the window. */
+  untouched = true;
+  private stages: Stage[] = [];
+  private over = false;
+  private size = { width: 1, height: 1, ratio: 1 };
+  private background = new Color("#fff");
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.renderer.info.autoReset = false;
+  }
+
+  paper(css: string): void {
+    this.background.set(css);
+  }
+
+  /** The camera is made for the first stages and stays; it is placed anew only by fit(). */
+  set(stages: Stage[], over: boolean): void {
+    this.stages = stages;
+    this.over = over;
+    const first = stages[0];
+    const isNew = first !== undefined && this.eye?.dim !== first.scene.dimension;
+    if (isNew) this.eye = new Eye(first.scene.dimension, first.scene.gravity);
+    this.arrange();
+    if (isNew || this.untouched) this.fit();
+  }
+
+  resize(width: number, height: number, ratio: number): void {
+    this.size = { width: Math.max(1, width), height: Math.max(1, height), ratio };
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.size.width, this.size.height, false);
+    this.arrange();
+    if (this.untouched) this.fit();
+  }
+
+  get aspect(): number {
+    const cell = this.cells[0];
+    return cell ? cell.width / cell.height : 1;
+  }
+
+  fit(): void {
+    if (!this.eye || this.stages.length === 0) return;
+    const boxes = this.stages.map((stage) => stage.bounds());
+    const min = boxes[0]!.min.map((_, d) => Math.min(...boxes.map((b) => b.min[d]!)));
+    const max = boxes[0]!.max.map((_, d) => Math.max(...boxes.map((b) => b.max[d]!)));
+    this.eye.fit(min, max, this.aspect);
+    this.untouched = true;
+  }
+
+  private arrange(): void {
+    const { width, height } = this.size;
+    const n = this.over ? 1 : Math.max(1, this.stages.length);
+    const wide = (this.stages[0]?.scene.dimension === 2 ? 1.6 : 1.2) * (height / width);
+    const columns = Math.min(n, Math.max(1, Math.round(Math.sqrt(n / wide))));
+    const rows = Math.ceil(n / columns);
+    this.cells = Array.from({ length: n }, (_, i) => ({
+      stages: this.over ? this.stages : this.stages.slice(i, i + 1),
+      x: (i % columns) * (width / columns),
+      y: Math.floor(i / columns) * (height / rows),
+      width: width / columns,
+      height: height / rows,
+    }));
+  }
+
+  draw(): void {
+    const { renderer, eye } = this;
+    const { width, height, ratio } = this.size;
+    renderer.setScissorTest(false);
+    renderer.setViewport(0, 0, width, height);
+    renderer.setClearColor(this.background);
+    renderer.clear();
+    if (!eye) return;
+    renderer.setScissorTest(this.cells.length > 1);
+    for (const cell of this.cells) {
+      eye.apply(cell.width / cell.height);
+      const y = height - cell.y - cell.height;
+      renderer.setViewport(cell.x, y, cell.width, cell.height);
+      renderer.setScissor(cell.x, y, cell.width, cell.height);
+      const scale = (eye.camera.projectionMatrix.elements[5]! * cell.height * ratio) / 2;
+      for (const stage of cell.stages) {
+        stage.picture(cell.width, cell.height);
+        stage.particles.set("pixels", scale);
+        renderer.render(stage.scene3, eye.camera);
+      }
+    }
+  }
+
+  section(plane: Vector4, thickness: number): void {
+    for (const stage of this.stages) stage.section(plane, thickness);
+  }
+
+  dispose(): void {
+    this.renderer.dispose();
+  }
+}

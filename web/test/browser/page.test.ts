@@ -1,0 +1,50 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { Mock, run } from "../support/mock.ts";
+import { standingWave } from "../support/flows.ts";
+import { until, visit } from "../support/browser.ts";
+
+const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
+
+test("a live run: frames come in, the page follows, the camera stays; scrubbing, picking and stopping", async () => {
+  const mock = new Mock({ page, runs: [run("a", "wave", standingWave(10), 41, 20)] });
+  const visitor = await visit(await mock.listen());
+  try {
+    const view = visitor.page;
+    await until(view, "app.shownRuns()[0]?.frames.isDecoded(19) && app.player.following");
+    const camera = () => view.evaluate("JSON.stringify([tailwater.view.eye.target, tailwater.view.eye.span])");
+    await until(view, "app.view.eye");
+    const before = await camera();
+    const asked = Date.now();
+    mock.grow("a");
+    await until(view, "app.player.time === app.shownRuns()[0].frames.list[20]?.time && app.shownRuns()[0].frames.at(app.player.time)?.exact");
+    assert.ok(Date.now() - asked < 1000, "a frame is on the screen within 1 s");
+    assert.equal(await camera(), before);
+
+    // Scrubbing: there is a picture at every moment, and the right one soon.
+    await view.evaluate(`(async () => {
+      globalThis.blanks = 0;
+      for (let i = 0; i <= 200; ++i) {
+        tailwater.player.seek(tailwater.player.range[1] * ((i * 37) % 201) / 200);
+        if (!tailwater.shownRuns()[0].frames.at(tailwater.player.time)) ++globalThis.blanks;
+        await new Promise(requestAnimationFrame);
+      }
+    })()`);
+    assert.equal(await view.evaluate("blanks"), 0);
+    assert.equal(await camera(), before);
+
+    await view.click(".label.probe");
+    await until(view, "document.querySelector('.gauge.lit')?.dataset.probe === app.look.now.probe && app.look.now.probe");
+    await view.keyboard.press("r");
+    await view.waitForSelector(".controls button");
+    await view.click(".controls button");
+    await view.waitForFunction("document.querySelector('.one-run [role=status]')?.textContent.includes('stops')");
+    assert.deepEqual(mock.posts, ["run/a/stop"]);
+    assert.deepEqual(visitor.faults, []);
+  } finally {
+    await visitor.close();
+    mock.close();
+  }
+});

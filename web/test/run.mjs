@@ -1,0 +1,34 @@
+// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser [name of a file]
+// Exit 77: skipped, because what it takes is not installed.
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [kind = "unit", only = ""] = process.argv.slice(2);
+const skip = (why) => {
+  console.log(`skipped: ${why}; remedy: scripts/install.sh web`);
+  process.exit(77);
+};
+if (!existsSync(join(here, "../node_modules/esbuild"))) skip("web/node_modules is not installed");
+if (kind === "browser" && !["/usr/bin/chromium", "/usr/bin/chromium-browser", process.env.CHROMIUM ?? ""].some((p) => p && existsSync(p))) {
+  skip("there is no Chromium");
+}
+const { build } = await import("esbuild");
+mkdirSync(join(here, "../build"), { recursive: true });
+const out = mkdtempSync(join(here, "../build/test-"));
+let status = 1;
+try {
+  const files = readdirSync(join(here, kind)).filter((name) => name.endsWith(".test.ts") && name.startsWith(only));
+  await build({
+    entryPoints: files.map((name) => join(here, kind, name)), outdir: out, outExtension: { ".js": ".mjs" }, bundle: true, platform: "node", format: "esm",
+    target: "node18", packages: "external", sourcemap: "inline", loader: { ".html": "text" },
+  });
+  status = spawnSync(process.execPath, ["--enable-source-maps", "--test", ...files.map((name) => join(out, name.replace(/ts$/, "mjs")))], {
+    stdio: "inherit", env: { ...process.env, TAILWATER_WEB: join(here, "..") },
+  }).status ?? 1;
+} finally {
+  rmSync(out, { recursive: true, force: true });
+}
+process.exit(status);

@@ -1,0 +1,50 @@
+// Debian's Chromium, driven without a screen and without the net.
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import puppeteer, { type Browser, type Page } from "puppeteer-core";
+
+export const chromium = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
+
+export interface Visit {
+  browser: Browser;
+  page: Page;
+  /** What the console said in anger, and requests that left the machine. */
+  faults: string[];
+  close(): Promise<void>;
+}
+
+/** Opens `address` in a window of 1280 x 720. `dark`: as a reader whose system is dark. */
+export async function visit(address: string, dark = false): Promise<Visit> {
+  const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
+  const browser = await puppeteer.launch({
+    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 },
+    args: [
+      "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+      "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+    ],
+  });
+  const page = (await browser.pages())[0] ?? (await browser.newPage());
+  const faults: string[] = [];
+  page.on("console", (message) => {
+    if ((message.type() === "error" || message.type() === "warn") && !message.text().includes("GL Driver Message")) faults.push(`console: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => faults.push(`error: ${error instanceof Error ? error.message : String(error)}`));
+  page.on("request", (request) => {
+    if (!/^(http:\/\/127\.0\.0\.1[:/]|file:|data:|blob:|about:)/.test(request.url())) faults.push(`request: ${request.url()}`);
+  });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
+  await page.goto(address);
+  return {
+    browser, page, faults,
+    async close() {
+      await browser.close();
+      rmSync(folder, { recursive: true, force: true, maxRetries: 3 });
+    },
+  };
+}
+
+/** Waits until the page says yes to `condition`, a JavaScript expression in which `app` is the page's App. */
+export async function until(page: Page, condition: string, milliseconds = 10_000): Promise<void> {
+  await page.waitForFunction(`(() => { const app = globalThis.tailwater; return app && (${condition}); })()`, { timeout: milliseconds, polling: 50 });
+}
