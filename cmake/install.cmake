@@ -14,6 +14,23 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT
         COMPONENT documents)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 
+# The manual page and what completes the command line, from the program's own text.
+set(help ${PROJECT_BINARY_DIR}/help)
+add_custom_command(
+  OUTPUT ${help}/tailwater.1 ${help}/tailwater.bash ${help}/_tailwater ${help}/tailwater.fish
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${help}
+  COMMAND tailwater man > ${help}/tailwater.1
+  COMMAND tailwater completion bash > ${help}/tailwater.bash
+  COMMAND tailwater completion zsh > ${help}/_tailwater
+  COMMAND tailwater completion fish > ${help}/tailwater.fish
+  DEPENDS tailwater)
+add_custom_target(tailwater_help ALL DEPENDS ${help}/tailwater.1)
+install(FILES ${help}/tailwater.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${help}/tailwater.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME tailwater
+        COMPONENT program)
+install(FILES ${help}/_tailwater DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install(FILES ${help}/tailwater.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+
 get_property(rooms GLOBAL PROPERTY tailwater_rooms)
 foreach(room ${rooms})
   set_target_properties(tailwater_${room} PROPERTIES EXPORT_NAME ${room})

@@ -101,6 +101,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_validate_command(app, code);
   add_waves_command(app, code);
   add_pictures_command(app, code);
+  add_help_commands(app);
 
   try {
     if (argc == 1) {

@@ -35,6 +35,24 @@ class CommandLine(ProgramTest):
                 self.assertRegex(result.stdout, "Examples?: ")
                 self.assertEqual(result.stderr, "")
 
+    def test_manual_page_tells_of_every_command_and_option(self):
+        page = self.call("man").stdout.replace("\\-", "-")
+        for command in COMMANDS:
+            self.assertIn(f".SS tailwater {command}\n", page)
+        for word in ("--wall-time", "--sweep", "130 interrupted"):
+            self.assertIn(word, page)
+
+    def test_completion_completes_commands_and_options(self):
+        script = self.call("completion", "bash").stdout
+        for words, expected in ((("ch",), "check"), (("run", "--sw"), "--sweep"), (("resume", "--j"), "--jobs")):
+            asked = (f"{script}\nCOMP_WORDS=(tailwater {' '.join(words)}); COMP_CWORD={len(words)}; _tailwater; "
+                     'echo "${COMPREPLY[@]}"')
+            self.assertEqual(subprocess.run(["bash", "-c", asked], capture_output=True, text=True, check=True).stdout,
+                             expected + "\n")
+        for shell in ("zsh", "fish"):
+            self.assertIn("wall-time", self.call("completion", shell).stdout)
+        self.assertIn("bash", self.call("completion", "tcsh", expect=2).stderr)
+
     def test_version(self):
         self.assertRegex(self.call("--version").stdout, r"^tailwater \d+\.\d+\.\d+ \(commit .+\)\n$")
 

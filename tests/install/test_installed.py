@@ -60,6 +60,12 @@ class Installed(unittest.TestCase):
             self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
         self.tailwater("waves", "--help")
 
+    def test_manual_page_and_completion_are_there(self):
+        share = self.prefix / "share"
+        for path in ("man/man1/tailwater.1", "bash-completion/completions/tailwater", "zsh/vendor-completions/_tailwater",
+                     "fish/vendor_completions.d/tailwater.fish"):
+            self.assertIn("wall-time", (share / path).read_text(encoding="utf-8").replace("\\-", "-"), path)
+
     def test_cases_are_there(self):
         cases = self.prefix / "share" / "tailwater" / "cases"
         self.tailwater("check", cases / "zhou1999" / "case.toml", "--set", "particles.spacing=0.1")
