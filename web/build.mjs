@@ -21,8 +21,17 @@ export const workers = {
   },
 };
 
+/** three.js from its sources, without the texts of its own shaders: the page brings its own. Saves 32 kB, compressed. */
+const threeWithoutShaders = {
+  name: "three-without-shaders",
+  setup(plugin) {
+    plugin.onResolve({ filter: /^three$/ }, () => ({ path: join(here, "node_modules/three/src/Three.js") }));
+    plugin.onLoad({ filter: /three\/src\/renderers\/shaders\/Shader(Chunk|Lib)\/.*\.glsl\.js$/ }, () => ({ contents: 'export default ""; export const vertex = "", fragment = ""' }));
+  },
+};
+
 export async function page() {
-  const script = await build({ ...common, entryPoints: ["src/main.tsx"], plugins: [workers], jsx: "automatic", jsxImportSource: "preact", define: { "process.env.NODE_ENV": '"production"' } });
+  const script = await build({ ...common, entryPoints: ["src/main.tsx"], plugins: [workers, threeWithoutShaders], jsx: "automatic", jsxImportSource: "preact", define: { "process.env.NODE_ENV": '"production"' } });
   const style = await build({ ...common, entryPoints: ["src/style.css"] });
   // `</script` and `<!--` inside of the script would end it; the same text in other letters does not.
   const code = script.outputFiles[0].text.trim().replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");

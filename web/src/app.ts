@@ -1,8 +1,10 @@
 // What the parts of the page share: runs, clock, look, and where data come from.
-import type { State } from "./contract.ts";
+import { linesOf, nameAt } from "./case/pointing.ts";
+import type { Drawing, Lines, State } from "./contract.ts";
 import { DecodeWorker } from "./frames/window.ts";
 import { savePicture } from "./picture/still.ts";
 import { RunModel } from "./run/model.ts";
+import type { Subject } from "./run/subject.ts";
 import type { Server, Source } from "./source.ts";
 import { Store, type Look } from "./store.ts";
 import { Player } from "./time/player.ts";
@@ -25,6 +27,11 @@ export class App {
   drawing: (() => void) | null = null;
   drawn: ((exact: boolean) => void) | null = null;
   limits: [number, number] | null = null;
+  /** Text of the case in the editor; null: not read yet. */
+  caseText: string | null = null;
+  /** Marks lines in the editor; null: there is no editor. */
+  markLines: ((lines: Lines | null) => void) | null = null;
+  private sketch: { subject: Subject; drawing: Drawing } | null = null;
   /** Kept by the time bar. */
   playerShape: { on(listener: () => void): () => void } | null = null;
   private worker: DecodeWorker;
@@ -38,7 +45,7 @@ export class App {
     this.worker = new DecodeWorker(workerCode);
     this.look = new Store<Look>({
       theme: theme(), colouring: "speed", map: "water", limits: {}, momentary: false, water: "particles", size: 1, section: null, labels: true,
-      walls: true, profiles: true, layout: "side", shown: [], probe: null, tab: "gauges", side: true, dialog: "",
+      walls: true, profiles: true, layout: "side", shown: [], probe: null, marked: null, tab: "gauges", side: true, dialog: "",
     });
     document.documentElement.dataset["theme"] = this.look.now.theme;
   }
@@ -72,6 +79,34 @@ export class App {
     const { shown } = this.look.now;
     const runs = shown.map((id) => this.runs.find((run) => run.id === id)).filter((run) => run !== undefined);
     return runs.filter((run) => run.scene.dimension === runs[0]!.scene.dimension);
+  }
+
+  /** What the picture shows: the drawing of the case beside its editor, else the runs. */
+  shown(): Subject[] {
+    if (this.look.now.tab === "case" && this.server && this.look.now.side) return this.sketch ? [this.sketch.subject] : [];
+    return this.shownRuns();
+  }
+
+  /** A new drawing of the case. */
+  draw(subject: Subject, drawing: Drawing): void {
+    this.sketch = { subject, drawing };
+    this.changed();
+  }
+
+  /** Something of the picture was pressed, by its name. */
+  pick(name: string, isProbe: boolean): void {
+    if (this.look.now.tab === "case" && this.sketch) {
+      this.look.change({ marked: name });
+      this.markLines?.(linesOf(this.sketch.drawing, name));
+    } else if (isProbe) {
+      this.select(name);
+    }
+  }
+
+  /** Marks in the drawing what line `line` of the case describes. */
+  lightAt(line: number): void {
+    const name = this.sketch ? nameAt(this.sketch.drawing, line) : null;
+    if (name !== this.look.now.marked) this.look.change({ marked: name });
   }
 
   /** Shows these runs only. */
@@ -115,8 +150,8 @@ export class App {
     this.pending = true;
     requestAnimationFrame(() => {
       this.pending = false;
-      const ends = this.shownRuns().map((run) => run.end);
-      const start = Math.min(...this.shownRuns().map((run) => run.frames.list[0]?.time ?? 0), Infinity);
+      const ends = this.shown().map((run) => run.end);
+      const start = Math.min(...this.shown().map((run) => run.frames.list[0]?.time ?? 0), Infinity);
       this.player.extend(Number.isFinite(start) ? start : 0, Math.max(0, ...ends));
       this.data.change({ revision: this.data.now.revision + 1 });
     });
@@ -124,7 +159,7 @@ export class App {
 
   emptyWord(): string {
     if (this.trouble) return this.trouble;
-    if (this.state?.mode === "case") return "Checking the case …";
+    if (this.look.now.tab === "case") return "Checking the case …";
     return "Reading the run …";
   }
 }

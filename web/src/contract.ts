@@ -60,6 +60,7 @@ export interface Scene {
   spacing: number;
   gravity: number[];
   end: number;
+  /** Around all that is drawn; the program may leave it out (null), whole() fills it in. */
   box: { min: Point; max: Point };
   walls: Wall[];
   bodies: { name: string; pose: number | null; lines?: Lines }[];

@@ -18,6 +18,7 @@ export const keyList: [string, string][] = [
   ["n", "names on or off"],
   ["g, r, e", "gauges, run, case"],
   ["p", "save a picture"],
+  ["m", "save a film"],
   ["t", "light or dark page"],
   ["?", "these keys"],
 ];
@@ -41,7 +42,7 @@ export function listen(app: App): () => void {
 function act(app: App, key: string, shift: boolean): boolean {
   const { player } = app;
   const look = app.look.now;
-  const times = app.shownRuns()[0]?.frames.times ?? [];
+  const times = app.shown()[0]?.frames.times ?? [];
   const eye = app.view?.eye;
   const moved = () => {
     app.view!.untouched = false;
@@ -72,7 +73,7 @@ function act(app: App, key: string, shift: boolean): boolean {
     ArrowUp: () => player.shift(1),
     ArrowDown: () => player.shift(-1),
     Home: () => player.seek(player.range[0]),
-    End: () => (app.shownRuns().some((run) => run.isLive) ? player.follow() : player.seek(player.range[1])),
+    End: () => (app.shown().some((run) => run.isLive) ? player.follow() : player.seek(player.range[1])),
     l: () => player.setLoop(!player.loop),
     c: () => app.look.change({ map: next(["water", "viridis", "cividis", "inferno"] as const, look.map) }),
     f: () => {
@@ -87,6 +88,7 @@ function act(app: App, key: string, shift: boolean): boolean {
     r: () => app.look.change({ tab: "run", side: true }),
     e: () => app.server && app.look.change({ tab: "case", side: true }),
     p: () => void app.savePicture(),
+    m: () => app.look.change({ dialog: "film" }),
     t: () => app.setTheme(look.theme === "dark" ? "light" : "dark"),
     "?": () => app.look.change({ dialog: look.dialog === "keys" ? "" : "keys" }),
     Escape: () => app.look.change({ dialog: "" }),

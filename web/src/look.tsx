@@ -7,7 +7,7 @@ import { colourings } from "./water/value.ts";
 export function LookPanel({ app }: { app: App }) {
   useChanges(app.look, app.data);
   const look = app.look.now;
-  const is3d = app.shownRuns()[0]?.scene.dimension === 3;
+  const is3d = app.shown()[0]?.scene.dimension === 3;
   const box = (name: "labels" | "walls" | "profiles", word: string) => (
     <label>
       <input type="checkbox" checked={look[name]} onChange={(e) => app.look.change({ [name]: e.currentTarget.checked })} /> {word}

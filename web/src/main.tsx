@@ -3,10 +3,12 @@ import { render } from "preact";
 import { useState } from "preact/hooks";
 import workerCode from "worker:frames/worker.ts";
 import { App } from "./app.ts";
+import { CasePanel } from "./case/panel.tsx";
 import { Gauges } from "./gauges/panel.tsx";
 import { Icon } from "./icons.tsx";
 import { KeysDialog, listen } from "./keys.tsx";
 import { LookPanel } from "./look.tsx";
+import { FilmDialog } from "./picture/filmdialog.tsx";
 import { RunPanel } from "./run/panel.tsx";
 import { Embedded, Server } from "./source.ts";
 import { useChanges, type Look } from "./store.ts";
@@ -17,7 +19,7 @@ function Page({ app }: { app: App }) {
   useChanges(app.look, app.data);
   const [lookOpen, openLook] = useState(false);
   const look = app.look.now;
-  const run = app.shownRuns()[0];
+  const run = app.shown()[0];
   const tab = (name: Look["tab"], word: string) => (
     <button role="tab" id={`tab-${name}`} aria-selected={look.tab === name} aria-controls="panel" onClick={() => app.look.change({ tab: name, side: true })}>
       {word}
@@ -33,6 +35,7 @@ function Page({ app }: { app: App }) {
         <button class="icon" title="How the water is drawn" aria-label="How the water is drawn" aria-expanded={lookOpen} onClick={() => openLook(!lookOpen)}><Icon name="look" /></button>
         <button class="icon" title="Show all (f)" aria-label="Show all" onClick={() => { app.view?.fit(); app.touch(); }}><Icon name="fit" /></button>
         <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void app.savePicture()}><Icon name="camera" /></button>
+        <button class="icon" title="Save a film (m)" aria-label="Save a film" disabled={!(app.player.range[1] > app.player.range[0])} onClick={() => app.look.change({ dialog: "film" })}><Icon name="film" /></button>
         <button class="icon" title="Light or dark (t)" aria-label="Light or dark page" onClick={() => app.setTheme(look.theme === "dark" ? "light" : "dark")}><Icon name={look.theme === "dark" ? "sun" : "moon"} /></button>
         <button class="icon" title="Keys (?)" aria-label="Keys" onClick={() => app.look.change({ dialog: "keys" })}><Icon name="keys" /></button>
         <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>
@@ -44,16 +47,19 @@ function Page({ app }: { app: App }) {
       {look.side && (
         <aside>
           <div class="tabs" role="tablist" aria-label="Beside the picture">
-            {tab("gauges", "Gauges")}
-            {tab("run", "Run")}
+            {app.runs.length > 0 && tab("gauges", "Gauges")}
+            {app.runs.length > 0 && tab("run", "Run")}
+            {app.server && app.state?.case && tab("case", "Case")}
           </div>
           <div class="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${look.tab}`} tabIndex={-1}>
             {look.tab === "gauges" && <Gauges app={app} />}
             {look.tab === "run" && <RunPanel app={app} />}
+            {look.tab === "case" && app.server && app.state?.case && <CasePanel app={app} />}
           </div>
         </aside>
       )}
       <TimeBar app={app} />
+      {look.dialog === "film" && <FilmDialog app={app} />}
       {look.dialog === "keys" && <KeysDialog app={app} />}
     </div>
   );

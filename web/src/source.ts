@@ -80,7 +80,7 @@ export class Server implements Source, Workshop {
 
   async file(run: string, path: string, from: number): Promise<string> {
     const response = await answer(`api/run/${run}/file/${path}`, from > 0 ? { headers: { Range: `bytes=${from}-` } } : {});
-    return response.status === 416 ? "" : response.text();
+    return response.status === 204 || response.status === 416 ? "" : response.text();
   }
 
   listen(run: string, events: RunEvents): () => void {

@@ -21,6 +21,8 @@ export interface Look {
   /** Ids of the runs that are shown. */
   shown: string[];
   probe: string | null;
+  /** What of the case's drawing is marked, by its name. */
+  marked: string | null;
   tab: "gauges" | "run" | "case";
   side: boolean;
   dialog: "" | "keys" | "film";

@@ -1,10 +1,10 @@
 // What a probe's plot shows: curves over time of one column, of every run, and the laboratory's points.
 import type { Measurement, Probe } from "../contract.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import { split } from "../units.ts";
 
 export interface Curve {
-  run: RunModel;
+  run: Subject;
   x: number[];
   y: number[];
 }
@@ -13,7 +13,7 @@ export interface Curve {
 export const isProfile = (probe: Probe) => probe.type === "profile" || probe.type === "velocity-profile";
 
 /** The columns of a probe that can be plotted over time, as its table has them. */
-export function choices(run: RunModel, probe: Probe): string[] {
+export function choices(run: Subject, probe: Probe): string[] {
   const columns = run.table(probe.name)?.columns ?? probe.columns;
   return columns.filter((name) => name !== "time_s" && !/^[xyz]_m$/.test(name));
 }
@@ -27,7 +27,7 @@ export function favourite(probe: Probe, columns: string[]): string {
   return liked[probe.type]?.find((name) => columns.includes(name)) ?? columns[0] ?? "";
 }
 
-export function curves(runs: RunModel[], probe: string, column: string): Curve[] {
+export function curves(runs: Subject[], probe: string, column: string): Curve[] {
   return runs.flatMap((run) => {
     const table = run.table(probe);
     const x = table?.values[0];
@@ -36,7 +36,7 @@ export function curves(runs: RunModel[], probe: string, column: string): Curve[]
   });
 }
 
-export function laboratory(run: RunModel, probe: string, column: string): Measurement[] {
+export function laboratory(run: Subject, probe: string, column: string): Measurement[] {
   return run.scene.measurements.filter((m) => m.probe === probe && m.column === column);
 }
 

@@ -4,7 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { App } from "../app.ts";
 import { series } from "../colours.ts";
 import type { Probe } from "../contract.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import { useChanges } from "../store.ts";
 import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
@@ -16,7 +16,7 @@ import { toSvg } from "../picture/svg.ts";
 
 export function Gauges({ app }: { app: App }) {
   useChanges(app.look, app.data);
-  const runs = app.shownRuns();
+  const runs = app.shown();
   const probes = new Map<string, Probe>();
   for (const run of runs) for (const probe of run.scene.probes) probes.set(probe.name, probes.get(probe.name) ?? probe);
   if (probes.size === 0) return <p class="hint">This case has no probes. A [[probe]] in the case file measures levels, pressures, forces and more.</p>;
@@ -30,7 +30,7 @@ export function Gauges({ app }: { app: App }) {
   );
 }
 
-export function RunKey({ app, runs }: { app: App; runs: RunModel[] }) {
+export function RunKey({ app, runs }: { app: App; runs: Subject[] }) {
   const palette = series[app.look.now.theme];
   return (
     <ul class="run-key">
@@ -43,7 +43,7 @@ export function RunKey({ app, runs }: { app: App; runs: RunModel[] }) {
   );
 }
 
-function Gauge({ app, runs, probe }: { app: App; runs: RunModel[]; probe: Probe }) {
+function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }) {
   useChanges(...(isProfile(probe) ? [app.player] : []));
   const owner = runs.find((run) => run.table(probe.name)) ?? runs[0]!;
   const columns = choices(owner, probe);
@@ -107,7 +107,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: RunModel[]; probe: Probe 
 }
 
 /** The value at the moment shown. */
-function Now({ app, run, probe, column, unit }: { app: App; run: RunModel; probe: string; column: string; unit: string }) {
+function Now({ app, run, probe, column, unit }: { app: App; run: Subject; probe: string; column: string; unit: string }) {
   const out = useRef<HTMLSpanElement>(null);
   useEffect(() => {
     const tell = () => {
@@ -121,7 +121,7 @@ function Now({ app, run, probe, column, unit }: { app: App; run: RunModel; probe
   return <span class="value" ref={out} />;
 }
 
-function overTime(app: App, runs: RunModel[], probe: Probe, column: string): Line[] {
+function overTime(app: App, runs: Subject[], probe: Probe, column: string): Line[] {
   const palette = series[app.look.now.theme];
   const lines: Line[] = curves(runs, probe.name, column).map(({ run, x, y }) => ({
     name: run.name, x, y, colour: palette[runs.indexOf(run) % 6]!,
@@ -132,7 +132,7 @@ function overTime(app: App, runs: RunModel[], probe: Probe, column: string): Lin
   return lines;
 }
 
-function profileCurves(app: App, runs: RunModel[], probe: Probe, column: string): Line[] {
+function profileCurves(app: App, runs: Subject[], probe: Probe, column: string): Line[] {
   const palette = series[app.look.now.theme];
   return runs.flatMap((run, i) => {
     const table = run.table(probe.name);
@@ -144,12 +144,12 @@ function profileCurves(app: App, runs: RunModel[], probe: Probe, column: string)
   });
 }
 
-function blockStamp(run: RunModel, probe: Probe, time: number): number {
+function blockStamp(run: Subject, probe: Probe, time: number): number {
   const times = run.table(probe.name)?.values[0];
   return times ? block(times, time)[0] : -1;
 }
 
-function csv(run: RunModel, probe: string): string {
+function csv(run: Subject, probe: string): string {
   const table = run.table(probe);
   return table ? toCsv(table.columns, table.values) : "";
 }

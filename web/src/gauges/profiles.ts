@@ -1,9 +1,9 @@
 // Levels that are drawn over the water: profiles at the time shown, and the largest level of a level map.
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import { block } from "../tables.ts";
 
 /** Lines in space, one or more per profile probe; in 2D only, since a profile in 3D is a line in plan as well. */
-export function profileLines(run: RunModel, time: number): number[][][] {
+export function profileLines(run: Subject, time: number): number[][][] {
   if (run.scene.dimension !== 2) return [];
   return run.scene.probes.flatMap((probe) => {
     if (probe.type !== "profile") return [];

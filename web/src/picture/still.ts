@@ -22,7 +22,7 @@ export function compose(app: App, canvas: HTMLCanvasElement): void {
   c.lineWidth = 1.5;
   c.font = "600 14px system-ui, sans-serif";
   c.textBaseline = "alphabetic";
-  const runs = app.shownRuns();
+  const runs = app.shown();
   c.fillText(runs[0]?.scene.title ?? "", 14, 24);
   c.textAlign = "right";
   c.fillText(`${app.player.time.toFixed(timeDecimals(app.player.range[1]))} s`, w - 14, 24);
@@ -68,5 +68,5 @@ export async function savePicture(app: App): Promise<void> {
   const canvas = document.createElement("canvas");
   compose(app, canvas);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
-  if (blob) saveText(`${app.shownRuns()[0]?.name ?? "tailwater"}_${app.player.time.toFixed(3)}s.png`, "image/png", blob);
+  if (blob) saveText(`${app.shown()[0]?.name ?? "tailwater"}_${app.player.time.toFixed(3)}s.png`, "image/png", blob);
 }

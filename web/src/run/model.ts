@@ -4,8 +4,12 @@ import { DecodeWorker, FrameWindow } from "../frames/window.ts";
 import type { Source } from "../source.ts";
 import { Table } from "../tables.ts";
 import { upward } from "../water/eye.ts";
+import { whole, type Subject } from "./subject.ts";
 
-export class RunModel {
+/** How often a run that is not going is asked whether it goes on, ms. */
+const idle = 5000;
+
+export class RunModel implements Subject {
   tables = new Map<string, Table>();
   info: Info | null = null;
   /** What went wrong with this run's data, "": nothing. */
@@ -31,35 +35,67 @@ export class RunModel {
     run: { id: string; name: string; parameters?: Record<string, string> },
     changed: () => void,
   ): Promise<RunModel> {
-    const scene = await source.scene(run.id);
+    const scene = whole(await source.scene(run.id));
     const { axis, sign } = upward(scene.gravity, scene.dimension);
     const frames = new FrameWindow(run.id, source, worker, { up: axis, sign, width: 2 * scene.spacing }, changed);
     const model = new RunModel(run.id, run.name, run.parameters ?? {}, scene, frames, source, changed);
     await model.catchUp();
-    model.stop = source.listen(run.id, {
-      frame: (entry) => frames.add([entry]),
-      table: (path) => void model.read(path),
+    model.watch();
+    return model;
+  }
+
+  /** Listens while the run goes on; asks now and then whether one that stands still has begun again. */
+  private watch(): void {
+    this.stop();
+    if (!this.source.live) return;
+    if (this.isLive) {
+      this.stop = this.listen();
+      return;
+    }
+    const timer = setInterval(() => void this.ask(), idle);
+    this.stop = () => clearInterval(timer);
+  }
+
+  private async ask(): Promise<void> {
+    try {
+      const info = await this.source.info(this.id);
+      const changed = JSON.stringify(info) !== JSON.stringify(this.info) || !this.connected;
+      this.info = info;
+      if (changed) await this.catchUp();
+      if (this.isLive) this.watch();
+    } catch {
+      if (this.connected) {
+        this.connected = false;
+        this.changed();
+      }
+    }
+  }
+
+  private listen(): () => void {
+    return this.source.listen(this.id, {
+      frame: (entry) => this.frames.add([entry]),
+      table: (path) => void this.read(path),
       info: (info) => {
-        model.info = info;
-        changed();
+        this.info = info;
+        if (!this.isLive) void this.catchUp().then(() => this.watch());
+        this.changed();
       },
       cut: (time) => {
-        frames.cut(time);
-        model.tables.clear();
-        void model.catchUp();
+        this.frames.cut(time);
+        this.tables.clear();
+        void this.catchUp();
       },
       gone: () => {
-        model.gone = true;
-        changed();
+        this.gone = true;
+        this.changed();
       },
       connected: (yes) => {
-        const back = yes && !model.connected;
-        model.connected = yes;
-        if (back) void model.catchUp();
-        changed();
+        const back = yes && !this.connected;
+        this.connected = yes;
+        if (back) void this.catchUp();
+        this.changed();
       },
     });
-    return model;
   }
 
   /** Reads what there is: at the beginning, and when the server answers again. */
@@ -67,9 +103,11 @@ export class RunModel {
     try {
       const last = this.frames.list.at(-1);
       const { frames } = await this.source.frames(this.id, last ? last.index + 1 : 0);
-      this.frames.add(frames);
+      if (frames.length > 0) this.frames.add(frames);
       this.info = await this.source.info(this.id);
+      this.connected = true;
       await Promise.all(this.scene.probes.map((probe) => this.read(`probes/${probe.name}.csv`)));
+      this.trouble = "";
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);
     }

@@ -12,7 +12,7 @@ export function TimeBar({ app }: { app: App }) {
   const slider = useRef<HTMLInputElement>(null);
   const clock = useRef<HTMLOutputElement>(null);
   const loaded = useRef<HTMLCanvasElement>(null);
-  const runs = app.shownRuns();
+  const runs = app.shown();
   const [start, end] = player.range;
   const times = runs[0]?.frames.times ?? [];
 

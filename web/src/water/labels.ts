@@ -18,7 +18,7 @@ export class Labels {
   private key = "";
   private places: { probe: string; x: number; y: number }[] = [];
 
-  constructor(private holder: HTMLElement, private select: (probe: string) => void) {}
+  constructor(private holder: HTMLElement, private pick: (name: string, isProbe: boolean) => void) {}
 
   sync(view: WaterView, staging: Staging, look: Look): void {
     const key = staging.shown.map((s) => s.run.id).join(" ") + look.layout + String(look.labels);
@@ -73,7 +73,7 @@ export class Labels {
     this.labels = [];
     const runs = over ? staging.shown.slice(0, 1) : staging.shown;
     runs.forEach(({ run }, cell) => {
-      const list = look.labels ? this.ofScene(run.scene) : [];
+      const list = look.labels ? this.ofScene(run.scene, run.id.startsWith("case-")) : [];
       this.labels.push({ cell, list });
       for (const { element } of list) this.holder.append(element);
       if (staging.shown.length > 1) {
@@ -88,24 +88,22 @@ export class Labels {
     });
   }
 
-  private ofScene(scene: Scene): Label[] {
+  private ofScene(scene: Scene, isCase: boolean): Label[] {
     const list: Label[] = [];
     const add = (name: string, role: string, point: number[] | undefined, probe: string | null = null, moving: number | null = null) => {
       if (!point) return;
-      const element = document.createElement(probe ? "button" : "div");
+      const element = document.createElement(probe || isCase ? "button" : "div");
       element.className = `label ${role}`;
       element.textContent = name;
-      if (probe) {
-        element.title = `Show the plot of ${probe}`;
-        element.addEventListener("click", () => this.select(probe));
-      }
+      if (probe) element.title = `Show the plot of ${probe}`;
+      element.addEventListener("click", () => this.pick(name, probe !== null));
       list.push({ element, point, moving, probe, width: 0 });
     };
     for (const probe of scene.probes) add(probe.name, "probe", middle(probe.points), probe.name);
     for (const end of [...scene.inlets, ...scene.outlets]) add(end.name, "open", middle(end.corners ?? [end.from, end.to].filter((p) => p !== undefined)));
     for (const wall of scene.walls) {
-      if (wall.kind === "wall") continue;
-      const point = wall.polylines ? middle(wall.polylines.flat()) : centre(wall.triangles?.positions ?? []);
+      if (wall.kind === "wall" && !isCase) continue;
+      const point = wall.polylines ? ofLongest(wall.polylines) : centre(wall.triangles?.positions ?? []);
       add(wall.name, wall.kind, point, null, wall.moving ?? null);
     }
     return list;
@@ -115,6 +113,23 @@ export class Labels {
 function middle(points: number[][]): number[] | undefined {
   if (points.length === 0) return undefined;
   return points[0]!.map((_, d) => points.reduce((sum, p) => sum + p[d]!, 0) / points.length);
+}
+
+/** The middle of the longest segment. */
+function ofLongest(lines: number[][][]): number[] | undefined {
+  let best: number[] | undefined;
+  let longest = 0;
+  for (const line of lines) {
+    for (let i = 0; i + 1 < line.length; ++i) {
+      const [p, q] = [line[i]!, line[i + 1]!];
+      const size = Math.hypot(q[0]! - p[0]!, q[1]! - p[1]!);
+      if (size > longest) {
+        longest = size;
+        best = middle([p, q]);
+      }
+    }
+  }
+  return best;
 }
 
 function centre(positions: number[]): number[] | undefined {

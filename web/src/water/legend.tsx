@@ -2,14 +2,14 @@
 import { useRef } from "preact/hooks";
 import type { App } from "../app.ts";
 import { gradient } from "../colours.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import { number } from "../units.ts";
 import { colourings, quantity } from "./value.ts";
 
-export function Legend({ app, run }: { app: App; run: RunModel }) {
+export function Legend({ app, run }: { app: App; run: Subject }) {
   const look = app.look.now;
   const bar = useRef<HTMLDivElement>(null);
-  if (look.layout === "over" && app.shownRuns().length > 1) return null;
+  if (look.layout === "over" && app.shown().length > 1) return null;
   const kind = colourings.find((c) => c.name === look.colouring)!;
   if (look.colouring === "plain" || quantity(run, look.colouring) === "plain") return null;
   const fixed = look.limits[look.colouring];

@@ -1,15 +1,16 @@
 // The particle under the pointer.
-import { Matrix4 } from "three";
+import { Matrix4, Raycaster, Vector2 } from "three";
+import { distance } from "../case/pointing.ts";
 import { stride } from "../frames/format.ts";
 import type { Shown } from "../frames/window.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import type { Staging } from "./staging.ts";
 import { placeOf } from "./value.ts";
 import type { WaterView } from "./view.ts";
 
 export interface Picked {
   place: number[];
-  run: RunModel | null;
+  run: Subject | null;
   frame: Shown | null;
   i: number;
 }
@@ -49,4 +50,38 @@ export function nearest(view: WaterView, staging: Staging, x: number, y: number)
   }
   if (best) return best;
   return eye.dim === 2 ? { place: eye.place(px, py), run: null, frame: null, i: -1 } : null;
+}
+
+/** The wall under a place of the canvas: in 2D the nearest line within 8 pixels, in 3D the foremost face. */
+export function wallNear(view: WaterView, staging: Staging, x: number, y: number): string | null {
+  const cell = view.cells.find((c) => x >= c.x && x < c.x + c.width && y >= c.y && y < c.y + c.height);
+  const eye = view.eye;
+  if (!cell || !eye) return null;
+  const screen = (point: number[]): [number, number] | null => {
+    const at = eye.project(point);
+    return at && [cell.x + ((at.x + 1) * cell.width) / 2, cell.y + ((1 - at.y) * cell.height) / 2];
+  };
+  let best: string | null = null;
+  let closest = 8;
+  for (const { stage } of staging.shown) {
+    for (const wall of stage.scene.walls) {
+      const place = (p: number[]) => screen(wall.moving === null ? p : stage.walls.moved(wall.moving, p));
+      for (const line of wall.polylines ?? []) {
+        for (let i = 0; i + 1 < line.length; ++i) {
+          const [a, b] = [place(line[i]!), place(line[i + 1]!)];
+          const far = a && b ? distance([x, y], a, b) : Infinity;
+          if (far < closest) {
+            closest = far;
+            best = wall.name;
+          }
+        }
+      }
+    }
+    if (eye.dim === 3) {
+      const ray = new Raycaster();
+      ray.setFromCamera(new Vector2((2 * (x - cell.x)) / cell.width - 1, 1 - (2 * (y - cell.y)) / cell.height), eye.camera);
+      best = stage.walls.struck(ray) ?? best;
+    }
+  }
+  return best;
 }

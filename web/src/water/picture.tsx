@@ -9,7 +9,7 @@ import { length, niceBelow, number } from "../units.ts";
 import { attach } from "./hands.ts";
 import { Labels } from "./labels.ts";
 import { Legend } from "./legend.tsx";
-import { nearest } from "./pick.ts";
+import { nearest, wallNear } from "./pick.ts";
 import { Staging } from "./staging.ts";
 import { colourings, valueOf } from "./value.ts";
 import { WaterView } from "./view.ts";
@@ -25,7 +25,7 @@ export function Picture({ app }: { app: App }) {
   useEffect(() => {
     const view = new WaterView(canvas.current!);
     const staging = new Staging(view);
-    const labels = new Labels(names.current!, (probe) => app.select(probe));
+    const labels = new Labels(names.current!, (name, isProbe) => app.pick(name, isProbe));
     app.view = view;
     let dirty = true;
     const touch = () => (dirty = true);
@@ -46,7 +46,8 @@ export function Picture({ app }: { app: App }) {
       },
       click: (x, y) => {
         const probe = labels.probeNear(x, y);
-        if (probe) app.select(probe);
+        const wall = probe ?? wallNear(view, staging, x, y);
+        if (wall) app.pick(wall, probe !== null);
       },
       hover: (x, y) => read(x, y),
       leave: () => (reading.current!.hidden = true),
@@ -86,18 +87,19 @@ export function Picture({ app }: { app: App }) {
       const look = app.look.now;
       const theme = colours();
       view.paper(theme.paper);
-      staging.sync(app.shownRuns(), look, theme);
+      staging.sync(app.shown(), look, theme);
       let exact = true;
       for (const { run, stage } of staging.shown) {
         const at = run.frames.at(app.player.time);
         stage.particles.points.visible = at !== null;
+        stage.select(look.probe);
+        stage.walls.mark(look.marked);
         if (!at) continue;
         exact &&= at.exact;
         stage.show(at);
         const limits = staging.colour(run, stage, at, look);
         if (run === staging.shown[0]!.run) app.setLimits(limits);
         stage.overlay(look.profiles ? profileLines(run, app.player.time) : []);
-        stage.select(look.probe);
       }
       staging.section(look.section);
       view.time = app.player.time;
@@ -123,7 +125,7 @@ export function Picture({ app }: { app: App }) {
     };
   }, []);
 
-  const run = app.shownRuns()[0];
+  const run = app.shown()[0];
   return (
     <div class="picture" ref={box}>
       <canvas ref={canvas} tabIndex={0} aria-label="The water. Arrow keys move the camera, plus and minus zoom, f shows all." />
@@ -131,7 +133,7 @@ export function Picture({ app }: { app: App }) {
       {run && <Legend app={app} run={run} />}
       <div class="scale" ref={scale} aria-hidden="true" />
       <div class="reading" ref={reading} hidden />
-      {app.shownRuns().length === 0 && <p class="empty">{app.emptyWord()}</p>}
+      {app.shown().length === 0 && <p class="empty">{app.emptyWord()}</p>}
     </div>
   );
 }

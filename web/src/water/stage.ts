@@ -1,6 +1,6 @@
 // One run in the picture: its water, walls, open ends, probes and the lines that are measured over the water.
 import { Scene as ThreeScene, Vector4 } from "three";
-import type { OpenEnd, Scene } from "../contract.ts";
+import type { OpenEnd, Probe, Scene } from "../contract.ts";
 import type { Shown } from "../frames/window.ts";
 import { upward } from "./eye.ts";
 import { LineMark } from "./lines.ts";
@@ -23,6 +23,7 @@ export class Stage {
   private probes: LineMark;
   private lit: LineMark;
   private profile: LineMark;
+  private selected: string | null = null;
 
   constructor(readonly scene: Scene) {
     const dim = scene.dimension;
@@ -34,7 +35,7 @@ export class Stage {
     this.lit = new LineMark({ colour: "#000", width: 3.5, onTop: true });
     this.profile = new LineMark({ colour: "#000", width: 2.5, onTop: dim === 2 });
     this.ends.set([...scene.inlets, ...scene.outlets].map((end) => outline(end, dim)));
-    this.probes.set(scene.probes.map((probe) => probeLine(probe.points)));
+    this.probes.set(scene.probes.map((probe) => this.mark(probe)));
     this.scene3.add(this.walls.group, this.particles.points, this.ends.mesh, this.profile.mesh, this.probes.mesh, this.lit.mesh);
     this.particles.points.renderOrder = dim === 2 ? -1 : 0;
   }
@@ -65,8 +66,21 @@ export class Stage {
   }
 
   select(probe: string | null): void {
+    if (probe === this.selected) return;
+    this.selected = probe;
     const found = this.scene.probes.find((p) => p.name === probe);
-    this.lit.set(found ? [probeLine(found.points)] : []);
+    this.lit.set(found ? [this.mark(found)] : []);
+  }
+
+  /** How a probe is drawn: a depth gauge as the plumb line that it reads, others as they are placed. */
+  private mark(probe: Probe): number[][] {
+    const [point] = probe.points;
+    if (!point || probe.points.length > 1 || (probe.type !== "depth" && probe.type !== "velocity-profile")) return probeLine(probe.points);
+    const { axis, sign } = this.up;
+    const { min, max } = this.scene.box;
+    const top = [...point];
+    top[axis] = sign > 0 ? max[axis]! : min[axis]!;
+    return [point, top];
   }
 
   overlay(lines: number[][][]): void {
@@ -88,7 +102,7 @@ export class Stage {
 
 /** The rim of an open end; in 3D a rectangle that `from` and `to` are corners of. */
 export function outline(end: OpenEnd, dim: 2 | 3): number[][] {
-  if (end.corners) return [...end.corners, end.corners[0]!];
+  if (end.corners) return end.corners.length > 2 ? [...end.corners, end.corners[0]!] : end.corners;
   if (!end.from || !end.to) return [];
   return dim === 2 ? [end.from, end.to] : rectangle(end.from, end.to);
 }

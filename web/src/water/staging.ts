@@ -1,7 +1,7 @@
 // Which runs are on stage, and how they look: keeps the stages of the view in step with what is chosen.
 import { Color, Vector2, Vector4 } from "three";
 import { series } from "../colours.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import type { Look } from "../store.ts";
 import type { Theme } from "../theme.ts";
 import type { Shown } from "../frames/window.ts";
@@ -10,15 +10,15 @@ import { origins, quantity, spread } from "./value.ts";
 import type { WaterView } from "./view.ts";
 
 export class Staging {
-  shown: { run: RunModel; stage: Stage }[] = [];
+  shown: { run: Subject; stage: Stage }[] = [];
   private key = "";
   private lookKey = "";
-  private spreads = new WeakMap<RunModel, { by: Map<string, [number, number]>; seen: WeakSet<Shown> }>();
+  private spreads = new WeakMap<Subject, { by: Map<string, [number, number]>; seen: WeakSet<Shown> }>();
   private ownOf = new WeakMap<Stage, Shown>();
 
   constructor(private view: WaterView) {}
 
-  sync(runs: RunModel[], look: Look, theme: Theme): void {
+  sync(runs: Subject[], look: Look, theme: Theme): void {
     const key = runs.map((run) => run.id).join(" ") + look.layout;
     if (key !== this.key) {
       const before = this.shown;
@@ -46,7 +46,7 @@ export class Staging {
   }
 
   /** Limits of the colours, and what is uploaded only for some of them. */
-  colour(run: RunModel, stage: Stage, at: { a: Shown }, look: Look): [number, number] {
+  colour(run: Subject, stage: Stage, at: { a: Shown }, look: Look): [number, number] {
     const limits = this.limits(run, stage, at.a, look);
     stage.particles.set("limits", new Vector2(...limits));
     if (look.colouring === "origin" && this.ownOf.get(stage) !== at.a) {
@@ -57,7 +57,7 @@ export class Staging {
     return limits;
   }
 
-  limits(run: RunModel, stage: Stage, frame: Shown, look: Look): [number, number] {
+  limits(run: Subject, stage: Stage, frame: Shown, look: Look): [number, number] {
     const { colouring } = look;
     if (colouring === "origin" || colouring === "plain") return [0, 1];
     const fixed = look.limits[colouring];

@@ -1,6 +1,6 @@
 // What the water's colour means: the quantity, its unit, its limits, and the value of one particle.
 import type { Colouring } from "../store.ts";
-import type { RunModel } from "../run/model.ts";
+import type { Subject } from "../run/subject.ts";
 import { stride } from "../frames/format.ts";
 import type { Shown } from "../frames/window.ts";
 import type { Quantity } from "./particles.ts";
@@ -13,9 +13,9 @@ export const colourings: { name: Colouring; title: string; unit: string; key: st
   { name: "plain", title: "One colour", unit: "", key: "5" },
 ];
 
-const scalarOf = (run: RunModel, name: string) => run.scene.scalars.findIndex((s) => s.name === name);
+const scalarOf = (run: Subject, name: string) => run.scene.scalars.findIndex((s) => s.name === name);
 
-export function quantity(run: RunModel, colouring: Colouring): Quantity {
+export function quantity(run: Subject, colouring: Colouring): Quantity {
   if (colouring === "depth") return "depth";
   if (colouring === "origin") return "own";
   if (colouring === "plain") return "plain";
@@ -24,7 +24,7 @@ export function quantity(run: RunModel, colouring: Colouring): Quantity {
 }
 
 /** A particle's value, and NaN where the frame has none. */
-export function valueOf(run: RunModel, frame: Shown, colouring: Colouring, i: number): number {
+export function valueOf(run: Subject, frame: Shown, colouring: Colouring, i: number): number {
   const s = scalarOf(run, colouring);
   if (s < 0 || s > 1) return NaN;
   const range = frame.scalars[s]!;
@@ -33,7 +33,7 @@ export function valueOf(run: RunModel, frame: Shown, colouring: Colouring, i: nu
 }
 
 /** Lowest and highest values but for the outermost 0.5 % of the particles at each end: single ones do not fade the rest. */
-export function spread(run: RunModel, frame: Shown, colouring: Colouring, up: { axis: number; sign: number }): [number, number] {
+export function spread(run: Subject, frame: Shown, colouring: Colouring, up: { axis: number; sign: number }): [number, number] {
   if (colouring === "depth") {
     const heights = frame.levels.top.filter((x) => x > -Infinity);
     const base = up.sign > 0 ? frame.boxMin[up.axis]! : -frame.boxMax[up.axis]!;

@@ -1,5 +1,5 @@
 // Walls, gates and bodies as they are drawn in the case; what moves is moved by the poses of the frames.
-import { BackSide, BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, GLSL3, Group, Matrix4, Mesh, Quaternion, RawShaderMaterial, Vector3, Vector4, type Side } from "three";
+import { BackSide, BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, GLSL3, Group, Matrix4, Mesh, Quaternion, RawShaderMaterial, type Raycaster, Vector3, Vector4, type Side } from "three";
 import type { Scene, Wall } from "../contract.ts";
 import { edges, LineMark } from "./lines.ts";
 
@@ -98,6 +98,13 @@ export class WallMarks {
         holder.matrixWorldNeedsUpdate = true;
       }
     }
+  }
+
+  /** The wall whose face a ray meets first. */
+  struck(ray: Raycaster): string | null {
+    const faces = this.parts.flatMap(({ wall, sheets }) => sheets.slice(0, 1).map((mesh) => ({ wall, mesh })));
+    const [first] = ray.intersectObjects(faces.map(({ mesh }) => mesh), false);
+    return faces.find(({ mesh }) => mesh === first?.object)?.wall.name ?? null;
   }
 
   /** Where a point as drawn is now, moved by a pose. */

@@ -1,0 +1,142 @@
+// The case: its text in an editor, what the program finds in it, and the buttons that save and run it. The drawing beside
+// it is the page's picture.
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { App } from "../app.ts";
+import type { Check, Finding } from "../contract.ts";
+import { drawn } from "../run/subject.ts";
+import { useChanges } from "../store.ts";
+import { CaseEditor } from "./editor.ts";
+
+/** How long the page waits for the next key before it asks the program, ms. */
+const pause = 120;
+
+export function CasePanel({ app }: { app: App }) {
+  useChanges(app.data);
+  const server = app.server!;
+  const holder = useRef<HTMLDivElement>(null);
+  const editor = useRef<CaseEditor | null>(null);
+  const [check, show] = useState<Check | null>(null);
+  const [word, tell] = useState("");
+  const [templates, list] = useState<{ name: string; title: string }[]>([]);
+  const [form, fill] = useState({ out: app.state?.out ?? "my_run", ranks: 1 });
+
+  useEffect(() => {
+    let timer = 0;
+    let asked: AbortController | null = null;
+    let version = 0;
+    const ask = async (text: string) => {
+      asked?.abort();
+      asked = new AbortController();
+      try {
+        const answer = await server.check(text, asked.signal);
+        show(answer);
+        made.find(answer.findings);
+        if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++version}`), answer.drawing);
+        tell("");
+      } catch (error) {
+        if (!(error instanceof DOMException && error.name === "AbortError")) tell(error instanceof Error ? error.message : String(error));
+      }
+    };
+    const made = new CaseEditor(holder.current!, app.caseText ?? "", {
+      changed(text) {
+        app.caseText = text;
+        clearTimeout(timer);
+        timer = window.setTimeout(() => void ask(text), pause);
+      },
+      line: (line) => app.lightAt(line),
+      save: () => void save(),
+      run: () => void start(),
+    });
+    editor.current = made;
+    app.markLines = (lines) => made.mark(lines);
+    void (async () => {
+      try {
+        if (app.caseText === null) made.replace(await server.caseText());
+        else await ask(app.caseText);
+        made.know(await server.spec());
+        list(await server.templates());
+      } catch (error) {
+        tell(error instanceof Error ? error.message : String(error));
+      }
+    })();
+    return () => {
+      clearTimeout(timer);
+      asked?.abort();
+      app.markLines = null;
+      made.destroy();
+    };
+  }, []);
+
+  const attempt = async (work: () => Promise<string>) => {
+    try {
+      tell(await work());
+    } catch (error) {
+      tell(error instanceof Error ? error.message : String(error));
+    }
+  };
+  const save = () =>
+    attempt(async () => {
+      await server.save(editor.current!.text);
+      return "Saved.";
+    });
+  const start = () =>
+    attempt(async () => {
+      const id = await server.start(editor.current!.text, form.out, form.ranks);
+      app.state = await server.state();
+      await app.open(id);
+      app.look.change({ shown: [id], tab: "run" });
+      app.player.follow();
+      return "";
+    });
+  const errors = check?.findings.filter((f) => f.severity === "error").length ?? 0;
+  return (
+    <div class="case-panel">
+      <div class="case-bar">
+        <select aria-label="Begin from a template" value="" onChange={(e) => {
+          const name = e.currentTarget.value;
+          e.currentTarget.value = "";
+          if (name) void attempt(async () => (editor.current!.replace(await server.template(name)), ""));
+        }}>
+          <option value="">Templates</option>
+          {templates.map((t) => (
+            <option value={t.name}>{t.title || t.name}</option>
+          ))}
+        </select>
+        <button title="Save the case file (Ctrl+S)" onClick={() => void save()}>Save</button>
+        <span class="gap" />
+        <label>
+          into <input value={form.out} size={12} aria-label="Folder of the run" onInput={(e) => fill({ ...form, out: e.currentTarget.value })} />
+        </label>
+        {(app.state?.ranks_most ?? 1) > 1 && (
+          <label>
+            on <input type="number" min={1} max={app.state!.ranks_most} value={form.ranks} aria-label="Ranks" onInput={(e) => fill({ ...form, ranks: Number(e.currentTarget.value) || 1 })} /> ranks
+          </label>
+        )}
+        <button class="primary" disabled={errors > 0 || check === null} title="Run this case (Ctrl+Enter)" onClick={() => void start()}>Run</button>
+      </div>
+      <div class="editor" ref={holder} />
+      <Found check={check} word={word} go={(line) => editor.current?.go(line)} />
+    </div>
+  );
+}
+
+function Found({ check, word, go }: { check: Check | null; word: string; go: (line: number) => void }) {
+  const worst: Record<Finding["severity"], number> = { error: 0, warning: 1, note: 2 };
+  const findings = [...(check?.findings ?? [])].sort((a, b) => worst[a.severity] - worst[b.severity] || a.line - b.line);
+  return (
+    <div class="found" role="status">
+      {word && <p class="hint">{word}</p>}
+      <ul>
+        {findings.map((f) => (
+          <li class={f.severity}>
+            <button disabled={f.line < 1} onClick={() => go(f.line)}>
+              <strong>{f.severity}</strong>
+              {f.line >= 1 ? `, line ${f.line}` : ""}: {f.message}
+            </button>
+          </li>
+        ))}
+      </ul>
+      {check?.summary.map((sentence) => <p class="summary">{sentence}</p>)}
+    </div>
+  );
+}
