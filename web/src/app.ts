@@ -23,8 +23,9 @@ export class App {
   view: WaterView | null = null;
   /** Asks for a new picture. */
   touch: () => void = () => {};
-  /** Called before each picture; a film listens here. */
-  drawing: (() => void) | null = null;
+  /** A film is being made: every picture is whole. */
+  recording = false;
+  /** Called after each picture; `exact`: it shows the frames of its own moment. */
   drawn: ((exact: boolean) => void) | null = null;
   limits: [number, number] | null = null;
   /** Text of the case in the editor; null: not read yet. */

@@ -16,7 +16,7 @@ const stops = (hex: string) => {
 /** viridis and inferno: polynomials through matplotlib's maps (van der Walt and Smith, public domain); cividis: Nuñez,
  * Anderton and Renslow (2018); water: from deep to foam. */
 export const colourMaps = {
-  water: stops("0a2463 0d3b8c 1257ab 1f78c1 3b98cf 62b5d9 90cfe2 bee5ea e6f5ee"),
+  water: stops("0a2463 0d3b8c 1257ab 1f78c1 3595cd 58b1d8 82cade aadfe4 cdeee6"),
   viridis: polynomial([
     [0.2777273, 0.0054073, 0.3340998], [0.105093, 1.4046135, 1.3845902], [-0.3308618, 0.2148476, 0.0950952],
     [-4.6342305, -5.799101, -19.332441], [6.2282699, 14.1799334, 56.6905526], [4.7763850, -13.7451454, -65.3530326],

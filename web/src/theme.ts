@@ -20,7 +20,7 @@ export function colours(): Theme {
     known = {
       theme,
       colours: {
-        paper: of("paper"), water: of("water"), text: of("text"), faint: of("faint"), grid: of("grid"), wall: of("wall"), gate: of("gate"), body: of("body"),
+        paper: of("paper"), water: of("water"), text: of("text"), faint: of("faint"), grid: of("grid"), wall: of("wall"), sheet: of("sheet"), gate: of("gate"), body: of("body"),
         open: of("open"), probe: of("probe"), accent: of("accent"), profile: of("profile"),
       },
     };

@@ -1,4 +1,4 @@
-// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser [name of a file]
+// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser|speed [name of a file]
 // Exit 77: skipped, because what it takes is not installed.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
@@ -12,7 +12,7 @@ const skip = (why) => {
   process.exit(77);
 };
 if (!existsSync(join(here, "../node_modules/esbuild"))) skip("web/node_modules is not installed");
-if (kind === "browser" && !["/usr/bin/chromium", "/usr/bin/chromium-browser", process.env.CHROMIUM ?? ""].some((p) => p && existsSync(p))) {
+if (kind !== "unit" && !["/usr/bin/chromium", "/usr/bin/chromium-browser", process.env.CHROMIUM ?? ""].some((p) => p && existsSync(p))) {
   skip("there is no Chromium");
 }
 const { build } = await import("esbuild");

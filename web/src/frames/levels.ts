@@ -10,6 +10,15 @@ export interface Levels {
   top: Float32Array;
 }
 
+const known = new WeakMap<object, Levels>();
+
+/** The levels of a frame, found when they are first asked for. */
+export function levelsOf(frame: Frame, up: { axis: number; sign: 1 | -1 }, spacing: number): Levels {
+  let found = known.get(frame);
+  if (!found) known.set(frame, (found = levels(frame, up.axis, up.sign, 2 * spacing)));
+  return found;
+}
+
 /**
  * The water of a column is what stands connected from its lowest particle upwards, with gaps of at most three cells, so
  * that spray above does not count. `up`: the axis against gravity; `sign` -1: gravity points along +up.

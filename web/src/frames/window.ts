@@ -2,18 +2,15 @@
 // decoded one at once, never nothing, and is told when the right one has come.
 import type { Source, FrameEntry } from "../source.ts";
 import type { Frame } from "./format.ts";
-import type { Levels } from "./levels.ts";
 import type { Order, Reply } from "./worker.ts";
 import { bracket } from "./bracket.ts";
-
-export type Shown = Frame & { levels: Levels };
 
 /** Bytes of decoded frames that are kept, of a run. */
 const budget = 384e6;
 
 export class FrameWindow {
   readonly list: FrameEntry[] = [];
-  private decoded = new Map<number, Shown>();
+  private decoded = new Map<number, Frame>();
   private ids: Uint32Array | null = null;
   private reached = -1; // place in `list` that the decoder reached
   private sent = -1; // place that was sent last
@@ -21,12 +18,13 @@ export class FrameWindow {
   private busy = false;
   private generation = 0;
   error = "";
+  /** How long the worker took for each of the last frames, ms. */
+  readonly milliseconds: number[] = [];
 
   constructor(
     private run: string,
     private source: Source,
     private worker: DecodeWorker,
-    private axes: { up: number; sign: 1 | -1; width: number },
     private changed: () => void,
   ) {}
 
@@ -60,7 +58,7 @@ export class FrameWindow {
   }
 
   /** The two frames around `time`, as far as they are decoded, and the share of the second; null: none yet. */
-  at(time: number): { a: Shown; b: Shown; share: number; exact: boolean } | null {
+  at(time: number): { a: Frame; b: Frame; share: number; exact: boolean } | null {
     if (this.list.length === 0) return null;
     const { place, share } = bracket(this.list, time);
     this.wanted = place;
@@ -72,7 +70,7 @@ export class FrameWindow {
     return nearest ? { a: nearest, b: nearest, share: 0, exact: false } : null;
   }
 
-  frame(place: number): Shown | undefined {
+  frame(place: number): Frame | undefined {
     return this.decoded.get(place);
   }
 
@@ -80,8 +78,8 @@ export class FrameWindow {
     return this.decoded.has(place);
   }
 
-  private nearest(place: number): Shown | undefined {
-    let best: Shown | undefined;
+  private nearest(place: number): Frame | undefined {
+    let best: Frame | undefined;
     let distance = Infinity;
     for (const [at, frame] of this.decoded) {
       if (Math.abs(at - place) < distance) {
@@ -126,11 +124,13 @@ export class FrameWindow {
     try {
       const bytes = await this.source.frame(this.run, this.list[place]!.index);
       if (generation !== this.generation) return;
-      const reply = await this.worker.decode({ run: this.run, bytes, ...this.axes });
+      const reply = await this.worker.decode({ run: this.run, bytes });
       if (generation !== this.generation) return;
       if ("error" in reply) throw new Error(reply.error);
+      this.milliseconds.push(reply.milliseconds);
+      if (this.milliseconds.length > 100) this.milliseconds.shift();
       if (reply.ids) this.ids = reply.ids;
-      this.decoded.set(place, { ...reply.frame, ids: this.ids!, levels: reply.levels });
+      this.decoded.set(place, { ...reply.frame, ids: this.ids! });
       this.reached = place;
       this.forget();
     } catch (error) {

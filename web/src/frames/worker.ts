@@ -2,24 +2,20 @@
 import { inflate } from "./inflate.ts";
 import { Decoder } from "./decode.ts";
 import { readHeader, type Frame } from "./format.ts";
-import { levels, type Levels } from "./levels.ts";
 
 export interface Order {
   run: string;
   bytes: Uint8Array;
-  /** Direction of gravity's axis and width of a column, m, for the level of the water. */
-  up: number;
-  sign: 1 | -1;
-  width: number;
 }
 
 export type Reply =
-  | { run: string; frame: Omit<Frame, "ids">; ids: Uint32Array | null; levels: Levels }
+  | { run: string; frame: Omit<Frame, "ids">; ids: Uint32Array | null; milliseconds: number }
   | { run: string; error: string };
 
 const decoders = new Map<string, { decoder: Decoder; posted: Uint32Array | null }>();
 
 async function decode(order: Order): Promise<void> {
+  const began = performance.now();
   const state = decoders.get(order.run) ?? { decoder: new Decoder(), posted: null };
   decoders.set(order.run, state);
   const header = readHeader(order.bytes);
@@ -28,7 +24,7 @@ async function decode(order: Order): Promise<void> {
   const known = ids === state.posted;
   const copy = known ? null : ids.slice();
   state.posted = ids;
-  const reply: Reply = { run: order.run, frame, ids: copy, levels: levels(frame, order.up, order.sign, order.width) };
+  const reply: Reply = { run: order.run, frame, ids: copy, milliseconds: performance.now() - began };
   postMessage(reply, { transfer: [frame.data.buffer as ArrayBuffer, ...(copy ? [copy.buffer] : [])] });
 }
 

@@ -31,6 +31,7 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
   const n = pictures(plan);
   const before = app.player.time;
   let whole = true;
+  app.recording = true;
   await shown(app, plan.from);
   compose(app, canvas);
   recorder.start();
@@ -45,6 +46,7 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
   recorder.stop();
   await ended;
   stream.getTracks().forEach((track) => track.stop());
+  app.recording = false;
   app.player.seek(before);
   return whole ? new Blob(chunks, { type: recorder.mimeType }) : null;
 }

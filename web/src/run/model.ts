@@ -3,7 +3,6 @@ import type { Info, Scene } from "../contract.ts";
 import { DecodeWorker, FrameWindow } from "../frames/window.ts";
 import type { Source } from "../source.ts";
 import { Table } from "../tables.ts";
-import { upward } from "../water/eye.ts";
 import { whole, type Subject } from "./subject.ts";
 
 /** How often a run that is not going is asked whether it goes on, ms. */
@@ -36,8 +35,7 @@ export class RunModel implements Subject {
     changed: () => void,
   ): Promise<RunModel> {
     const scene = whole(await source.scene(run.id));
-    const { axis, sign } = upward(scene.gravity, scene.dimension);
-    const frames = new FrameWindow(run.id, source, worker, { up: axis, sign, width: 2 * scene.spacing }, changed);
+    const frames = new FrameWindow(run.id, source, worker, changed);
     const model = new RunModel(run.id, run.name, run.parameters ?? {}, scene, frames, source, changed);
     await model.catchUp();
     model.watch();

@@ -1,11 +1,8 @@
 // What can be shown: a run, or the drawing of a case.
 import type { Drawing, Info, Scene } from "../contract.ts";
-import { stride } from "../frames/format.ts";
-import { levels } from "../frames/levels.ts";
-import type { Shown } from "../frames/window.ts";
+import { stride, type Frame } from "../frames/format.ts";
 import { fromBase64, type FrameEntry } from "../source.ts";
 import type { Table } from "../tables.ts";
-import { upward } from "../water/eye.ts";
 
 export interface Subject {
   readonly id: string;
@@ -18,8 +15,8 @@ export interface Subject {
   readonly frames: {
     readonly list: readonly FrameEntry[];
     readonly times: number[];
-    at(time: number): { a: Shown; b: Shown; share: number; exact: boolean } | null;
-    frame(place: number): Shown | undefined;
+    at(time: number): { a: Frame; b: Frame; share: number; exact: boolean } | null;
+    frame(place: number): Frame | undefined;
     isDecoded(place: number): boolean;
   };
   table(probe: string): Table | undefined;
@@ -62,7 +59,7 @@ export function drawn(drawing: Drawing, name: string, id: string): Subject {
   };
 }
 
-function startFrame(scene: Scene, drawing: Drawing): Shown | null {
+function startFrame(scene: Scene, drawing: Drawing): Frame | null {
   if (!drawing.particles || drawing.particles.shown === 0) return null;
   const dim = scene.dimension;
   const places = new Float32Array(fromBase64(drawing.particles.positions).buffer);
@@ -78,9 +75,8 @@ function startFrame(scene: Scene, drawing: Drawing): Shown | null {
   for (let i = 0; i < n; ++i) {
     for (let d = 0; d < dim; ++d) data[i * stride + d] = Math.round((65535 * (places[i * dim + d]! - boxMin[d]!)) / (boxMax[d]! - boxMin[d]!));
   }
-  const { axis, sign } = upward(scene.gravity, dim);
-  const frame = {
-    dim, order: 0 as const, index: 0, count: n, time: 0, boxMin, boxMax, scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0, data,
+  return {
+    dim, order: 0, index: 0, count: n, time: 0, boxMin, boxMax, scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0, data,
+    ids: Uint32Array.from({ length: n }, (_, i) => i),
   };
-  return { ...frame, ids: Uint32Array.from({ length: n }, (_, i) => i), levels: levels(frame, axis, sign, 2 * scene.spacing) };
 }

@@ -7,7 +7,7 @@ in vec4 a;
 in vec4 b;
 in float own;
 uniform mat4 modelViewMatrix, projectionMatrix;
-uniform float share, radius, pixels, smallest, thickness;
+uniform float share, radius, larger, pixels, smallest, thickness;
 uniform vec3 minA, sizeA, minB, sizeB;
 uniform vec4 rangeA, rangeB, plane, up, levelGrid, tint;
 uniform vec2 limits, levelOrigin;
@@ -39,11 +39,11 @@ void main() {
   else if (quantity == 2) value = depthBelowSurface(x);
   else if (quantity == 3) value = own;
   float t = clamp((value - limits.x) / max(limits.y - limits.x, 1e-20), 0.0, 1.0);
-  colour = quantity == 4 ? tint.rgb : mix(texture(map, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, tint.rgb, tint.a);
+  colour = quantity == 4 ? tint.rgb : mix(texelFetch(map, ivec2(int(t * 255.0 + 0.5), 0), 0).rgb, tint.rgb, tint.a);
   vec4 eye = modelViewMatrix * vec4(x, 1.0);
   gl_Position = projectionMatrix * eye;
   eyeDepth = -eye.z;
-  size = max(smallest, 2.0 * radius * pixels / (DIM == 2 ? 1.0 : max(-eye.z, 1e-6)));
+  size = max(smallest, 2.0 * radius * larger * pixels / (DIM == 2 ? 1.0 : max(-eye.z, 1e-6)));
   gl_PointSize = size;
   float side = dot(plane.xyz, x) + plane.w;
   if (side < 0.0 || side > thickness) gl_Position = vec4(0.0, 0.0, 2.0, 0.0);
@@ -61,7 +61,6 @@ out vec4 pixel;
 void main() {
   vec3 shade = colour;
   float cover = opacity;
-  #if DISC == 1
   vec2 p = 2.0 * gl_PointCoord - 1.0;
   float r2 = dot(p, p);
   #if DIM == 2
@@ -75,7 +74,6 @@ void main() {
   float nz = sqrt(1.0 - r2);
   float light = 0.42 + 0.58 * max(0.0, 0.35 * p.x * 0.6 - 0.55 * p.y + 0.76 * nz);
   shade = colour * light + 0.12 * pow(max(0.0, nz * 0.9 - 0.35 * p.y), 12.0);
-  #endif
   #endif
   pixel = vec4(shade, cover);
 }

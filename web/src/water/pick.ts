@@ -2,7 +2,7 @@
 import { Matrix4, Raycaster, Vector2 } from "three";
 import { distance } from "../case/pointing.ts";
 import { stride } from "../frames/format.ts";
-import type { Shown } from "../frames/window.ts";
+import type { Frame } from "../frames/format.ts";
 import type { Subject } from "../run/subject.ts";
 import type { Staging } from "./staging.ts";
 import { placeOf } from "./value.ts";
@@ -11,7 +11,7 @@ import type { WaterView } from "./view.ts";
 export interface Picked {
   place: number[];
   run: Subject | null;
-  frame: Shown | null;
+  frame: Frame | null;
   i: number;
 }
 

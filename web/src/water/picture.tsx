@@ -9,6 +9,7 @@ import { length, niceBelow, number } from "../units.ts";
 import { attach } from "./hands.ts";
 import { Labels } from "./labels.ts";
 import { Legend } from "./legend.tsx";
+import { Pace } from "./pace.ts";
 import { nearest, wallNear } from "./pick.ts";
 import { Staging } from "./staging.ts";
 import { colourings, valueOf } from "./value.ts";
@@ -28,8 +29,17 @@ export function Picture({ app }: { app: App }) {
     const labels = new Labels(names.current!, (name, isProbe) => app.pick(name, isProbe));
     app.view = view;
     let dirty = true;
+    let moving = false; // the camera, by a hand
+    let whole = false; // what was drawn last is of its own moment
+    let ids = ""; // of what was drawn last
+    let later = 0;
     const touch = () => (dirty = true);
-    const stops = [app.look.on(touch), app.data.on(touch), app.player.on(touch)];
+    // New data are drawn at once where they are waited for, else now and then: a frame for later changes nothing here.
+    const news = () => {
+      if (!whole || app.shown().map((s) => s.id).join() !== ids) dirty = true;
+      else if (!later) later = window.setTimeout(() => ((later = 0), (dirty = true)), 500);
+    };
+    const stops = [app.look.on(touch), app.data.on(news), app.player.on(touch), () => clearTimeout(later)];
     app.touch = touch;
 
     const resize = new ResizeObserver(([entry]) => {
@@ -42,7 +52,7 @@ export function Picture({ app }: { app: App }) {
     const hands = attach(view, canvas.current!, {
       moved: () => {
         view.untouched = false;
-        dirty = true;
+        dirty = moving = true;
       },
       click: (x, y) => {
         const probe = labels.probeNear(x, y);
@@ -71,6 +81,9 @@ export function Picture({ app }: { app: App }) {
       out.style.transform = `translate(${Math.min(x + 14, view.canvas.clientWidth - 190)}px, ${Math.min(y + 14, view.canvas.clientHeight - 70)}px)`;
     }
 
+    const pace = new Pace();
+    let moved = 0; // when something moved last
+    let drawnAt = 0;
     let before = performance.now();
     let handle = 0;
     const frame = (now: number) => {
@@ -78,9 +91,14 @@ export function Picture({ app }: { app: App }) {
       const seconds = Math.min(0.1, (now - before) / 1000);
       before = now;
       app.player.tick(seconds);
+      if (app.player.playing || moving) moved = now;
+      moving = false;
+      if (now - moved > 300 && pace.rest()) dirty = true;
       if (!dirty) return;
       dirty = false;
-      app.drawing?.();
+      if (now - moved < 300 && now - drawnAt < 1500) pace.moved(now - drawnAt);
+      drawnAt = now;
+      view.oneIn = app.recording ? 1 : pace.oneIn;
       draw();
     };
     function draw(): void {
@@ -94,9 +112,10 @@ export function Picture({ app }: { app: App }) {
         stage.particles.points.visible = at !== null;
         stage.select(look.probe);
         stage.walls.mark(look.marked);
+        exact &&= at !== null;
         if (!at) continue;
         exact &&= at.exact;
-        stage.show(at);
+        stage.show(at, view.oneIn);
         const limits = staging.colour(run, stage, at, look);
         if (run === staging.shown[0]!.run) app.setLimits(limits);
         stage.overlay(look.profiles ? profileLines(run, app.player.time) : []);
@@ -112,6 +131,8 @@ export function Picture({ app }: { app: App }) {
         bar.style.width = `${(metres / view.eye.span) * cell.height}px`;
         bar.textContent = length(metres);
       }
+      whole = exact;
+      ids = staging.shown.map(({ run }) => run.id).join();
       app.frameDrawn(exact);
     }
     handle = requestAnimationFrame(frame);

@@ -1,10 +1,11 @@
 // One run in the picture: its water, walls, open ends, probes and the lines that are measured over the water.
 import { Scene as ThreeScene, Vector4 } from "three";
 import type { OpenEnd, Probe, Scene } from "../contract.ts";
-import type { Shown } from "../frames/window.ts";
+import type { Frame } from "../frames/format.ts";
 import { upward } from "./eye.ts";
 import { LineMark } from "./lines.ts";
 import { ParticleMark } from "./particles.ts";
+import { SurfaceMark } from "./surface.ts";
 import { WallMarks, type WallColours } from "./walls.ts";
 
 export interface StageColours extends WallColours {
@@ -19,6 +20,8 @@ export class Stage {
   readonly particles: ParticleMark;
   readonly walls: WallMarks;
   readonly up: { axis: number; sign: 1 | -1 };
+  /** In 3D, where the surface is asked for. */
+  surface: SurfaceMark | null = null;
   private ends: LineMark;
   private probes: LineMark;
   private lit: LineMark;
@@ -48,13 +51,23 @@ export class Stage {
     this.profile.colour(c.profile);
   }
 
+  /** Shows the water as a surface (3D), or as particles. */
+  asSurface(yes: boolean): void {
+    if (yes && !this.surface && this.scene.dimension === 3) {
+      this.surface = new SurfaceMark(this.particles, this.scene.spacing);
+      this.scene3.add(this.surface.mesh);
+    }
+    if (this.surface) this.surface.mesh.visible = yes;
+    this.particles.material.visible = !(yes && this.surface);
+  }
+
   picture(width: number, height: number): void {
     this.walls.picture(width, height);
     for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.picture(width, height);
   }
 
-  show(at: { a: Shown; b: Shown; share: number }): void {
-    this.particles.show(at.a, at.b, at.share);
+  show(at: { a: Frame; b: Frame; share: number }, oneIn: number): void {
+    this.particles.show(at.a, at.b, at.share, oneIn);
     this.walls.move(at.a.poses, at.b.poses, at.share);
   }
 
@@ -94,6 +107,7 @@ export class Stage {
   }
 
   dispose(): void {
+    this.surface?.dispose();
     this.particles.dispose();
     this.walls.dispose();
     for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.dispose();

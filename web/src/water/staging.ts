@@ -4,7 +4,7 @@ import { series } from "../colours.ts";
 import type { Subject } from "../run/subject.ts";
 import type { Look } from "../store.ts";
 import type { Theme } from "../theme.ts";
-import type { Shown } from "../frames/window.ts";
+import type { Frame } from "../frames/format.ts";
 import { Stage } from "./stage.ts";
 import { origins, quantity, spread } from "./value.ts";
 import type { WaterView } from "./view.ts";
@@ -13,8 +13,8 @@ export class Staging {
   shown: { run: Subject; stage: Stage }[] = [];
   private key = "";
   private lookKey = "";
-  private spreads = new WeakMap<Subject, { by: Map<string, [number, number]>; seen: WeakSet<Shown> }>();
-  private ownOf = new WeakMap<Stage, Shown>();
+  private spreads = new WeakMap<Subject, { by: Map<string, [number, number]>; seen: WeakMap<Frame, Set<string>> }>();
+  private ownOf = new WeakMap<Stage, { frame: Frame; oneIn: number }>();
 
   constructor(private view: WaterView) {}
 
@@ -35,10 +35,11 @@ export class Staging {
     this.shown.forEach(({ run, stage }, i) => {
       stage.colours(theme);
       stage.walls.group.visible = look.walls;
+      stage.asSurface(look.water === "surface" && !over);
       const mark = stage.particles;
       mark.colours(look.map);
       mark.colourBy(over ? "plain" : quantity(run, look.colouring));
-      mark.set("radius", 0.5 * run.scene.spacing * look.size * (run.scene.dimension === 2 ? 1.12 : 1));
+      mark.set("radius", 0.5 * run.scene.spacing * look.size * (run.scene.dimension === 2 ? 1.24 : 1.1));
       const tint = new Color(over ? series[look.theme][i % 6] : theme.water).convertLinearToSRGB();
       mark.set("tint", new Vector4(tint.r, tint.g, tint.b, 0));
       mark.set("opacity", over && i > 0 ? 0.55 : 1);
@@ -46,32 +47,31 @@ export class Staging {
   }
 
   /** Limits of the colours, and what is uploaded only for some of them. */
-  colour(run: Subject, stage: Stage, at: { a: Shown }, look: Look): [number, number] {
+  colour(run: Subject, stage: Stage, at: { a: Frame }, look: Look): [number, number] {
     const limits = this.limits(run, stage, at.a, look);
     stage.particles.set("limits", new Vector2(...limits));
-    if (look.colouring === "origin" && this.ownOf.get(stage) !== at.a) {
+    if (look.colouring === "origin" && (this.ownOf.get(stage)?.frame !== at.a || this.ownOf.get(stage)?.oneIn !== this.view.oneIn)) {
       const first = run.frames.frame(0) ?? at.a;
       stage.particles.own(origins(first, at.a, stage.up.axis === 0 ? 1 : 0, run.scene.inlets.length > 0));
-      this.ownOf.set(stage, at.a);
+      this.ownOf.set(stage, { frame: at.a, oneIn: this.view.oneIn });
     }
     return limits;
   }
 
-  limits(run: Subject, stage: Stage, frame: Shown, look: Look): [number, number] {
+  limits(run: Subject, stage: Stage, frame: Frame, look: Look): [number, number] {
     const { colouring } = look;
     if (colouring === "origin" || colouring === "plain") return [0, 1];
     const fixed = look.limits[colouring];
     if (fixed) return fixed;
     if (look.momentary) return spread(run, frame, colouring, stage.up);
-    const known = this.spreads.get(run) ?? { by: new Map<string, [number, number]>(), seen: new WeakSet<Shown>() };
+    const known = this.spreads.get(run) ?? { by: new Map<string, [number, number]>(), seen: new WeakMap<Frame, Set<string>>() };
     this.spreads.set(run, known);
-    if (!known.seen.has(frame)) {
-      known.seen.add(frame);
-      for (const name of ["speed", "pressure", "depth"] as const) {
-        const [low, high] = spread(run, frame, name, stage.up);
-        const [l, h] = known.by.get(name) ?? [low, high];
-        known.by.set(name, [Math.min(l, low), Math.max(h, high)]);
-      }
+    const seen = known.seen.get(frame) ?? new Set();
+    if (!seen.has(colouring)) {
+      known.seen.set(frame, seen.add(colouring));
+      const [low, high] = spread(run, frame, colouring, stage.up);
+      const [l, h] = known.by.get(colouring) ?? [low, high];
+      known.by.set(colouring, [Math.min(l, low), Math.max(h, high)]);
     }
     const [low, high] = known.by.get(colouring)!;
     return [colouring === "speed" ? 0 : low, high];

@@ -1,8 +1,8 @@
 // What the water's colour means: the quantity, its unit, its limits, and the value of one particle.
 import type { Colouring } from "../store.ts";
 import type { Subject } from "../run/subject.ts";
-import { stride } from "../frames/format.ts";
-import type { Shown } from "../frames/window.ts";
+import { stride, type Frame } from "../frames/format.ts";
+import { levelsOf } from "../frames/levels.ts";
 import type { Quantity } from "./particles.ts";
 
 export const colourings: { name: Colouring; title: string; unit: string; key: string }[] = [
@@ -24,7 +24,7 @@ export function quantity(run: Subject, colouring: Colouring): Quantity {
 }
 
 /** A particle's value, and NaN where the frame has none. */
-export function valueOf(run: Subject, frame: Shown, colouring: Colouring, i: number): number {
+export function valueOf(run: Subject, frame: Frame, colouring: Colouring, i: number): number {
   const s = scalarOf(run, colouring);
   if (s < 0 || s > 1) return NaN;
   const range = frame.scalars[s]!;
@@ -33,13 +33,10 @@ export function valueOf(run: Subject, frame: Shown, colouring: Colouring, i: num
 }
 
 /** Lowest and highest values but for the outermost 0.5 % of the particles at each end: single ones do not fade the rest. */
-export function spread(run: Subject, frame: Shown, colouring: Colouring, up: { axis: number; sign: number }): [number, number] {
+export function spread(run: Subject, frame: Frame, colouring: Colouring, up: { axis: number; sign: 1 | -1 }): [number, number] {
   if (colouring === "depth") {
-    const heights = frame.levels.top.filter((x) => x > -Infinity);
-    const base = up.sign > 0 ? frame.boxMin[up.axis]! : -frame.boxMax[up.axis]!;
-    let deepest = 0;
     const lowest = lowestHeight(frame, up);
-    for (const h of heights) deepest = Math.max(deepest, h - Math.max(base, lowest));
+    const deepest = levelsOf(frame, up, run.scene.spacing).top.reduce((most, height) => Math.max(most, height - lowest), 0);
     return [0, deepest || 1];
   }
   const s = scalarOf(run, colouring);
@@ -56,7 +53,7 @@ export function spread(run: Subject, frame: Shown, colouring: Colouring, up: { a
   return [value(low), value(Math.max(high, low + 1))];
 }
 
-function lowestHeight(frame: Shown, up: { axis: number; sign: number }): number {
+function lowestHeight(frame: Frame, up: { axis: number; sign: number }): number {
   let lowest = up.sign > 0 ? 65535 : 0;
   for (let o = up.axis; o < frame.data.length; o += stride) {
     const q = frame.data[o]!;
@@ -67,7 +64,7 @@ function lowestHeight(frame: Shown, up: { axis: number; sign: number }): number 
 }
 
 /** Where particle `i` of a frame is. */
-export function placeOf(frame: Shown, i: number): number[] {
+export function placeOf(frame: Frame, i: number): number[] {
   return frame.boxMin.map((low, d) => low + (frame.data[i * stride + d]! / 65535) * (frame.boxMax[d]! - low));
 }
 
@@ -75,7 +72,7 @@ export function placeOf(frame: Shown, i: number): number[] {
  * Water tagged by where it came from, 0 to 1: in a closed tank the place along the flume where each particle started, with
  * an inlet its age from 0 (oldest) to 1 (newest), since ids are given in order of entry.
  */
-export function origins(first: Shown, frame: Shown, along: number, byAge: boolean): Float32Array {
+export function origins(first: Frame, frame: Frame, along: number, byAge: boolean): Float32Array {
   const out = new Float32Array(frame.ids.length);
   if (byAge) {
     const oldest = frame.ids[0] ?? 0;

@@ -18,6 +18,8 @@ export class WaterView {
   cells: Cell[] = [];
   /** The moment that is shown, s. */
   time = 0;
+  /** Of the particles one in so many is drawn: while something moves that would otherwise be slow. */
+  oneIn = 1;
   /** The camera has not been moved: it may follow the size of the window. */
   untouched = true;
   private stages: Stage[] = [];
@@ -95,12 +97,17 @@ export class WaterView {
     for (const cell of this.cells) {
       eye.apply(cell.width / cell.height);
       const y = height - cell.y - cell.height;
-      renderer.setViewport(cell.x, y, cell.width, cell.height);
-      renderer.setScissor(cell.x, y, cell.width, cell.height);
       const scale = (eye.camera.projectionMatrix.elements[5]! * cell.height * ratio) / 2;
       for (const stage of cell.stages) {
-        stage.picture(cell.width, cell.height);
         stage.particles.set("pixels", scale);
+        if (!stage.surface?.mesh.visible) continue;
+        stage.surface.prepare(renderer, eye.camera, { x: cell.x * ratio, y: y * ratio, width: cell.width * ratio, height: cell.height * ratio });
+        renderer.setScissorTest(this.cells.length > 1);
+      }
+      renderer.setViewport(cell.x, y, cell.width, cell.height);
+      renderer.setScissor(cell.x, y, cell.width, cell.height);
+      for (const stage of cell.stages) {
+        stage.picture(cell.width, cell.height);
         renderer.render(stage.scene3, eye.camera);
       }
     }

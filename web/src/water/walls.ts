@@ -28,18 +28,20 @@ out vec4 pixel;
 void main() {
   if (side < 0.0) discard;
   vec3 n = normalize(cross(dFdx(eye), dFdy(eye)));
-  float light = 0.62 + 0.38 * abs(dot(n, normalize(vec3(0.25, 0.75, 0.62))));
+  float light = 0.8 + 0.2 * abs(dot(n, normalize(vec3(0.25, 0.75, 0.62))));
   pixel = vec4(colour * light, opacity);
 }
 `;
 
 export interface WallColours {
   wall: string;
+  /** Of the faces of resting walls in 3D. */
+  sheet: string;
   gate: string;
   body: string;
 }
 
-const roleOf = (wall: Wall): keyof WallColours => (wall.kind === "body" ? "body" : wall.kind === "gate" || wall.kind === "wave_maker" ? "gate" : "wall");
+const roleOf = (wall: Wall): "wall" | "gate" | "body" => (wall.kind === "body" ? "body" : wall.kind === "gate" || wall.kind === "wave_maker" ? "gate" : "wall");
 
 export class WallMarks {
   readonly group = new Group();
@@ -71,7 +73,8 @@ export class WallMarks {
   colours(colours: WallColours): void {
     for (const { wall, lines, sheets } of this.parts) {
       lines.colour(colours[roleOf(wall)]);
-      for (const one of sheets) (one.material.uniforms["colour"]!.value as Color).set(colours[roleOf(wall)]).convertLinearToSRGB();
+      const face = roleOf(wall) === "wall" ? colours.sheet : colours[roleOf(wall)];
+      for (const one of sheets) (one.material.uniforms["colour"]!.value as Color).set(face).convertLinearToSRGB();
     }
   }
 

@@ -1,0 +1,60 @@
+// How fast the page is, in headless Chromium without a graphics card: npm run speed. A table for docs/performance.md.
+import { readFileSync } from "node:fs";
+import { cpus } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { readHeader } from "../../src/frames/format.ts";
+import { visit, until } from "../support/browser.ts";
+import { bulk } from "../support/bulk.ts";
+import { Mock, run, type MockRun } from "../support/mock.ts";
+import { basin, standingWave } from "../support/flows.ts";
+
+const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
+
+function large(n: number, dim: 2 | 3, frames: number): MockRun {
+  const flow = dim === 2 ? standingWave(4, frames / 50) : basin(100, frames / 50);
+  const scene = { ...flow.scene, spacing: dim === 2 ? Math.sqrt(2 / n) : Math.cbrt(2 / n), box: { min: [0, 0, 0].slice(0, dim), max: [2, 1, 1].slice(0, dim) } };
+  const base = run("a", "large", { ...flow, scene }, frames, 0);
+  base.frames = [...bulk(n, dim, frames)].map((bytes, index) => ({ index, time: index / 50, key: readHeader(bytes).order === 0, bytes }));
+  return Object.assign(base, { info: { ...base.info, state: "done" } });
+}
+
+test("speed of the page", { timeout: 900_000 }, async () => {
+  const rows = ["| particles | 2D or 3D | first picture, s | decoding a frame, ms | frames a second | of which each particle in |", "| --- | --- | --- | --- | --- | --- |"];
+  for (const [n, dim] of [[10_000, 2], [100_000, 2], [1_000_000, 2], [10_000, 3], [100_000, 3], [1_000_000, 3]] as const) {
+    const frames = n > 500_000 ? 12 : 60;
+    const mock = new Mock({ page, runs: [large(n, dim, frames)] });
+    const visitor = await visit("about:blank");
+    const view = visitor.page;
+    await view.evaluateOnNewDocument(`
+      addEventListener("DOMContentLoaded", () => {
+        const wait = setInterval(() => {
+          const app = globalThis.tailwater;
+          if (!app) return;
+          clearInterval(wait);
+          app.drawn = (exact) => { if (exact && app.shown()[0]?.frames.isDecoded(0)) { globalThis.first ??= performance.now(); app.drawn = null; } };
+        }, 5);
+      });`);
+    await view.goto(await mock.listen());
+    await until(view, "globalThis.first && app.shown()[0].frames.list.every((_, i) => app.shown()[0].frames.isDecoded(i))", 120_000);
+    const first = (await view.evaluate("first")) as number;
+    const decoding = (await view.evaluate("tailwater.shown()[0].frames.milliseconds.sort((a, b) => a - b)[tailwater.shown()[0].frames.milliseconds.length >> 1]")) as number;
+    const result = (await view.evaluate(`(async () => {
+      const app = tailwater;
+      app.player.setLoop(true);
+      app.player.setSpeed(0.25);
+      app.player.play();
+      let drawn = 0;
+      const began = performance.now();
+      app.drawn = () => ++drawn;
+      await new Promise((resolve) => setTimeout(resolve, 6000));
+      app.player.pause();
+      return { rate: drawn / ((performance.now() - began) / 1000), one: app.view.oneIn ?? 1 };
+    })()`)) as { rate: number; one: number };
+    rows.push(`| ${n.toLocaleString("en").replaceAll(",", " ")} | ${dim}D | ${(first / 1000).toFixed(2)} | ${decoding.toFixed(0)} | ${result.rate.toFixed(1)} | ${result.one} |`);
+    await visitor.close();
+    mock.close();
+    if (visitor.faults.length > 0) throw new Error(visitor.faults.join("\n"));
+  }
+  console.log(`${cpus()[0]?.model}, ${cpus().length} cores, 1280 x 720\n${rows.join("\n")}`);
+});
