@@ -83,7 +83,7 @@ struct BodyState {
   Vec<Dim> centre = Vec<Dim>::Zero();  ///< m; of mass, at `time`
   Twist<Dim> velocity = Twist<Dim>::Zero();
   Twist<Dim> acceleration = Twist<Dim>::Zero();  ///< in the last step
-  Twist<Dim> owed = Twist<Dim>::Zero();          ///< N s, N m s; impulse that has reached it and not moved it yet
+  Twist<Dim> carried_over = Twist<Dim>::Zero();  ///< N s, N m s; impulse that has reached it and not moved it yet
 
   Vec<Dim> linear_velocity() const { return velocity.template head<Dim>(); }
   Turn<Dim> angular_velocity() const { return velocity.template tail<turns<Dim>>(); }
@@ -101,8 +101,8 @@ struct BodyState {
 template <int Dim>
 struct BodyStates {
   std::vector<BodyState<Dim>> each;
-  /// Row by row: how much more force each free way of all bodies needs per acceleration of each, with the water that
-  /// goes with it [kg, kg m, kg m^2]. Empty: not known.
+  /// Row by row: how much more force each degree of freedom of all bodies needs per acceleration of each, with the
+  /// water that goes with it [kg, kg m, kg m^2]. Empty: not known.
   std::vector<double> inertia = {};
 };
 

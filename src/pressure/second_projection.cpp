@@ -2,7 +2,6 @@
 // no density source. It is done once. What is left then is what the pair of divergence and gradient reads in a
 // disordered set; taking that out too costs pressure and velocity more than it mends (docs/theory/robustness.md).
 #include "base/for_each.h"
-#include "pressure/floating_bodies.h"
 #include "pressure/operators.h"
 #include "pressure/solve_rows.h"
 #include "pressure/suction.h"
@@ -28,10 +27,11 @@ void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
 }  // namespace
 
 template <int Dim>
-PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt) {
+SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt) {
   const double density = flow.setup.density;
   Particles<Dim>& particles = flow.state.particles;
-  PressureReport report;
+  SecondProjection second;
+  PressureReport& report = second.report;
   report.interventions.fallback_rows = assemble_weights(flow, drive);
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   const Divergence<Dim> divergence(flow, particles.velocity);
@@ -45,7 +45,8 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
   report.interventions.restarted_solves = solved.restarts;
   flow.has_matrix = flow.setup.keeps_matrix();
   if (!flow.has_matrix) flow.forget_matrix();
-  std::vector<double> correction = particles.second_pressure;
+  std::vector<double>& correction = second.correction;
+  correction = particles.second_pressure;
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {
@@ -53,15 +54,12 @@ PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt
     if (flow.is_solved_for(i)) particles.velocity[i] -= dt / density * gradient_at(flow, i, correction);
     particles.pressure[i] += correction[i];
   });
-  if (flow.setup.finds_wall_forces) {
-    add_wall_forces(flow, correction);
-    owe_to_bodies(flow, forces_on_bodies(flow, correction, flow.state.time + dt), dt);
-  }
+  add_wall_forces(flow, correction);
   finish_pressure(flow, drive);
-  return report;
+  return second;
 }
 
-template PressureReport reproject<2>(Flow<2>&, const WallDrive<2>&, double);
-template PressureReport reproject<3>(Flow<3>&, const WallDrive<3>&, double);
+template SecondProjection reproject<2>(Flow<2>&, const WallDrive<2>&, double);
+template SecondProjection reproject<3>(Flow<3>&, const WallDrive<3>&, double);
 
 }  // namespace tailwater

@@ -1,5 +1,5 @@
 #include "base/for_each.h"
-#include "pressure/floating_bodies.h"
+#include "pressure/solve_rows.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
 #include "pressure/verbs.h"
@@ -31,29 +31,6 @@ PressureReport report_of(const SolveReport& solved) {
   return report;
 }
 
-template <int Dim>
-PressureReport find_pressure(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive) {
-  const double tolerance = flow.pressure_solver.tolerance();
-  Particles<Dim>& particles = flow.state.particles;
-  // The guess is what this projection found last.
-  for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
-  BodyCoupling<Dim> coupling(flow, start, dt, drive);
-  PressureReport report;
-  if (flow.setup.has_air()) {
-    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const PressureReport rough = report_of(coupling.solve_roughly(rough_tolerance(tolerance)));
-    hold_suction(flow);
-    report = report_of(coupling.solve(tolerance));
-    report.iterations += rough.iterations;
-    report.interventions += rough.interventions;
-  } else {
-    report = report_of(coupling.solve(tolerance));
-  }
-  coupling.carry_over();
-  flow.forget_matrix();
-  return report;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -67,17 +44,41 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
 }
 
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
-                     WallDrive<Dim>& drive) {
-  PressureReport report = find_pressure(flow, start, dt, drive);
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive,
+                     const RowSolver& rows) {
+  const double tolerance = flow.pressure_solver.tolerance();
+  Particles<Dim>& particles = flow.state.particles;
+  // The guess is what this projection found last.
+  for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
+  PressureReport report;
+  if (flow.setup.has_air()) {
+    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
+    const PressureReport rough = report_of(rows.solve_roughly(rough_tolerance(tolerance)));
+    hold_suction(flow);
+    report = report_of(rows.solve(tolerance));
+    report.iterations += rough.iterations;
+    report.interventions += rough.interventions;
+  } else {
+    report = report_of(rows.solve(tolerance));
+  }
+  flow.forget_matrix();
   report.interventions.fallback_rows = equation.fallback_rows;
   finish_pressure(flow, drive);
   return report;
 }
 
-template void finish_pressure<2>(Flow<2>&, const WallDrive<2>&);
-template void finish_pressure<3>(Flow<3>&, const WallDrive<3>&);
-template PressureReport solve<2>(Flow<2>&, const StepStart<2>&, const PosedEquation&, double, WallDrive<2>&);
-template PressureReport solve<3>(Flow<3>&, const StepStart<3>&, const PosedEquation&, double, WallDrive<3>&);
+template <int Dim>
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive) {
+  const auto rows = [&](double tolerance) { return solve_rows(flow, flow.state.particles.pressure, tolerance); };
+  return solve(flow, equation, drive, RowSolver{rows, rows});
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                               \
+  template void finish_pressure<Dim>(Flow<Dim>&, const WallDrive<Dim>&);                                         \
+  template PressureReport solve<Dim>(Flow<Dim>&, const PosedEquation&, const WallDrive<Dim>&, const RowSolver&); \
+  template PressureReport solve<Dim>(Flow<Dim>&, const PosedEquation&, const WallDrive<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -2,6 +2,9 @@
 // signatures tell the order: aim, assemble, solve, correct, book; and a second projection where the particles arrived.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "flow/verbs.h"
 
 namespace tailwater {
@@ -34,12 +37,21 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
 /// (0 in the outermost rows, 1 inside; that of a wall that cannot pull by 0), and the system is solved again. With an
-/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). Where bodies
-/// float, finds how they move with this pressure, and drives their walls so (floating_bodies.h). The matrix is gone
+/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). The matrix is gone
 /// then.
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
-                     WallDrive<Dim>& drive);
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive);
+
+/// How the flow's rows are solved to a tolerance, by whoever has more to find with the pressure than the pressure.
+struct RowSolver {
+  std::function<SolveReport(double tolerance)> solve_roughly;  ///< for a guess
+  std::function<SolveReport(double tolerance)> solve;
+};
+
+/// The same with `rows`, which may change `drive`.
+template <int Dim>
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive,
+                     const RowSolver& rows);
 
 /// After a change of the fluid's pressure: brings walls and ghosts up to date.
 template <int Dim>
@@ -53,10 +65,15 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure);
 
+struct SecondProjection {
+  PressureReport report;
+  std::vector<double> correction;  ///< Pa; what it added to the pressure, up to date on ghosts
+};
+
 /// Projects the velocity a second time, at the present positions: takes div u out of it, and adds what does it to the
 /// pressure, without suction near the surface. The particles stay.
 template <int Dim>
-PressureReport reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt);
+SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt);
 
 /// Works of a step on this rank's water. Call after `correct`, before anything moves.
 template <int Dim>

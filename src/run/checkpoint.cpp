@@ -146,14 +146,14 @@ void take_list(const nlohmann::json& json, Numbers& numbers) {
 
 template <int Dim>
 nlohmann::json json_of(const BodyState<Dim>& body) {
-  const auto& [time, placement, centre, velocity, acceleration, owed] = body;
+  const auto& [time, placement, centre, velocity, acceleration, carried_over] = body;
   return {{"time", time},
           {"turn", list_of(placement.linear)},
           {"shift", list_of(placement.constant)},
           {"centre", list_of(centre)},
           {"velocity", list_of(velocity)},
           {"acceleration", list_of(acceleration)},
-          {"owed", list_of(owed)}};
+          {"carried_over", list_of(carried_over)}};
 }
 
 template <int Dim>
@@ -165,7 +165,7 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
   take_list(json.at("centre"), body.centre);
   take_list(json.at("velocity"), body.velocity);
   take_list(json.at("acceleration"), body.acceleration);
-  take_list(json.at("owed"), body.owed);
+  take_list(json.at("carried_over"), body.carried_over);
   return body;
 }
 

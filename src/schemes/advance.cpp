@@ -1,7 +1,6 @@
 #include "schemes/advance.h"
 
-#include "pressure/floating_bodies.h"
-#include "pressure/verbs.h"
+#include "bodies/verbs.h"
 #include "schemes/projection.h"
 #include "schemes/two_step.h"
 
@@ -34,7 +33,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);
-  owe_to_bodies_for_put_back(flow, dt);
+  carry_over_guard(flow, dt);
   flow.state.time += dt;
   for (BodyState<Dim>& body : flow.state.motion.bodies.each) body.go_on(flow.state.time);
   ++flow.state.step;

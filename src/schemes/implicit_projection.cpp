@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "pressure/verbs.h"
+#include "bodies/verbs.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
 
@@ -43,10 +43,11 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   locate(flow);
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   flow.state.wall_velocity = drive.velocity;
-  const PressureReport second = reproject(flow, drive, dt);
+  const SecondProjection second = reproject(flow, drive, dt);
+  carry_over_second_pressure(flow, second.correction, dt);
   ++report.passes;
-  report.iterations += second.iterations;  // the residual stays that of the first solve, which reaches the tolerance
-  report.interventions += second.interventions;
+  report.iterations += second.report.iterations;  // the residual stays that of the first solve, to the tolerance
+  report.interventions += second.report.interventions;
   report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
   report.work.ends = end_work(flow, dt);
   report.divergence = report_of_divergence(flow, divergence_to_report(flow));  // the last solve was where it ends
@@ -70,7 +71,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F21)
     if (report.passes == 0) grow_boundary_layers(flow, predicted);
     const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
-    report.add(solve(flow, start, equation, dt, drive));
+    report.add(solve(flow, equation, drive));
     correct(flow, predicted, drive, dt);  // (F24)
     report.work = book_works(flow, start, predicted, equation, dt);
     divergence_old = divergence_to_report(flow);

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "bodies/verbs.h"
 #include "pressure/operators.h"
-#include "pressure/verbs.h"
 
 namespace tailwater {
 namespace {
@@ -22,7 +22,7 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   grow_boundary_layers(flow, predicted);
   const PosedEquation equation =
       assemble(flow, predicted, aim(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
-  report.add(solve(flow, start, equation, dt, drive));
+  report.add(solve_with_bodies(flow, start, equation, dt, drive));
   correct(flow, predicted, drive, dt);  // (F16)
   report.work = book_works(flow, start, predicted, equation, dt);
   return report;

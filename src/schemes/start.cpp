@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bodies/verbs.h"
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
 
@@ -28,10 +29,10 @@ void start(Flow<Dim>& flow) {
   }
   Prediction<Dim> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
-  solve(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
+  solve_with_bodies(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
   for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {  // nothing has moved yet
     flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
-    flow.state.motion.bodies.each[b].owed.setZero();
+    flow.state.motion.bodies.each[b].carried_over.setZero();
   }
   add_wall_forces(flow, flow.state.particles.pressure);
 }

@@ -15,7 +15,7 @@ PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& s
   locate(flow);                             // rho_star (B14), surface (B21)
   const std::vector<double> no_target(flow.state.particles.owned, 0.0);
   found.equation = assemble(flow, found.predicted, no_target, drive, dt);  // (B17)
-  found.solved = solve(flow, start, found.equation, dt, drive);
+  found.solved = solve(flow, found.equation, drive);
   return found;
 }
 

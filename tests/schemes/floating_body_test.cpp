@@ -88,7 +88,8 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
         if (particles.is_fluid(i)) sum += flow.setup.density * particles.volume[i] * particles.velocity[i];
       }
       const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
-      return Vec<Dim>(sum + flow.setup.bodies[0].mass * body.linear_velocity() + body.owed.template head<Dim>());
+      return Vec<Dim>(sum + flow.setup.bodies[0].mass * body.linear_velocity() +
+                      body.carried_over.template head<Dim>());
     };
     const Vec<Dim> before = momentum();
     for (int n = 0; n < (Dim == 2 ? 40 : 14); ++n) step(flow);

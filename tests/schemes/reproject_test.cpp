@@ -35,7 +35,7 @@ void reproject_here(Flow<2>& flow) {
   WallDrive<2> drive = drive_walls(flow, start, dt);
   Prediction<2> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
-  solve(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
+  solve(flow, assemble(flow, predicted, target, drive, dt), drive);
   reproject(flow, drive, dt);
 }
 

@@ -1,0 +1,65 @@
+#include "bodies/verbs.h"
+
+#include <algorithm>
+
+#include "bodies/coupling.h"
+#include "bodies/forces.h"
+
+namespace tailwater {
+namespace {
+
+template <int Dim>
+bool can_move(const Flow<Dim>& flow) {
+  return std::ranges::any_of(flow.setup.bodies, [](const FloatingBody<Dim>& body) { return !body.free.empty(); });
+}
+
+template <int Dim>
+void carry_over(Flow<Dim>& flow, const std::vector<Twist<Dim>>& forces, double dt) {
+  for (std::size_t b = 0; b < forces.size(); ++b) flow.state.motion.bodies.each[b].carried_over += dt * forces[b];
+}
+
+}  // namespace
+
+template <int Dim>
+void steer_bodies(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {
+    BodyState<Dim>& body = flow.state.motion.bodies.each[b];
+    body.velocity = start.body_velocity[b] + dt * body.acceleration;
+  }
+}
+
+template <int Dim>
+PressureReport solve_with_bodies(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
+                                 WallDrive<Dim>& drive) {
+  if (!can_move(flow)) return solve(flow, equation, drive);
+  BodyCoupling<Dim> coupling(flow, start, dt, drive);
+  const PressureReport report = solve(flow, equation, drive,
+                                      RowSolver{[&](double tolerance) { return coupling.solve_roughly(tolerance); },
+                                                [&](double tolerance) { return coupling.solve(tolerance); }});
+  coupling.carry_over();
+  return report;
+}
+
+template <int Dim>
+void carry_over_second_pressure(Flow<Dim>& flow, const std::vector<double>& correction, double dt) {
+  if (flow.setup.bodies.empty()) return;
+  carry_over(flow, pressure_on_bodies(flow, correction, flow.state.time + dt), dt);
+}
+
+template <int Dim>
+void carry_over_guard(Flow<Dim>& flow, double dt) {
+  if (flow.setup.bodies.empty()) return;
+  carry_over(flow, guard_on_bodies(flow, flow.state.time + dt), dt);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                \
+  template void steer_bodies<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);                                     \
+  template PressureReport solve_with_bodies<Dim>(Flow<Dim>&, const StepStart<Dim>&, const PosedEquation&, double, \
+                                                 WallDrive<Dim>&);                                                \
+  template void carry_over_second_pressure<Dim>(Flow<Dim>&, const std::vector<double>&, double);                  \
+  template void carry_over_guard<Dim>(Flow<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater
