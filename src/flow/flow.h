@@ -9,7 +9,7 @@
 #include "closures/surroundings.h"
 #include "flow/setup.h"
 #include "flow/state.h"
-#include "linear/krylov_solver.h"
+#include "linear/linear_solver.h"
 #include "linear/linear_system.h"
 #include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
@@ -31,7 +31,7 @@ struct Flow {
   Decomposition<Dim> decomposition;
   Neighbourhood<Dim> neighbourhood;
   LinearSystem pressure_rows;
-  KrylovSolver pressure_solver;
+  LinearSolver pressure_solver;
 
   // Now.
   Walls<Dim> walls;                  ///< at their present positions

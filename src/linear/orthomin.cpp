@@ -15,15 +15,22 @@ constexpr int patience = 10;
 /// Directions that are kept. With two, systems whose first directions make the residual hardly smaller get stuck.
 constexpr std::size_t most_kept = 5;
 
-}  // namespace
+struct Direction {
+  std::vector<double> step;   ///< with ghosts behind it
+  std::vector<double> image;  ///< A step
+  double square = 0.0;        ///< of the image's norm
+};
+
+/// Those that are kept, in no order.
+using Directions = std::vector<Direction>;
 
 /// Takes from the direction what it has of those that are kept, so that its image is orthogonal to theirs.
-void Orthomin::make_orthogonal(Direction& direction) const {
+void make_orthogonal(Direction& direction, const Directions& kept, const Communicator& ranks) {
   std::vector<double> shares;
-  for (const Direction& other : kept_) shares.push_back(dot(direction.image, other.image));
-  system_.ranks().sum_of_each(shares);
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    const Direction& other = kept_[k];
+  for (const Direction& other : kept) shares.push_back(dot(direction.image, other.image));
+  ranks.sum_of_each(shares);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Direction& other = kept[k];
     const double share = shares[k] / other.square;
     for (std::size_t i = 0; i < direction.image.size(); ++i) {
       direction.step[i] -= share * other.step[i];
@@ -32,49 +39,66 @@ void Orthomin::make_orthogonal(Direction& direction) const {
   }
 }
 
-KrylovOutcome Orthomin::solve(std::span<double> residual, double target, int most_iterations, std::span<double> x) {
-  const Communicator& ranks = system_.ranks();
-  const std::size_t size = x.size();
-  kept_.clear();
-  const auto new_direction = [&] {
-    return Direction{.step = std::vector<double>(system_.size_with_ghosts()), .image = std::vector<double>(size)};
-  };
-  Direction direction = new_direction();
-  KrylovOutcome outcome;
-  outcome.residual = std::sqrt(ranks.sum(dot(residual, residual)));
-  outcome.history.push_back(outcome.residual);
-  while (outcome.residual > target && outcome.iterations < most_iterations) {
-    multigrid_.apply(residual, std::span(direction.step).first(size));
-    system_.multiply(direction.step, direction.image);
-    make_orthogonal(direction);
-    double square = 0.0;
-    double along = 0.0;
-    for (std::size_t i = 0; i < size; ++i) {
-      square += direction.image[i] * direction.image[i];
-      along += direction.image[i] * residual[i];
-    }
-    ranks.sum_each(square, along);
-    direction.square = square;
-    outcome.broke_down = !(square > 0.0) || !std::isfinite(along / square);
-    if (outcome.broke_down) break;
-
-    const double length = along / square;
-    double left = 0.0;
-    for (std::size_t i = 0; i < size; ++i) {
-      x[i] += length * direction.step[i];
-      residual[i] -= length * direction.image[i];
-      left += residual[i] * residual[i];
-    }
-    outcome.residual = std::sqrt(ranks.sum(left));
-    outcome.history.push_back(outcome.residual);
-    ++outcome.iterations;
-    outcome.broke_down = outcome.residual > target && outcome.iterations >= patience &&
-                         outcome.residual > 0.5 * outcome.history[outcome.iterations - patience];
-    if (outcome.broke_down || outcome.residual <= target) break;
-
-    if (kept_.size() < most_kept) kept_.push_back(new_direction());
-    std::swap(direction, kept_[(outcome.iterations - 1) % most_kept]);
+/// How far to go along the direction, which gets its square.
+double best_length(Direction& direction, std::span<const double> residual, const Communicator& ranks) {
+  double square = 0.0;
+  double along = 0.0;
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    square += direction.image[i] * direction.image[i];
+    along += direction.image[i] * residual[i];
   }
+  ranks.sum_each(square, along);
+  direction.square = square;
+  return along / square;
+}
+
+/// Goes along the direction. Returns the norm of the new residual.
+double go(const Direction& direction, double length, Iterate& iterate, const Communicator& ranks) {
+  double left = 0.0;
+  for (std::size_t i = 0; i < iterate.x.size(); ++i) {
+    iterate.x[i] += length * direction.step[i];
+    iterate.residual[i] -= length * direction.image[i];
+    left += iterate.residual[i] * iterate.residual[i];
+  }
+  return std::sqrt(ranks.sum(left));
+}
+
+/// Whether the last iterations have not halved the residual.
+bool is_stuck(const std::vector<double>& history) {
+  const std::size_t last = history.size() - 1;
+  return last >= patience && history[last] > 0.5 * history[last - patience];
+}
+
+}  // namespace
+
+MethodOutcome Orthomin::improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) {
+  const Communicator& ranks = system.ranks();
+  const auto new_direction = [&] {
+    return Direction{.step = std::vector<double>(system.size_with_ghosts()),
+                     .image = std::vector<double>(system.size())};
+  };
+  Directions kept;
+  Direction direction = new_direction();
+  MethodOutcome outcome{.reason = "Orthomin was still on its way"};
+  double residual = std::sqrt(ranks.sum(dot(iterate.residual, iterate.residual)));
+  outcome.history.push_back(residual);
+  while (residual > goal.residual && outcome.iterations < goal.iterations) {
+    multigrid_.get().apply(iterate.residual, std::span(direction.step).first(system.size()));
+    system.multiply(direction.step, direction.image);
+    make_orthogonal(direction, kept, ranks);
+    const double length = best_length(direction, iterate.residual, ranks);
+    const bool is_lost = !(direction.square > 0.0) || !std::isfinite(length);
+    if (is_lost) return outcome.break_down("Orthomin found no direction");
+    residual = go(direction, length, iterate, ranks);
+    outcome.history.push_back(residual);
+    ++outcome.iterations;
+    if (residual <= goal.residual) break;
+    if (is_stuck(outcome.history)) return outcome.break_down("Orthomin got stuck");
+    if (kept.size() < most_kept) kept.push_back(new_direction());
+    std::swap(direction, kept[(outcome.iterations - 1) % most_kept]);
+  }
+  outcome.residual = residual;
+  if (residual <= goal.residual) outcome.end = MethodOutcome::End::converged;
   return outcome;
 }
 

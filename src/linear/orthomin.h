@@ -5,35 +5,25 @@
 // pairs of vectors instead of one for each iteration (docs/theory/linear.md).
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "linear/cell_multigrid.h"
-#include "linear/krylov_outcome.h"
+#include "linear/kept_multigrid.h"
+#include "linear/method.h"
 
 namespace tailwater {
 
-/// Borrows both.
-class Orthomin {
+class Orthomin : public Method {
  public:
-  Orthomin(const LinearSystem& system, CellMultigrid& multigrid) : system_(system), multigrid_(multigrid) {}
+  /// Borrows the multigrid, which may be another method's too.
+  explicit Orthomin(KeptMultigrid& multigrid) : multigrid_(multigrid) {}
 
-  /// Improves x, whose b - A x is `residual`, until its norm is `target` or less, or for so many iterations. Changes
-  /// `residual` to that of the new x. Collective.
-  KrylovOutcome solve(std::span<double> residual, double target, int most_iterations, std::span<double> x);
+  /// Also where the guess will do: then the next solve with this pattern, of other diagonals, finds the multigrid as it
+  /// is here.
+  void begin(const LinearSystem& system, double residual) override { multigrid_.take(system, residual); }
+
+  /// Breaks down where the residual goes down no further. Leaves the residual of the new x.
+  MethodOutcome improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) override;
 
  private:
-  struct Direction {
-    std::vector<double> step;   ///< with ghosts behind it
-    std::vector<double> image;  ///< A step
-    double square = 0.0;        ///< of the image's norm
-  };
-
-  void make_orthogonal(Direction& direction) const;
-
-  const LinearSystem& system_;
-  CellMultigrid& multigrid_;
-  std::vector<Direction> kept_;  ///< in no order
+  KeptMultigrid& multigrid_;
 };
 
 }  // namespace tailwater

@@ -19,7 +19,7 @@ PreconditionerName fastest_preconditioner(const SystemTraits& system) {
 
 /// A good preconditioner needs few iterations, and GMRES the fewest; many are cheaper with BiCGStab, which does not
 /// orthogonalise. FGMRES allows for the single precision of the multigrid on cells; so does our own Orthomin, which
-/// takes its place where neither the case nor petsc_options name a method (krylov_solver.cpp).
+/// takes its place where neither the case nor petsc_options name a method (linear_solver.cpp).
 KrylovMethod fastest_method(PreconditionerName preconditioner) {
   switch (preconditioner) {
     case PreconditionerName::cell_multigrid:
@@ -33,6 +33,12 @@ KrylovMethod fastest_method(PreconditionerName preconditioner) {
 }
 
 }  // namespace
+
+SystemTraits traits_of(const LinearSystem& system, SystemTraits water) {
+  water.constant_is_free = system.constant_is_free();
+  water.has_cells = system.has_cells();
+  return water;
+}
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system) {
   SolverChoice choice{settings.method, settings.preconditioner};

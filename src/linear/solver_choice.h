@@ -4,6 +4,7 @@
 #pragma once
 
 #include "case/spec.h"
+#include "linear/linear_system.h"
 
 namespace tailwater {
 
@@ -21,6 +22,9 @@ struct SolverChoice {
   KrylovMethod method;
   PreconditionerName preconditioner;
 };
+
+/// What is known of every system, `water`, with what this one says of itself.
+SystemTraits traits_of(const LinearSystem& system, SystemTraits water);
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system);
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -243,25 +242,30 @@ TEST(CellMultigrid, ManyDropsAreSolvedLikeOneBody) {
 
 double norm(const std::vector<double>& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
 
+Goal goal_of(double residual) { return {.tolerance = residual, .residual = residual, .iterations = 500}; }
+
 TEST(Orthomin, ItsResidualIsThatOfItsSolutionAndNeverGrows) {
   const Tank<2> tank(30, Top::surface);
   LinearSystem system;
   tank.pose(system);
-  CellMultigrid multigrid(system);
   std::vector<double> x(system.size(), 1.0);
-  std::vector<double> residual(system.size());
+  Iterate iterate{x, std::vector<double>(system.size())};
   const auto find_residual = [&] {
-    system.multiply(x, residual);
-    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = system.rhs()[i] - residual[i];
+    system.multiply(x, iterate.residual);
+    for (std::size_t i = 0; i < x.size(); ++i) iterate.residual[i] = system.rhs()[i] - iterate.residual[i];
   };
   find_residual();
-  const double start = norm(residual);
-  const KrylovOutcome outcome = Orthomin(system, multigrid).solve(residual, 1e-6 * start, 50, x);
-  EXPECT_FALSE(outcome.broke_down);
-  EXPECT_LE(outcome.residual, 1e-6 * start);
-  EXPECT_DOUBLE_EQ(outcome.residual, norm(residual));
+  const double start = norm(iterate.residual);
+  KeptMultigrid multigrid;
+  Orthomin method(multigrid);
+  method.begin(system, 1.0);
+  const MethodOutcome outcome = method.improve(system, goal_of(1e-6 * start), iterate);
+  EXPECT_EQ(outcome.end, MethodOutcome::End::converged);
+  ASSERT_TRUE(outcome.residual.has_value());
+  EXPECT_LE(*outcome.residual, 1e-6 * start);
+  EXPECT_DOUBLE_EQ(*outcome.residual, norm(iterate.residual));
   find_residual();
-  EXPECT_NEAR(outcome.residual, norm(residual), 1e-12 * start);
+  EXPECT_NEAR(*outcome.residual, norm(iterate.residual), 1e-12 * start);
   ASSERT_EQ(outcome.history.size(), static_cast<std::size_t>(outcome.iterations) + 1);
   EXPECT_DOUBLE_EQ(outcome.history[0], start);
   for (std::size_t k = 1; k < outcome.history.size(); ++k) EXPECT_LE(outcome.history[k], outcome.history[k - 1]);
@@ -275,19 +279,17 @@ int iterations_with_held_surface(bool has_followed) {
   const Tank<2> tank(edge, Top::surface);
   LinearSystem system;
   tank.pose(system);
-  std::optional<CellMultigrid> multigrid(system);
+  KeptMultigrid multigrid;
+  Orthomin method(multigrid);
+  if (has_followed) method.begin(system, 1.0);
   for (std::size_t i = 0; i < system.size(); ++i) {
     const Vec<2>& x = tank.set.particles.position[i];
     if (tank.is_water[i] && x[1] > edge - depth) system.divide_diagonal(i, 0.1 * static_cast<double>(i % 3));
   }
-  if (has_followed) {
-    multigrid->follow(system);
-  } else {
-    multigrid.emplace(system);
-  }
+  method.begin(system, 0.0);  // so near to the solution a multigrid follows
   std::vector<double> x(system.size(), 0.0);
-  std::vector<double> residual(system.rhs().begin(), system.rhs().end());
-  return Orthomin(system, *multigrid).solve(residual, tolerance * norm(residual), 50, x).iterations;
+  Iterate iterate{x, {system.rhs().begin(), system.rhs().end()}};
+  return method.improve(system, goal_of(tolerance * norm(iterate.residual)), iterate).iterations;
 }
 
 TEST(CellMultigrid, CoarseLevelsFollow) {
@@ -317,13 +319,16 @@ TEST(Orthomin, SaysWhenItIsStuck) {
     row.finish(1.0, noise());
   }
   const SuspendFpTraps suspended;  // cycles go wild
-  CellMultigrid multigrid(system);
+  KeptMultigrid multigrid;
+  Orthomin method(multigrid);
+  method.begin(system, 1.0);
   std::vector<double> x(n, 0.0);
-  std::vector<double> residual(system.rhs().begin(), system.rhs().end());
-  const double start = norm(residual);
-  const KrylovOutcome outcome = Orthomin(system, multigrid).solve(residual, 1e-6 * start, 500, x);
-  EXPECT_TRUE(outcome.broke_down);
-  EXPECT_LE(outcome.residual, start);
+  Iterate iterate{x, {system.rhs().begin(), system.rhs().end()}};
+  const double start = norm(iterate.residual);
+  const MethodOutcome outcome = method.improve(system, goal_of(1e-6 * start), iterate);
+  EXPECT_EQ(outcome.end, MethodOutcome::End::broke_down);
+  EXPECT_NE(outcome.reason.find("Orthomin"), std::string::npos) << outcome.reason;
+  EXPECT_LE(norm(iterate.residual), start);
 }
 
 template <class Dimension>

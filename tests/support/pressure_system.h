@@ -1,7 +1,7 @@
 // Rows and their solver together.
 #pragma once
 
-#include "linear/krylov_solver.h"
+#include "linear/linear_solver.h"
 #include "linear/linear_system.h"
 
 namespace tailwater {
@@ -14,7 +14,7 @@ class PressureSystem : public LinearSystem {
   SolveReport solve(std::span<double> solution) { return solver_.solve(*this, solution); }
 
  private:
-  KrylovSolver solver_;
+  LinearSolver solver_;
 };
 
 }  // namespace tailwater

@@ -2,6 +2,7 @@
 #include "support/pressure_system.h"
 
 #include <gtest/gtest.h>
+#include <petscsys.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -344,6 +345,47 @@ TEST(PressureSystem, NoConvergenceIsAnErrorWithItsHistory) {
     const std::string numbers = message.substr(history, message.find('.', message.find("Remedy")) - history);
     EXPECT_GE(std::count(numbers.begin(), numbers.begin() + static_cast<long>(numbers.find("Remedy")), ','), 3)
         << message;
+  }
+}
+
+TEST(PressureSystem, MethodsSpeakForThemselves) {
+  const SmallSystem grid = five_point(40, false);
+  const auto message = [&](KrylovMethod method) {
+    PressureSolverTable settings = solver_settings(1e-12);
+    settings.max_iterations = 3;
+    settings.method = method;
+    PressureSystem system(settings);
+    system.set_pattern(grid.row_begin, grid.columns);
+    grid.pass_values_to(system);
+    std::vector<double> solution(grid.size(), 0.0);
+    try {
+      system.solve(solution);
+    } catch (const SolverError& error) {
+      return std::string(error.what());
+    }
+    return std::string("three iterations cannot solve 1600 equations to 1e-12");
+  };
+  EXPECT_NE(message(KrylovMethod::automatic).find("BiCGStab was still on its way"), std::string::npos);
+  EXPECT_NE(message(KrylovMethod::gmres).find("PETSc's gmres ended with DIVERGED_ITS"), std::string::npos);
+}
+
+TEST(PressureSystem, AMethodThatOnlySaysThatItConvergedIsAnError) {
+  const SmallSystem grid = five_point(40, false);
+  PressureSolverTable settings = solver_settings(1e-12);
+  // Squares of the preconditioned residual, by which PETSc goes, vanish.
+  const struct ForgetOptions {
+    ~ForgetOptions() { PetscOptionsClear(nullptr); }
+  } forget_options;
+  settings.petsc_options = "-pressure_ksp_type gmres -pressure_ksp_pc_side left -pressure_pc_sor_omega 1e-300";
+  PressureSystem system(settings);
+  system.set_pattern(grid.row_begin, grid.columns);
+  grid.pass_values_to(system);
+  std::vector<double> solution(grid.size(), 0.0);
+  try {
+    system.solve(solution);
+    FAIL() << "a preconditioner of 1e-300 solves nothing";
+  } catch (const SolverError& error) {
+    EXPECT_NE(std::string(error.what()).find("ended with CONVERGED"), std::string::npos) << error.what();
   }
 }
 

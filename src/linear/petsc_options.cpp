@@ -1,4 +1,4 @@
-#include "linear/petsc_solver.h"
+#include "linear/petsc_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

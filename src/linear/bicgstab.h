@@ -1,0 +1,18 @@
+// BiCGStab (van der Vorst 1992) preconditioned by SSOR in Eisenstat's form: the solver of nearly every run. PETSc has
+// both too, and needs two products more for each of the two solves of a step (docs/theory/linear.md#solving).
+#pragma once
+
+#include "linear/method.h"
+
+namespace tailwater {
+
+class Bicgstab : public Method {
+ public:
+  void begin(const LinearSystem&, double) override {}
+
+  /// Breaks down where it would divide by a number that happens to vanish, or where the residual explodes. Then x is
+  /// what it was.
+  MethodOutcome improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) override;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,35 @@
+// The multigrid of the present pattern, which the solves with this pattern share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "linear/cell_multigrid.h"
+
+namespace tailwater {
+
+class KeptMultigrid {
+ public:
+  /// For a solve that begins with this relative residual. Sets up a multigrid if the pattern is new. Otherwise the one
+  /// there is follows what has changed, unless that has brought back most of the residual: then a new one pays.
+  /// Collective.
+  void take(const LinearSystem& system, double residual) {
+    const bool is_new = !multigrid_ || pattern_number_ != system.pattern_number();
+    if (system.ranks().any(is_new || (multigrid_->follow(system) && residual > most_to_follow))) {
+      multigrid_.emplace(system);
+      pattern_number_ = system.pattern_number();
+    }
+  }
+
+  CellMultigrid& get() { return *multigrid_; }
+
+ private:
+  /// Relative residual above which a multigrid that has followed its system is set up anew. To reach 1e-4 from there it
+  /// would take three times as many iterations as a new one (docs/theory/linear.md#the-multigrid-on-cells).
+  static constexpr double most_to_follow = 0.1;
+
+  std::optional<CellMultigrid> multigrid_;
+  std::uint64_t pattern_number_ = 0;
+};
+
+}  // namespace tailwater

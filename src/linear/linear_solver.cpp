@@ -1,0 +1,201 @@
+#include "linear/linear_solver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/fp_traps.h"
+#include "linear/bicgstab.h"
+#include "linear/dot.h"
+#include "linear/kept_multigrid.h"
+#include "linear/method.h"
+#include "linear/orthomin.h"
+#include "linear/petsc_method.h"
+#include "linear/petsc_options.h"
+
+namespace tailwater {
+namespace {
+
+/// Below this norm of the right-hand side the answer is zero pressure: nothing drives it, and squares soon underflow.
+constexpr double vanishing_rhs = 1e-100;
+
+/// PETSc gives up on a guess whose residual is 1e5 times the source. Below that a guess helps even if its residual is
+/// larger than that of 0: its error is rough, and rough errors are smoothed away first.
+constexpr double hopeless_guess = 1e4;
+
+/// Below this tolerance rounding may show in the residual that a method keeps, and it is computed from x.
+constexpr double least_sure_tolerance = 1e-7;
+
+/// How often a method may say that it has converged. Each time it is asked for half as much as before, or less, so a
+/// method that is not there after so many never will be.
+constexpr int most_attempts = 30;
+
+/// A system, its solution on the way, and how far it is. Its verbs are collective.
+class Solve {
+ public:
+  Solve(const LinearSystem& system, std::span<double> x, double tolerance)
+      : system_(system), iterate_{x, {}}, rhs_norm_(norm(system.rhs())), tolerance_(tolerance), asked_(tolerance) {
+    if (!std::isfinite(rhs_norm_)) throw SolverError("the source of the pressure equation is not finite");
+  }
+
+  bool has_source() const { return rhs_norm_ >= vanishing_rhs; }
+  bool is_done() const { return report_.residual <= tolerance_; }
+  const SolveReport& report() const { return report_; }
+  double tolerance() const { return tolerance_; }
+
+  void begin_at_zero() {
+    std::ranges::fill(iterate_.x, 0.0);
+    iterate_.residual.assign(system_.rhs().begin(), system_.rhs().end());
+    report_.residual = 1.0;
+  }
+
+  void begin_at_guess() {
+    find_residual();
+    if (!(report_.residual <= hopeless_guess)) begin_at_zero();
+  }
+
+  void restart() {
+    ++report_.restarts;
+    begin_at_zero();
+  }
+
+  MethodOutcome improve(Method& method, int iterations) {
+    MethodOutcome outcome = method.improve(system_, {asked_, asked_ * rhs_norm_, iterations}, iterate_);
+    report_.iterations += outcome.iterations;
+    const bool is_known = outcome.residual && tolerance_ >= least_sure_tolerance;
+    if (is_known) report_.residual = *outcome.residual / rhs_norm_;
+    if (!is_known || !is_done()) find_residual();
+    return outcome;
+  }
+
+  /// Next time the method gets a smaller tolerance, by as much as it has missed the one it had, and by half.
+  void ask_for_more() { asked_ *= 0.5 * tolerance_ / report_.residual; }
+
+ private:
+  double norm(std::span<const double> x) const { return std::sqrt(system_.ranks().sum(dot(x, x))); }
+
+  void find_residual() {
+    std::vector<double> with_ghosts(iterate_.x.begin(), iterate_.x.end());
+    std::vector<double>& residual = iterate_.residual;
+    residual.resize(iterate_.x.size());
+    system_.multiply(with_ghosts, residual);
+    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = system_.rhs()[i] - residual[i];
+    report_.residual = norm(residual) / rhs_norm_;
+  }
+
+  const LinearSystem& system_;
+  Iterate iterate_;
+  double rhs_norm_;
+  double tolerance_;  ///< that the solve shall reach
+  double asked_;      ///< that the method shall
+  SolveReport report_;
+};
+
+void take_out_mean(const LinearSystem& system, std::span<double> x) {
+  const double sum = system.ranks().sum(std::accumulate(x.begin(), x.end(), 0.0));
+  const double mean = sum / static_cast<double>(system.size_of_all());
+  for (double& value : x) value -= mean;
+}
+
+/// About twelve residuals of the history, scaled so that the first is `first`.
+std::vector<double> shown_residuals(const std::vector<double>& history, double first) {
+  if (history.empty() || history[0] == 0.0) return {first};  // none is known
+  std::vector<double> shown;
+  const std::size_t stride = std::max<std::size_t>(1, history.size() / 12);
+  for (std::size_t k = 0; k < history.size(); k += stride) shown.push_back(first * history[k] / history[0]);
+  return shown;
+}
+
+/// `first` is the residual from which the method's history begins.
+SolverError no_convergence(const LinearSystem& system, const Solve& solve, const MethodOutcome& outcome, double first) {
+  return SolverError(fmt::format(
+      "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
+      "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
+      "another pressure_solver.method, preconditioner or petsc_options",
+      outcome.reason, solve.report().iterations, solve.report().residual, solve.tolerance(), system.size_of_all(),
+      fmt::join(shown_residuals(outcome.history, first), ", ")));
+}
+
+}  // namespace
+
+struct LinearSolver::Methods {
+  Methods(const PressureSolverTable& settings, const SystemTraits& water) : petsc(settings, water, multigrid) {}
+
+  KeptMultigrid multigrid;
+  Bicgstab bicgstab;
+  Orthomin orthomin{multigrid};
+  PetscMethod petsc;
+};
+
+LinearSolver::LinearSolver(const PressureSolverTable& settings, const SystemTraits& water)
+    : settings_(settings), water_(water) {
+  take_petsc_options(settings_);
+  forget();
+}
+
+LinearSolver::~LinearSolver() = default;
+
+void LinearSolver::forget() { methods_ = std::make_unique<Methods>(settings_, water_); }
+
+bool LinearSolver::needs_cells() const {
+  SystemTraits system = water_;
+  system.has_cells = true;
+  return choose_solver(settings_, system).preconditioner == PreconditionerName::cell_multigrid;
+}
+
+/// Our own methods serve what the rule chooses. Options go to PETSc, and so do systems with a free constant and SSOR.
+Method& LinearSolver::method_for(const LinearSystem& system) {
+  if (!settings_.petsc_options.empty()) return methods_->petsc;
+  const SolverChoice choice = choose_solver(settings_, traits_of(system, water_));
+  if (choice.preconditioner == PreconditionerName::cell_multigrid) {
+    const bool is_free = settings_.method == KrylovMethod::automatic;
+    if (is_free && system.has_cells()) return methods_->orthomin;
+    return methods_->petsc;
+  }
+  const bool is_swept = choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor;
+  if (is_swept && !system.constant_is_free()) return methods_->bicgstab;
+  return methods_->petsc;
+}
+
+SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution,
+                                std::optional<double> tolerance_asked) {
+  TAILWATER_ASSERT(solution.size() == system.size(), "the solution must have one entry per row");
+  const SuspendFpTraps suspended;
+  if (system.constant_is_free()) system.make_rhs_consistent();
+  Solve solve(system, solution, tolerance_asked.value_or(settings_.tolerance));
+  if (!solve.has_source()) {
+    solve.begin_at_zero();
+    return {};
+  }
+  solve.begin_at_guess();
+  Method* method = &method_for(system);
+  method->begin(system, solve.report().residual);
+  if (solve.is_done()) return solve.report();
+
+  int left = settings_.max_iterations;
+  for (int attempt = 1; !solve.is_done(); ++attempt) {
+    const double residual_before = solve.report().residual;
+    const MethodOutcome outcome = solve.improve(*method, left);
+    left -= outcome.iterations;
+    if (solve.is_done()) break;
+    if (outcome.end == MethodOutcome::End::converged && attempt < most_attempts) {
+      solve.ask_for_more();  // PETSc measures the preconditioned residual, and rounding may show in ours
+    } else if (outcome.end == MethodOutcome::End::broke_down && solve.report().restarts == 0) {
+      solve.restart();
+      methods_->petsc.change_to_gmres(system);
+      method = &methods_->petsc;
+      left = settings_.max_iterations;
+    } else {
+      throw no_convergence(system, solve, outcome, residual_before);
+    }
+  }
+  if (system.constant_is_free()) take_out_mean(system, solution);
+  return solve.report();
+}
+
+}  // namespace tailwater

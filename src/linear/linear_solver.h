@@ -1,0 +1,57 @@
+// Solves a LinearSystem by the method that the case or the rule (solver_choice.h) chooses.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "case/spec.h"
+#include "linear/linear_system.h"
+#include "linear/solver_choice.h"
+
+namespace tailwater {
+
+class Method;
+
+struct SolveReport {
+  int iterations = 0;
+  std::size_t restarts = 0;  ///< after breakdowns of the method
+  double residual = 0.0;     ///< |b - A x| / |b|, rows scaled
+};
+
+class LinearSolver {
+ public:
+  /// `water` is what is known of every system, by which `auto` chooses. Throws InputError for petsc_options that PETSc
+  /// does not know, or that would change where a solve ends.
+  explicit LinearSolver(const PressureSolverTable& settings, const SystemTraits& water = {});
+  ~LinearSolver();
+  LinearSolver(const LinearSolver&) = delete;
+  LinearSolver& operator=(const LinearSolver&) = delete;
+
+  /// On entry `solution` is the starting guess; a guess with a huge residual is replaced by 0. If the method breaks
+  /// down, the solve restarts once, from 0 with GMRES, which cannot break down. Where a constant is free the solution
+  /// gets mean 0. Throws SolverError with the residual history when the tolerance is not reached. `tolerance` overrides
+  /// that of the settings. Collective.
+  SolveReport solve(LinearSystem& system, std::span<double> solution, std::optional<double> tolerance = {});
+
+  /// Frees what belongs to the pattern of the last solve. Call when no other solve has the same: a new pattern needs
+  /// all of it anew.
+  void forget();
+
+  /// Whether it solves by the multigrid on cells, so that systems must tell theirs.
+  bool needs_cells() const;
+
+  /// Relative residual at which a solve ends.
+  double tolerance() const { return settings_.tolerance; }
+
+ private:
+  struct Methods;
+
+  Method& method_for(const LinearSystem& system);
+
+  PressureSolverTable settings_;
+  SystemTraits water_;
+  std::unique_ptr<Methods> methods_;  ///< with what they keep for a pattern
+};
+
+}  // namespace tailwater

@@ -1,0 +1,161 @@
+#include "linear/petsc_method.h"
+
+#include <fmt/format.h>
+
+namespace tailwater {
+namespace {
+
+/// Whether the method divided by a number that happened to vanish, or lost its way. Slow convergence is no breakdown.
+bool is_breakdown(KSPConvergedReason reason) {
+  return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
+         reason == KSP_DIVERGED_NANORINF;
+}
+
+MethodOutcome::End end_of(KSPConvergedReason reason) {
+  if (reason > 0) return MethodOutcome::End::converged;
+  return is_breakdown(reason) ? MethodOutcome::End::broke_down : MethodOutcome::End::unfinished;
+}
+
+/// The entries of two of PETSc's vectors, as long as it lives.
+class VectorAccess {
+ public:
+  VectorAccess(Vec from, Vec to) : from_(from), to_(to) {
+    check_petsc(VecGetLocalSize(from, &size_));
+    check_petsc(VecGetArrayRead(from, &read_));
+    check_petsc(VecGetArrayWrite(to, &written_));
+  }
+  ~VectorAccess() {
+    VecRestoreArrayWrite(to_, &written_);
+    VecRestoreArrayRead(from_, &read_);
+  }
+  VectorAccess(const VectorAccess&) = delete;
+  VectorAccess& operator=(const VectorAccess&) = delete;
+
+  std::span<const double> from() const { return {read_, static_cast<std::size_t>(size_)}; }
+  std::span<double> to() const { return {written_, static_cast<std::size_t>(size_)}; }
+
+ private:
+  Vec from_;
+  Vec to_;
+  PetscInt size_ = 0;
+  const PetscScalar* read_ = nullptr;
+  PetscScalar* written_ = nullptr;
+};
+
+/// y = A x, for PETSc. An exception here has no way out through PETSc and ends the program.
+PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
+  const LinearSystem* system = nullptr;
+  check_petsc(MatShellGetContext(shell, &system));
+  const VectorAccess vectors(x, y);
+  std::vector<double> from(vectors.from().begin(), vectors.from().end());
+  system->multiply(from, vectors.to());
+  return 0;
+}
+
+/// correction = multigrid(residual), the same.
+PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
+  CellMultigrid* multigrid = nullptr;
+  check_petsc(PCShellGetContext(preconditioner, &multigrid));
+  const VectorAccess vectors(residual, correction);
+  multigrid->apply(vectors.from(), vectors.to());
+  return 0;
+}
+
+/// Makes a PETSc vector that shares `values`.
+void wrap(const Communicator& ranks, std::span<const double> values, PetscVector& vector) {
+  const auto rows = static_cast<PetscInt>(values.size());
+  check_petsc(ranks.is_alone()
+                  ? VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, values.data(), vector.create())
+                  : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
+}
+
+/// How the solver ended.
+MethodOutcome outcome_of(KSP solver) {
+  KSPType type = nullptr;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  PetscInt iterations = 0;
+  const PetscReal* history = nullptr;
+  PetscInt length = 0;
+  check_petsc(KSPGetType(solver, &type));
+  check_petsc(KSPGetConvergedReason(solver, &reason));
+  check_petsc(KSPGetIterationNumber(solver, &iterations));
+  check_petsc(KSPGetResidualHistory(solver, &history, &length));
+  return {.end = end_of(reason),
+          .reason = fmt::format("PETSc's {} ended with {}", type, KSPConvergedReasons[reason]),
+          .iterations = static_cast<int>(iterations),
+          .history = {history, history + length}};
+}
+
+}  // namespace
+
+MethodOutcome PetscMethod::improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) {
+  if (!is_set_up_) set_up(system);
+  wrap(system.ranks(), system.rhs(), rhs_);
+  wrap(system.ranks(), iterate.x, solution_);
+  check_petsc(KSPSetTolerances(solver_.get(), goal.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, goal.iterations));
+  check_petsc(KSPSolve(solver_.get(), rhs_.get(), solution_.get()));
+  return outcome_of(solver_.get());
+}
+
+void PetscMethod::change_to_gmres(const LinearSystem& system) {
+  set_up(system);
+  check_petsc(KSPSetType(solver_.get(), KSPGMRES));
+  solver_size_.reset();
+}
+
+/// Prepares the solver for this solve. It is made anew for a new pattern: multigrid would carry bounds of the spectrum
+/// over from the old one, and a run that goes on from a checkpoint has no old one.
+void PetscMethod::set_up(const LinearSystem& system) {
+  const bool pattern_is_new = take_matrix(system);
+  const Communicator& ranks = system.ranks();
+  if (ranks.any(pattern_is_new || solver_size_ != system.size())) {
+    check_petsc(KSPCreate(ranks.handle(), solver_.create()));
+    solver_size_ = system.size();
+    configure(solver_.get(), settings_, traits_of(system, water_), ranks.is_alone());
+  }
+  wrap_multigrid(system);
+  // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.
+  check_petsc(KSPSetReusePreconditioner(solver_.get(), pattern_is_new ? PETSC_FALSE : PETSC_TRUE));
+  if (!works_on_shell()) rows_.take(system);
+  const Mat rows = works_on_shell() ? matrix_.get() : rows_.get();
+  if (constants_.get() != nullptr) check_petsc(MatSetNullSpace(rows, constants_.get()));
+  check_petsc(KSPSetOperators(solver_.get(), rows, rows));
+  is_set_up_ = true;
+}
+
+/// Puts the shell around the system. Returns whether the pattern is new.
+bool PetscMethod::take_matrix(const LinearSystem& system) {
+  if (pattern_number_ == system.pattern_number()) return false;
+  pattern_number_ = system.pattern_number();
+  const auto size = static_cast<PetscInt>(system.size());
+  check_petsc(MatCreateShell(system.ranks().handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE,
+                             const_cast<LinearSystem*>(&system), matrix_.create()));
+  check_petsc(MatShellSetOperation(matrix_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_system)));
+  if (system.constant_is_free()) {
+    check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants_.create()));
+  }
+  return true;
+}
+
+/// Whether the preconditioner needs no more than products with the system.
+bool PetscMethod::works_on_shell() const {
+  PC preconditioner = nullptr;
+  PetscBool is_one = PETSC_FALSE;
+  check_petsc(KSPGetPC(solver_.get(), &preconditioner));
+  check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_one, PCSHELL, PCNONE, ""));
+  return is_one;
+}
+
+/// Makes our own multigrid the preconditioner if that is the choice.
+void PetscMethod::wrap_multigrid(const LinearSystem& system) {
+  PC preconditioner = nullptr;
+  PetscBool is_ours = PETSC_FALSE;
+  check_petsc(KSPGetPC(solver_.get(), &preconditioner));
+  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
+  if (!is_ours || !system.has_cells()) return;
+  multigrid_.take(system, 0.0);
+  check_petsc(PCShellSetContext(preconditioner, &multigrid_.get()));
+  check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
+}
+
+}  // namespace tailwater

@@ -1,0 +1,50 @@
+// The methods and preconditioners of PETSc. They see a shell around the system, whose arrays PETSc's vectors share;
+// preconditioners that need more get a copy of its rows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "linear/kept_multigrid.h"
+#include "linear/method.h"
+#include "linear/petsc_options.h"
+#include "linear/petsc_rows.h"
+
+namespace tailwater {
+
+class PetscMethod : public Method {
+ public:
+  /// Borrows the multigrid, which is its preconditioner if the choice is cell-multigrid.
+  PetscMethod(const PressureSolverTable& settings, const SystemTraits& water, KeptMultigrid& multigrid)
+      : settings_(settings), water_(water), multigrid_(multigrid) {}
+
+  /// Does nothing yet: a guess that will do needs no PETSc.
+  void begin(const LinearSystem&, double) override { is_set_up_ = false; }
+
+  /// Ends where the preconditioned residual, which is what PETSc measures, is the tolerance of the preconditioned b.
+  MethodOutcome improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) override;
+
+  /// The rest of this solve, also of one that another method began, is by GMRES; the next is by the settings again.
+  void change_to_gmres(const LinearSystem& system);
+
+ private:
+  void set_up(const LinearSystem& system);
+  bool take_matrix(const LinearSystem& system);
+  bool works_on_shell() const;
+  void wrap_multigrid(const LinearSystem& system);
+
+  PressureSolverTable settings_;
+  SystemTraits water_;
+  KeptMultigrid& multigrid_;
+  PetscMatrix matrix_;  ///< a shell around the system
+  PetscRows rows_;      ///< only for preconditioners that need them
+  PetscVector rhs_;
+  PetscVector solution_;
+  PetscKrylovSolver solver_;
+  PetscNullSpace constants_;
+  bool is_set_up_ = false;                  ///< for this solve
+  std::uint64_t pattern_number_ = 0;        ///< of the matrix
+  std::optional<std::size_t> solver_size_;  ///< rows of this rank; none after a restart with another method
+};
+
+}  // namespace tailwater
