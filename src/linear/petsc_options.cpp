@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -100,21 +101,39 @@ std::vector<std::string> unused_options(const PressureSolverTable& settings) {
 }
 
 /// Options of PETSc may open any file or run a program. Those that do have one of these words in their names, or give
-/// the file behind a colon.
+/// the file behind a colon. PETSc reads upper case as lower case.
+constexpr std::array harmful{"view",          "monitor", "print", "file",   "draw",  "plot",
+                             "save",          "load",    "dump",  "python", "shell", "converged_reason",
+                             "converged_rate"};
+
+/// Options that say where a solve ends. With an absolute tolerance or a test of their own, PETSc's methods would call
+/// any residual converged.
+constexpr std::array ends{"_ksp_rtol", "_ksp_atol", "_ksp_max_it", "_ksp_convergence_test", "_ksp_converged"};
+
+/// The user's options, word by word, in lower case.
+std::vector<std::string> words_of(std::string options) {
+  std::ranges::transform(options, options.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  std::istringstream text(options);
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
 void require_harmless(const PressureSolverTable& settings) {
-  constexpr std::array harmful{"view", "monitor", "print", "file",   "draw", "plot",
-                               "save", "load",    "dump",  "python", "shell"};
-  std::istringstream words(settings.petsc_options);
-  for (std::string word; words >> word;) {
+  const auto refuse = [&](const std::string& word, const char* remedy) {
+    throw InputError(fmt::format("pressure_solver.petsc_options = \"{}\": {} is not allowed: {}",
+                                 settings.petsc_options, word, remedy));
+  };
+  for (const std::string& word : words_of(settings.petsc_options)) {
+    const auto has = [&](const char* part) { return word.find(part) != word.npos; };
     const bool is_option = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
     const bool is_ours = !is_option || word.starts_with("-pressure_");
-    const bool is_harmful =
-        std::ranges::any_of(harmful, [&](const char* part) { return word.find(part) != word.npos; });
-    if (is_ours && !is_harmful && word.find_first_of(":/") == word.npos) continue;
-    throw InputError(fmt::format(
-        "pressure_solver.petsc_options = \"{}\": {} is not allowed: give options of PETSc's KSP and PC with the prefix "
-        "pressure_, as in \"-pressure_ksp_type fgmres\", and none that print or open files",
-        settings.petsc_options, word));
+    if (!is_ours || std::ranges::any_of(harmful, has) || word.find_first_of(":/") != word.npos) {
+      refuse(word,
+             "give options of PETSc's KSP and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\", and "
+             "none that print or open files");
+    }
+    if (std::ranges::any_of(ends, has)) {
+      refuse(word, "where a solve ends is said by pressure_solver.tolerance and pressure_solver.max_iterations");
+    }
   }
 }
 

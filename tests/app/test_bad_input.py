@@ -133,6 +133,8 @@ TABLE = (
              ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_converged_reason ascii:trace"\n[time]')),
     BadInput("option of the whole program", ("case.toml:13:17", "-options_left", "pressure_"),
              ("[time]", '[pressure_solver]\npetsc_options = "-options_left"\n[time]')),
+    BadInput("option that ends a solve early", ("case.toml:13:17", "-pressure_ksp_atol", "pressure_solver.tolerance"),
+             ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_ATOL 1e6"\n[time]')),
     BadInput("solver that does not exist", ("case.toml:13:17", "PETSc failed", "quickly"),
              ("[time]", '[pressure_solver]\npetsc_options = "-pressure_ksp_type quickly"\n[time]')),
     BadInput("override of a key too deep", ("--set a.", "too many parts"), arguments=("--set", "a." * 50000 + "a=1")),
