@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "case/reader.h"
+#include "checks/check.h"
 #include "flow/flow.h"
-#include "geometry/check.h"
 #include "linear/session.h"
 
 namespace tailwater {

@@ -434,7 +434,7 @@ void require_start(const TimeSeries& series) {
                                series.file, series.line.front(), series.time.front()));
 }
 
-/// A series that is too short for the run is found by geometry/checks, when the end of the run is known.
+/// A series that is too short for the run is found by the room checks, when the end of the run is known.
 void read_series(std::string& file, std::string& checksum, std::span<const SeriesColumn> columns, TimeSeries& series,
                  TableReader& reader) {
   if (file.empty()) return;

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "geometry/channel_end.h"
+#include "motion/channel_end.h"
 
 namespace tailwater {
 

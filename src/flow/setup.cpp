@@ -5,6 +5,7 @@
 
 #include "geometry/from_spec.h"
 #include "operators/laplacian_shao_lo.h"
+#include "sampling/water_lattice.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -35,7 +36,8 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   walls.boundary.file_faces(search_distance * spec.particles.spacing);
   const SpaceShare share{
       .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
-  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share);
+  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share,
+                                         lattice_behind_meshes<Dim>(spec, walls.boundary));
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
   for (std::vector<double>* field : {&walls.friction, &walls.roughness, &walls.depth}) {
     field->reserve(walls.particles.size());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flow/open_end.h"
-#include "geometry/wall_motion.h"
+#include "motion/wall_motion.h"
 #include "particles/particles.h"
 
 namespace tailwater {

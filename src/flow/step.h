@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "geometry/floating_body.h"
+#include "motion/floating_body.h"
 
 namespace tailwater {
 

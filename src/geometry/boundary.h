@@ -1,8 +1,6 @@
 // Solid walls as oriented faces: segments in 2D, triangles in 3D. Every face knows on which side the fluid is.
 #pragma once
 
-#include <array>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,55 +8,11 @@
 
 #include "base/vec.h"
 #include "case/spec.h"
+#include "geometry/face.h"
 #include "geometry/face_grid.h"
-#include "geometry/lattice_axis.h"
+#include "geometry/screen.h"
 
 namespace tailwater {
-
-/// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left as one
-/// walks from corner 0 to corner 1; in 3D the corners run counter-clockwise as the fluid sees them.
-template <int Dim>
-struct WallFace {
-  std::array<Vec<Dim>, Dim> corners;
-  Vec<Dim> normal;
-  int wall = 0;  ///< index into Boundary::walls
-
-  /// Distance from the face's plane, m; positive on the fluid side.
-  double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
-  /// Length (2D, m) or area (3D, m^2).
-  double measure() const;
-  /// The axis-parallel box around it.
-  Eigen::AlignedBox<double, Dim> box() const;
-};
-
-/// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
-/// corner 2 to corner 0.
-struct Foot {
-  Vec<3> point = Vec<3>::Zero();
-  int feature = -1;  ///< -1: the inside; 0 to 2: a corner; 3 to 5: an edge
-
-  bool is_corner() const { return feature >= 0 && feature < 3; }
-  bool is_edge() const { return feature >= 3; }
-  int number() const { return feature % 3; }  ///< of the corner or edge
-};
-
-Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& x);
-
-/// Point of the face nearest to `x`.
-Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
-Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
-
-/// Where the line through two points, which must not be equally high above it, meets the face's plane.
-template <int Dim>
-Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) {
-  const double before = face.height(from);
-  return from + before / (before - face.height(to)) * (to - from);
-}
-
-/// Whether the path from `from` to `to` passes through the face. An end nearer to its plane than `tolerance` (m) has
-/// not passed; a path within `tolerance` of the face's rim has.
-template <int Dim>
-bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
 
 /// The body that all resting walls belong to.
 inline constexpr int resting_body = 0;
@@ -103,45 +57,6 @@ struct WallPlate {
   std::shared_ptr<const MeshSurface> sheet = nullptr;  ///< as drawn, if it is from a mesh
 };
 
-/// A straight cut through the plane of a screen, by coordinates along its axes: what is beyond it is not of the screen.
-struct ScreenCut {
-  std::array<double, 2> outwards{};                       ///< a unit vector; 0: nothing is cut off
-  double most = std::numeric_limits<double>::infinity();  ///< m; how far the screen reaches in this direction
-};
-
-/// What a flat piece of a plate hides: water on one side of it does not feel the water on the other. It is a segment in
-/// 2D, in 3D a rectangle or, with two cuts, a triangle.
-template <int Dim>
-struct Screen {
-  Vec<Dim> corner;
-  Vec<Dim> normal;
-  std::array<Vec<Dim>, Dim - 1> along;               ///< unit vectors in its plane, at right angles
-  std::array<std::array<double, 2>, Dim - 1> range;  ///< m; where it begins and ends along each, from the corner
-  int wall = 0;
-  int front = 0;  ///< indices into Boundary::faces, the front one on the side that the normal points to
-  int back = 0;
-  std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
-
-  double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
-  /// Whether the way from one place to another passes it.
-  bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// The axis-parallel box around it.
-  Eigen::AlignedBox<double, Dim> box() const;
-  /// m; of `x` from the piece, or from the rectangle around it
-  double distance(const Vec<Dim>& x) const;
-};
-
-/// Whether what is at one place does not feel what is at the other, because one of the screens `near` them, given by
-/// index, is between them. If one of them is a wall particle of a plate, `plate` is its index into Boundary::walls,
-/// else -1; such a particle stands for what its own plate hides, and is felt only through it.
-template <int Dim>
-bool is_hidden(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
-               const Vec<Dim>& to, int plate);
-
-/// The cells of the water's lattice, by axis.
-template <int Dim>
-using Lattice = std::array<LatticeAxis, Dim>;
-
 template <int Dim>
 struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
@@ -150,7 +65,6 @@ struct Boundary {
   std::vector<WallPlate> plates;
   std::vector<Screen<Dim>> screens;                       ///< of the plates at their present places
   std::vector<std::shared_ptr<const MeshSurface>> water;  ///< the mesh of each block of water; null if it has none
-  Lattice<Dim> lattice;  ///< of the first block of water, which goes on behind the meshes
 
   /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
@@ -210,9 +124,6 @@ template <int Dim>
 std::string wall_label(const Boundary<Dim>& boundary, int wall) {
   return boundary.walls[wall].kind + " '" + boundary.walls[wall].name + "'";
 }
-
-/// Two points nearer than this share of dx are the same corner.
-inline constexpr double corner_tolerance = 1e-6;
 
 /// The walls of a case. Left and right of a polygon are as seen when walking along its points. A box is walked
 /// counter-clockwise, so its left is its inside. Throws InputError, which names the wall and the point, for a wall

@@ -52,6 +52,9 @@ inline const std::vector<double>& periodic_range(const DomainTable& domain, int 
   return axis == 0 ? domain.periodic_x : axis == 1 ? domain.periodic_y : domain.periodic_z;
 }
 
+/// Number of layers of dummy particles that fill the kernel's support behind a wall, including a row on the wall.
+inline int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
+
 /// Area of a polygon, m^2; positive when its corners run counter-clockwise.
 template <class Points>
 double signed_area(const Points& corners) {

@@ -14,8 +14,8 @@
 
 #include "base/vec.h"
 #include "geometry/boundary.h"
-#include "geometry/floating_body.h"
 #include "kernel/kernel.h"
+#include "motion/floating_body.h"
 #include "neighbours/cell_grid.h"
 #include "neighbours/halo.h"
 #include "parallel/communicator.h"

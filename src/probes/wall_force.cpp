@@ -1,4 +1,5 @@
 #include "probes/wall_force.h"
+#include "geometry/from_spec.h"
 
 #include <Eigen/Geometry>
 
@@ -10,10 +11,10 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
-#include "geometry/wall_motion.h"
-#include "geometry/wall_particles.h"
+#include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/places.h"
+#include "sampling/wall_particles.h"
 
 namespace tailwater {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "geometry/wall_motion.h"
+#include "motion/wall_motion.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
 

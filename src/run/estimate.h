@@ -2,9 +2,9 @@
 #pragma once
 
 #include "case/spec.h"
+#include "checks/finding.h"
 #include "flow/flow.h"
-#include "geometry/finding.h"
-#include "geometry/particle_count.h"
+#include "sampling/particle_count.h"
 
 namespace tailwater {
 

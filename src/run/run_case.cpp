@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "checks/check.h"
 #include "flow/verbs.h"
-#include "geometry/check.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
 #include "parallel/at_start.h"

@@ -52,9 +52,9 @@ class Dummies final : public WallModel<Dim> {
     return {.pairs = WallRows::fluid_only, .shows_friction = false, .pulls = false};
   }
 
-  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
-                                    const SpaceShare& share) const override {
-    return make_dummy_particles(boundary, spacing, layers, share);
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers, const SpaceShare& share,
+                                    const Lattice<Dim>& lattice) const override {
+    return make_dummy_particles<Dim>(boundary, spacing, layers, share, lattice);
   }
 
   void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,

@@ -36,7 +36,7 @@ class PressureRows final : public OnWall<Dim> {
   WallTraits traits() const override { return {.needs_tensors = true}; }
 
   WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int /*layers*/,
-                                    const SpaceShare& share) const override {
+                                    const SpaceShare& share, const Lattice<Dim>& /*lattice*/) const override {
     return make_surface_particles(boundary, spacing, share);
   }
 

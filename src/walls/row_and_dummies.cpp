@@ -27,8 +27,8 @@ class RowAndDummies final : public OnWall<Dim> {
  public:
   WallTraits traits() const override { return {.solves_on_wall = true, .gravity_in_prediction = true}; }
 
-  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
-                                    const SpaceShare& share) const override {
+  WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers, const SpaceShare& share,
+                                    const Lattice<Dim>& /*lattice*/) const override {
     return make_row_and_dummy_particles(boundary, spacing, layers, share);
   }
 

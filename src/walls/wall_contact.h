@@ -18,7 +18,7 @@
 
 #include <span>
 
-#include "geometry/wall_motion.h"
+#include "motion/wall_motion.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
 

@@ -11,10 +11,10 @@
 #include "case/choices.h"
 #include "closures/surroundings.h"
 #include "geometry/boundary.h"
-#include "geometry/wall_particles.h"
 #include "linear/linear_system.h"
 #include "neighbours/neighbourhood.h"
 #include "particles/particles.h"
+#include "sampling/wall_particles.h"
 
 namespace tailwater {
 
@@ -101,9 +101,9 @@ class WallModel {
   virtual WallTraits traits() const = 0;
 
   /// The particles that represent the walls, in a share of space (wall_particles.h). A model with rows behind the wall
-  /// makes `layers` of them.
+  /// makes `layers` of them; behind meshes they stand on the nodes of the water's `lattice`.
   virtual WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers,
-                                            const SpaceShare& share) const = 0;
+                                            const SpaceShare& share, const Lattice<Dim>& lattice) const = 0;
 
   /// Sets the entries of owned wall particles in `velocity`. They follow from its fluid entries, which must be up to
   /// date on ghosts, and from the walls' own velocity `V` [m/s], one entry per moving row of the table. Dry wall

@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "case/reader.h"
-#include "geometry/check.h"
-#include "geometry/particle_count.h"
+#include "checks/check.h"
 #include "harness.h"
 #include "run/run_case.h"
+#include "sampling/particle_count.h"
 
 namespace tailwater {
 namespace {

@@ -12,8 +12,9 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <vector>
 
-#include "cases.h"
+#include "geometry/cases.h"
 #include "geometry/triangle_mesh.h"
 
 namespace tailwater::testing_cases {
@@ -37,6 +38,8 @@ inline TriangleMesh box_mesh(const Vec<3>& low, const Vec<3>& high) {
   add_quad(mesh, 1, 3, 7, 5);
   return mesh;
 }
+
+inline TriangleMesh unit_box() { return box_mesh(Vec<3>::Zero(), Vec<3>::Ones()); }
 
 /// A sphere of rings between two poles, its front outside; `rings` times 2 `rings` pieces.
 inline TriangleMesh sphere_mesh(const Vec<3>& centre, double radius, int rings) {
@@ -77,6 +80,10 @@ TriangleMesh sheet_mesh(int cells, Height&& height) {
     for (int i = 0; i < cells; ++i) add_quad(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
   }
   return mesh;
+}
+
+inline double volume_of(const TriangleMesh& mesh) {
+  return six_volumes(mesh, [](int) { return true; }) / 6.0;
 }
 
 inline std::string ascii_stl(const TriangleMesh& mesh) {
@@ -158,5 +165,17 @@ class MeshFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Water around the origin, and a wall in it.
+inline CaseSpec case_with(const WallTable& wall) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {wall};
+  spec.fluid = {box_fluid({-1.0, -1.0, -1.0}, {2.0, 2.0, 2.0})};
+  return spec;
+}
+
+inline void expect_words(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << message;
+}
 
 }  // namespace tailwater::testing_cases

@@ -1,0 +1,94 @@
+#include "checks/broken_case.h"
+
+#include <charconv>
+#include <regex>
+#include <string>
+
+#include "base/error.h"
+#include "geometry/from_spec.h"
+#include "geometry/mesh_walls.h"
+
+namespace tailwater {
+namespace {
+
+/// Adds the triangles of a file as they are; none if the file cannot be read.
+void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
+  if (file.file.empty()) return;
+  try {
+    const TriangleMesh mesh = read_placed_mesh(file, file.file);
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      boundary.faces.push_back(
+          {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).stableNormalized(), wall});
+    }
+  } catch (const UserError&) {
+    // There is nothing of it to be drawn.
+  }
+}
+
+/// The walls that can be made by themselves.
+template <int Dim>
+Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
+  Boundary<Dim> all;
+  CaseSpec single = spec;
+  single.fluid.clear();
+  for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
+    single.walls = {spec.walls[wall]};
+    try {
+      for (WallFace<Dim> face : make_boundary<Dim>(single).faces) {
+        face.wall = wall;
+        all.faces.push_back(face);
+      }
+    } catch (const InputError&) {
+      if constexpr (Dim == 3) append_triangles(spec.walls[wall], wall, all);
+    }
+  }
+  if constexpr (Dim == 3) {
+    for (const FluidTable& block : spec.fluid) {
+      if (block.shape == BlockShape::mesh) append_triangles(block, static_cast<int>(spec.walls.size()), all);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+template <int Dim>
+BrokenCase<Dim> draw_broken_case(const CaseSpec& spec) {
+  BrokenCase<Dim> drawing;
+  try {
+    drawing.boundary = make_boundary<Dim>(spec);
+  } catch (const InputError&) {
+    return {draw_walls_one_by_one<Dim>(spec), {}};
+  }
+  try {
+    drawing.fluid = make_fluid_particles(spec, drawing.boundary);
+  } catch (const InputError&) {
+    // The walls alone show the place.
+  }
+  return drawing;
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> places_in(std::string_view message) {
+  const std::string number = R"((-?\d+(?:\.\d+)?(?:e[-+]\d+)?))";
+  const std::regex pattern(R"(\()" + number + ", " + number + (Dim == 3 ? ", " + number : "") + R"(\))");
+  const std::string text(message);
+  std::vector<Vec<Dim>> places;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    Vec<Dim> x;
+    bool is_place = true;  // not "(1e999, 0)", which a name may hold
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::string digits = (*match)[axis + 1].str();
+      is_place = is_place && std::from_chars(digits.data(), digits.data() + digits.size(), x[axis]).ec == std::errc();
+    }
+    if (is_place) places.push_back(x);
+  }
+  return places;
+}
+
+template BrokenCase<2> draw_broken_case<2>(const CaseSpec&);
+template BrokenCase<3> draw_broken_case<3>(const CaseSpec&);
+template std::vector<Vec<2>> places_in<2>(std::string_view);
+template std::vector<Vec<3>> places_in<3>(std::string_view);
+
+}  // namespace tailwater

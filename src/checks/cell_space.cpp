@@ -1,0 +1,195 @@
+#include "checks/cell_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+
+template <int Dim>
+CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces,
+                          const Eigen::AlignedBox<double, Dim>& water, double most)
+    : tolerance_(corner_tolerance * spec.particles.spacing) {
+  Eigen::AlignedBox<double, Dim> box = water;
+  for (const WallFace<Dim>& face : faces) box.extend(face.box());
+  low_ = box.min();
+  const Vec<Dim> high = box.max();
+  const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);
+  double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
+  // Where the case is thinner than such a cell, there would be more of them along its other extents.
+  const auto cells_in_all = [&] { return (extent / cell).cwiseMax(1.0).prod(); };
+  while (cells_in_all() > 1.001 * most) cell *= 2.0;
+  std::size_t cells = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    is_periodic_[axis] = range.size() == 2;
+    if (is_periodic_[axis]) {
+      low_[axis] = range[0];
+      count_[axis] = std::max(1, static_cast<int>(std::round((range[1] - range[0]) / cell)));
+      size_[axis] = (range[1] - range[0]) / count_[axis];
+    } else {
+      count_[axis] = std::max(1, static_cast<int>(std::ceil((high[axis] - low_[axis]) / cell - corner_tolerance)));
+      size_[axis] = cell;
+    }
+    cells *= count_[axis];
+  }
+  near_faces_.resize(cells + 1);
+  set_faces(std::move(faces));
+}
+
+template <int Dim>
+std::size_t CellSpace<Dim>::index(const Cell& c) const {
+  std::size_t i = 0;
+  for (int axis = Dim - 1; axis >= 0; --axis) i = i * count_[axis] + c[axis];
+  return i;
+}
+
+template <int Dim>
+typename CellSpace<Dim>::Cell CellSpace<Dim>::cell(std::size_t index) const {
+  Cell c;
+  for (int axis = 0; axis < Dim; index /= count_[axis++]) c[axis] = static_cast<int>(index % count_[axis]);
+  return c;
+}
+
+template <int Dim>
+Vec<Dim> CellSpace<Dim>::centre(const Cell& c) const {
+  Vec<Dim> x;
+  for (int axis = 0; axis < Dim; ++axis) x[axis] = low_[axis] + (c[axis] + 0.5) * size_[axis];
+  return x;
+}
+
+template <int Dim>
+typename CellSpace<Dim>::Cell CellSpace<Dim>::cell_of(const Vec<Dim>& x) const {
+  Cell c;
+  for (int axis = 0; axis < Dim; ++axis) {
+    c[axis] = std::clamp(static_cast<int>(std::floor((x[axis] - low_[axis]) / size_[axis])), 0, count_[axis] - 1);
+  }
+  return c;
+}
+
+template <int Dim>
+std::optional<typename CellSpace<Dim>::Cell> CellSpace<Dim>::next(Cell c, int axis, int step) const {
+  c[axis] += step;
+  if (is_periodic_[axis]) c[axis] = (c[axis] + count_[axis]) % count_[axis];
+  if (c[axis] < 0 || c[axis] >= count_[axis]) return std::nullopt;
+  return c;
+}
+
+template <int Dim>
+void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
+  faces_ = std::move(faces);
+  const auto for_each_near = [&](auto&& visit) {
+    for (std::size_t f = faces_.size(); f-- > 0;) {
+      visit_around(faces_[f], faces_[f], [&](const Cell& c) { visit(index(c), static_cast<int>(f)); });
+    }
+  };
+  // First how many faces each cell has, then where its list ends; filling it from the end leaves where it begins.
+  std::fill(near_faces_.begin(), near_faces_.end(), 0);
+  for_each_near([&](std::size_t c, int) { ++near_faces_[c]; });
+  std::partial_sum(near_faces_.begin(), near_faces_.end(), near_faces_.begin());
+  near_list_.resize(near_faces_.back());
+  for_each_near([&](std::size_t c, int f) { near_list_[--near_faces_[c]] = f; });
+}
+
+template <int Dim>
+bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) return false;
+  const Vec<Dim> hit = meet(face, from, to);
+  return (closest_point(face, hit) - hit).norm() <= tolerance_;
+}
+
+template <int Dim>
+bool CellSpace<Dim>::is_on_wall(const Cell& c) const {
+  const Vec<Dim> x = centre(c);
+  const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
+  const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
+  return std::any_of(begin, end, [&](int f) { return (closest_point(faces_[f], x) - x).norm() <= tolerance_; });
+}
+
+template <int Dim>
+int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  int first = -1;
+  double way = std::numeric_limits<double>::infinity();  // share of the way to the first face
+  for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
+    const WallFace<Dim>& face = faces_[near_list_[k]];
+    if (!passes(face, from, to)) continue;
+    const double share = face.height(from) / (face.height(from) - face.height(to));
+    if (share < way) {
+      way = share;
+      first = near_list_[k];
+    }
+  }
+  return first;
+}
+
+template <int Dim>
+int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
+  Cell beside = c;
+  beside[axis] += step;  // also beyond a periodic end: faces have no images
+  return face_between(c, centre(c), centre(beside));
+}
+
+template <int Dim>
+Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
+                   const Vec<Dim>& down) {
+  using Cell = typename CellSpace<Dim>::Cell;
+  Spread<Dim> found;
+  found.met.assign(space.faces().size(), false);
+  found.behind.assign(space.faces().size(), std::nullopt);
+  std::vector<bool> visited(space.count(), false);
+  const auto visit = [&](const Cell& c) {
+    if (visited[space.index(c)]) return;
+    visited[space.index(c)] = true;
+    found.cells.push_back(c);
+  };
+  for (const Cell& c : start) visit(c);
+  for (std::size_t k = 0; k < found.cells.size(); ++k) {
+    const Cell c = found.cells[k];
+    for (int move = 0; move < 2 * Dim; ++move) {
+      const int axis = move / 2;
+      const int step = move % 2 == 0 ? -1 : 1;
+      if (step * down[axis] < -0.5) continue;
+      if (const int face = space.face_beside(c, axis, step); face >= 0) {
+        found.met[face] = true;
+        const bool is_behind = space.faces()[face].height(space.centre(c)) < 0.0 && !space.is_on_wall(c);
+        if (is_behind) found.behind[face] = space.centre(c);
+        ++found.sides;
+      } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
+        visit(*target);
+      } else {
+        found.way_out = space.centre(c);
+        return found;
+      }
+    }
+  }
+  return found;
+}
+
+template <int Dim>
+std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid) {
+  std::vector<int> is_wet(space.count(), 0);
+  for (const Vec<Dim>& x : fluid.position) {
+    const auto c = space.cell_of(x);
+    if (space.face_between(c, x, space.centre(c)) < 0) is_wet[space.index(c)] = 1;
+  }
+  fluid.ranks.largest_of_each(is_wet);
+  std::vector<typename CellSpace<Dim>::Cell> cells;
+  for (std::size_t c = 0; c < is_wet.size(); ++c) {
+    if (is_wet[c] != 0) cells.push_back(space.cell(c));
+  }
+  return cells;
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                      \
+  template class CellSpace<Dim>;                                                                        \
+  template Spread<Dim> spread(const CellSpace<Dim>&, const std::vector<typename CellSpace<Dim>::Cell>&, \
+                              const Vec<Dim>&);                                                         \
+  template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, const FluidParticles<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

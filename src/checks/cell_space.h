@@ -1,0 +1,100 @@
+// Where water can get to in a case: cells that cover the case, and the walls between them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/vec.h"
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "sampling/fluid_particles.h"
+
+namespace tailwater {
+
+/// Cells that cover `faces` and the box of the `water`. Their size is dx, or larger to limit their number to `most`.
+/// Whether a path meets a wall does not depend on their size.
+template <int Dim>
+class CellSpace {
+ public:
+  using Cell = std::array<int, Dim>;
+
+  CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Eigen::AlignedBox<double, Dim>& water,
+            double most);
+
+  std::size_t count() const { return near_faces_.size() - 1; }
+  double volume() const { return size_.prod(); }  ///< of a cell, m^Dim
+  std::size_t index(const Cell& c) const;
+  Cell cell(std::size_t index) const;
+  Vec<Dim> centre(const Cell& c) const;
+  Cell cell_of(const Vec<Dim>& x) const;
+  /// The neighbour of a cell; empty if it is outside all cells.
+  std::optional<Cell> next(Cell c, int axis, int step) const;
+
+  const std::vector<WallFace<Dim>>& faces() const { return faces_; }
+  /// Replaces the faces, as when walls have moved.
+  void set_faces(std::vector<WallFace<Dim>> faces);
+
+  /// Whether the way from one place to another passes the face. A place exactly on it counts as in front, so that no
+  /// way can pass a wall by resting on it.
+  bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// Whether the centre of a cell is on a wall, and so on neither side of it.
+  bool is_on_wall(const Cell& c) const;
+  /// The first face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none. A way that
+  /// cuts a corner off a body passes two: into it and out again.
+  int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// The same from the centre of a cell to that of the next one, which may be outside.
+  int face_beside(const Cell& c, int axis, int step) const;
+
+  /// Calls visit(cell) for all cells in the box around two faces, and those beside it.
+  template <class Visit>
+  void visit_around(const WallFace<Dim>& a, const WallFace<Dim>& b, Visit&& visit) const {
+    Vec<Dim> low = a.corners[0];
+    Vec<Dim> high = low;
+    for (const WallFace<Dim>* face : {&a, &b}) {
+      for (const Vec<Dim>& corner : face->corners) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+      }
+    }
+    const Cell first = cell_of(low - size_);
+    const Cell last = cell_of(high + size_);
+    Cell c = first;
+    for (int axis = 0; axis < Dim;) {
+      visit(c);
+      for (axis = 0; axis < Dim && ++c[axis] > last[axis]; ++axis) c[axis] = first[axis];
+    }
+  }
+
+ private:
+  std::vector<WallFace<Dim>> faces_;
+  double tolerance_;
+  Vec<Dim> low_, size_;
+  Cell count_;
+  std::array<bool, Dim> is_periodic_;
+  std::vector<std::size_t>
+      near_faces_;  ///< by cell: where in near_list_ the faces begin that one step from it may meet
+  std::vector<int> near_list_;
+};
+
+/// The cells that water reaches.
+template <int Dim>
+struct Spread {
+  std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it reaches them
+  std::optional<Vec<Dim>> way_out;  ///< the last place inside, if water leaves the case; the search ends there
+  std::vector<bool> met;            ///< by face: whether it held the water
+  std::vector<std::optional<Vec<Dim>>> behind;  ///< by face: a place behind it that the water reaches
+  std::size_t sides = 0;                        ///< sides of the cells that are at faces
+};
+
+/// Lets water run from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
+/// runs in all directions, else (a unit vector) sideways and down, never up.
+template <int Dim>
+Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
+                   const Vec<Dim>& down);
+
+/// The cells of the water of all ranks, without places that a wall separates from the centre of their cell. Collective.
+template <int Dim>
+std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid);
+
+}  // namespace tailwater

@@ -1,0 +1,33 @@
+#include "checks/check.h"
+
+#include "checks/checks.h"
+
+namespace tailwater {
+
+template <int Dim>
+Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  Findings findings;
+  append(findings, check_blocks(spec, fluid));
+  append(findings, check_periodic_width(spec, boundary));
+  if constexpr (Dim == 2) {
+    append(findings, check_self_crossing(spec, boundary));
+    append(findings, check_crests(spec, boundary));
+  } else {
+    append(findings, check_meshes(spec, boundary, fluid));
+  }
+  append(findings, check_wall_thickness(spec, boundary));
+  append(findings, check_plates(spec, boundary));
+  append(findings, check_roughness(spec, boundary));
+  append(findings, check_overlap(spec, boundary, fluid));
+  append(findings, check_fluid_at_walls(spec, boundary, fluid));
+  append(findings, check_open_ends(spec, boundary, fluid));
+  append(findings, check_end_flows(spec, boundary));
+  append(findings, check_leaks(spec, boundary, fluid));
+  append(findings, check_moving_walls(spec, boundary, fluid));
+  return findings;
+}
+
+template Findings check_geometry(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_geometry(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

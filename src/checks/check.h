@@ -1,0 +1,16 @@
+// Finds errors in a case's geometry before anything runs.
+#pragma once
+
+#include "case/spec.h"
+#include "checks/finding.h"
+#include "geometry/boundary.h"
+#include "sampling/fluid_particles.h"
+
+namespace tailwater {
+
+/// The findings of all checks (checks/checks.h says what each looks for), in the order of check.cpp. Cost: proportional
+/// to particles times faces, and to the cells of size dx that the water can reach.
+template <int Dim>
+Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+}  // namespace tailwater

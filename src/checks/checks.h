@@ -1,0 +1,94 @@
+// The checks of a case's geometry, each in a file with its name. A new one is a file, a declaration here and a line in
+// check.cpp, or in check_moving_walls if it is about moving walls.
+#pragma once
+
+#include "case/spec.h"
+#include "checks/finding.h"
+#include "geometry/boundary.h"
+#include "sampling/fluid_particles.h"
+
+namespace tailwater {
+
+/// Errors: no fluid; a block too small for a single particle.
+template <int Dim>
+Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
+/// Errors: a periodic direction narrower than four supports, in which a particle would meet its own image; a wall that
+/// is longer than the period, which would lie in itself.
+template <int Dim>
+Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: a wall that crosses itself.
+Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
+
+/// Error: a bed with a crest as high as its own ends. Water that reaches the crest has already run over the ends.
+Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
+
+/// Errors: a mesh much longer than the water or shorter than dx, which is drawn in another unit; one that crosses
+/// itself; one that is a plate thinner than its layers of wall particles. Warnings: one at rest beside all water and
+/// other walls; a body longer than twice all these.
+Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
+
+/// Error: a wall that is no mesh and thinner than its layers of wall particles, with water or another wall on its other
+/// side. Looks straight through each face from points dx apart; at most 50 points per edge.
+template <int Dim>
+Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: a plate where the wall particles stand on the walls, which cannot be seen from one side only.
+template <int Dim>
+Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Warning: a wall whose roughness is larger than dx.
+template <int Dim>
+Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: blocks of fluid that overlap. On both sides of a plate they may be near each other.
+template <int Dim>
+Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Errors: fluid behind a wall, on both sides of it, or too near to it. Warning: a gap between fluid and wall.
+template <int Dim>
+Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Errors: an inlet or an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a
+/// wall, cuts through water, or faces the wrong way.
+template <int Dim>
+Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Errors: what is prescribed at an inlet or outlet does not cover the run, has no finite value, jumps, is a level
+/// outside the opening, more water than it can pass, a level with a subcritical flow, or an implausible speed. Warning:
+/// a flow shallower than a spacing.
+template <int Dim>
+Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Open ends count
+/// as closed.
+template <int Dim>
+Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not where it is drawn
+/// at t = 0. Walls without that error then go through the checks below.
+template <int Dim>
+Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+/// Error: a motion from a file that jumps between two of its lines. Warning: one that overshoots what its lines say.
+/// Messages name file and lines.
+template <int Dim>
+Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+/// Warning: a resting wall that ends where a moving one begins, with nothing behind its end once the other has moved.
+Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
+
+/// Error, when rows of particles stand on the walls: walls that move relative to each other and are nearer than dx at
+/// the start. Their two rows would overlap.
+template <int Dim>
+Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn);
+
+/// Errors, each with time and place: a wall whose place is not finite, that is too fast for water to count as
+/// incompressible, crosses a wall, comes nearer to one than dx, or leaves enclosed water less room than it needs.
+/// Follows the `moving` walls in steps of dx/4 from the start to the end of the run.
+template <int Dim>
+Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
+                     const std::vector<int>& moving);
+
+}  // namespace tailwater

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "motion/channel_end.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double rim_on_wall = 0.1;          // dx, between the top of an opening and a lid
+constexpr double least_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
+constexpr double most_of_range = 0.5;  // of the largest value, that one may change by while a wave crosses the end
+constexpr double most_samples = 1e5;   // of a quantity over the run
+/// Froude number beyond which a value is mistyped: a jet of 20 m/s and 0.1 m depth.
+constexpr double most_froude = 20.0;
+constexpr const char* unit_hint =
+    "a discharge is in m^3/s, in 2D per metre of width (1 l/s is 0.001), a velocity in m/s";
+
+/// Looks at what is prescribed at one open end, over the run.
+template <int Dim>
+class EndFlowCheck {
+ public:
+  EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end)
+      : end_(end),
+        label_(end.opening.label()),
+        dx_(spec.particles.spacing),
+        last_(spec.time.end),
+        crossing_((spec.scheme.support + 1.0) * dx_ / std::sqrt(std::max(end.gravity * end.height, 1e-30))),
+        has_lid_(std::abs(boundary.nearest(top(), std::numeric_limits<double>::infinity()).signed_distance) <=
+                 rim_on_wall * dx_) {}
+
+  Findings findings() {
+    look_at_gravity();
+    look_at_values("discharge", "m^3/s", end_.flow.discharge);
+    look_at_values("velocity", "m/s", end_.flow.velocity);
+    look_at_values("level", "m", end_.flow.level);
+    if (findings_.empty()) follow();
+    if (findings_.empty()) look_at_thinness();
+    return std::move(findings_);
+  }
+
+ private:
+  template <class... Args>
+  void error(fmt::format_string<Args...> text, Args&&... args) {
+    findings_.push_back(Finding::error("{}", fmt::format(text, std::forward<Args>(args)...)));
+  }
+
+  Vec<Dim> top() const { return end_.low + end_.height * end_.rise + 0.5 * end_.width * end_.aside; }
+
+  void look_at_gravity() {
+    if (end_.flow.level && end_.gravity == 0.0) {
+      error("{}: level needs gravity along the opening, which has none there: give a discharge or a velocity instead",
+            label_);
+    } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < least_cosine) {
+      error("{}: gravity is oblique to its edges, so it has no bed: turn the case so that one edge is upright", label_);
+    }
+  }
+
+  /// The number of equal parts of the run at whose ends a quantity is looked at.
+  int samples() const { return static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_samples)); }
+
+  void look_at_values(const char* key, const char* unit, const std::optional<TimeFunction>& quantity) {
+    if (!quantity) return;
+    if (const SmoothCurve* series = quantity->series()) {
+      const double from = series->times().front();
+      const double to = series->times().back();
+      if (from > 0.0 || to < last_) {
+        error(
+            "{}: file covers t = {:.6g} to {:.6g} s, but the run lasts from 0 to time.end = {:.6g} s: add rows, or end "
+            "the run earlier",
+            label_, from, to, last_);
+        return;
+      }
+    }
+    const int count = samples();
+    double largest = 0.0;
+    for (int k = 0; k <= count; ++k) {
+      const double time = last_ * k / count;
+      const double value = quantity->at(time);
+      if (!std::isfinite(value)) {
+        error("{}: {} has no finite value at t = {:.6g} s: give an expression that has one during the whole run",
+              label_, key, time);
+        return;
+      }
+      largest = std::max(largest, std::abs(value));
+    }
+    const double scale = &quantity == &end_.flow.level ? end_.height : largest;
+    for (int k = 0; k < count; ++k) {
+      const double time = last_ * k / count;
+      const double next = std::min(last_, time + std::min(crossing_, last_ / count));
+      const double change = quantity->at(next) - quantity->at(time);
+      if (std::abs(change) <= most_of_range * scale) continue;
+      error(
+          "{}: {} jumps by {:.4g} {} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the "
+          "channel: let it change over {:.2g} s or more",
+          label_, key, change, unit, time, next, 4.0 * crossing_);
+      return;
+    }
+  }
+
+  void follow() {
+    const int count = 200;
+    for (int k = 0; k <= count && findings_.empty(); ++k) look_at(last_ * k / count);
+  }
+
+  void look_at(double time) {
+    if (end_.flow.level) look_at_level(time, end_.flow.level->at(time));
+    if (!end_.flow.feeds() || !findings_.empty()) return;
+    const double depth = end_.flow.level ? end_.depth_at_level(end_.flow.level->at(time)) : end_.height;
+    const double q = end_.discharge_per_width(time, depth);
+    const double critical = end_.critical_depth(time);
+    if (end_.gravity == 0.0 || has_lid_) return;
+    if (end_.flow.level) {
+      look_at_froude(time, q, depth);
+    } else if (critical > end_.height) {
+      error(
+          "{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of {:.4g} "
+          "m, and the opening is {:.4g} m high: make it higher, or let less enter ({}); a supercritical flow needs "
+          "its level too",
+          label_, time, critical, end_.height, unit_hint);
+    }
+  }
+
+  /// A discharge may begin and end at 0: only one that never makes a row of particles is told.
+  void look_at_thinness() {
+    if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_) return;
+    const double critical = end_.largest_depth(last_);
+    if (critical == 0.0 || critical >= dx_) return;
+    findings_.push_back(
+        Finding::warning("{}: the flow is critical at a depth of {:.3g} m at most, less than the spacing of {:.3g} m: "
+                         "where nothing dams "
+                         "it, it enters one spacing deep and slower; use a smaller spacing",
+                         label_, critical, dx_));
+  }
+
+  void look_at_level(double time, double level) {
+    if (level < end_.floor) {
+      error(
+          "{}: level = {:.6g} m at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are "
+          "heights above the origin, not depths; give one above the bed there",
+          label_, level, time, end_.floor);
+    } else if (level > end_.floor + end_.height) {
+      error(
+          "{}: level = {:.6g} m at t = {:.6g} s is above the top of the opening, {:.6g} m: make the opening and the "
+          "walls beside it higher, or lower the level",
+          label_, level, time, end_.floor + end_.height);
+    }
+  }
+
+  void look_at_froude(double time, double q, double depth) {
+    const double speed = depth > 0.0 ? std::abs(q) / depth : 0.0;
+    const double froude = depth > 0.0 ? speed / std::sqrt(end_.gravity * depth) : 0.0;
+    if (froude > most_froude) {
+      error(
+          "{}: at t = {:.6g} s water would enter at {:.4g} m/s, which is implausible (Froude number {:.3g}): check the "
+          "units; {}",
+          label_, time, speed, froude, unit_hint);
+    } else if (q < 0.0 || froude < 1.0) {
+      error(
+          "{}: level is given with a flow that is subcritical at t = {:.6g} s (Froude number {:.3g}), where the level "
+          "follows from the water inside: remove the level, or the discharge and the velocity",
+          label_, time, froude);
+    }
+  }
+
+  const ChannelEnd<Dim>& end_;
+  std::string label_;
+  double dx_, last_;
+  double crossing_;  ///< s; of a wave, of the end stretch
+  bool has_lid_;
+  Findings findings_;
+};
+
+}  // namespace
+
+template <int Dim>
+Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  Findings findings;
+  if (boundary.faces.empty()) return findings;  // told by check_open_ends
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    if (end.is_driven()) append(findings, EndFlowCheck<Dim>(spec, boundary, end).findings());
+  }
+  return findings;
+}
+
+template Findings check_end_flows(const CaseSpec&, const Boundary<2>&);
+template Findings check_end_flows(const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

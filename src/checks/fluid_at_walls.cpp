@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "parallel/at_start.h"
+#include "sampling/wall_particles.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Where the first particles in front of a wall belong.
+struct Standing {
+  double regular;   ///< dx from the wall
+  double least;     ///< m; nearer is too near
+  double gap_from;  ///< m; farther is a gap
+  double gap_to;    ///< m; from here on the fluid is away from the wall on purpose
+};
+
+Standing standing(const CaseSpec& spec) {
+  const double dx = spec.particles.spacing;
+  const double regular = placement_of(spec.scheme.walls).on_wall ? 1.0 : 0.5;
+  const double play = std::max(0.25, spec.particles.jitter) + corner_tolerance;
+  return {regular, (0.5 - play) * dx, (regular + play) * dx, (regular + 1.5) * dx};
+}
+
+/// One block beside one wall.
+template <int Dim>
+struct Contact {
+  std::size_t in_front = 0;
+  std::size_t behind = 0;
+  std::size_t too_near = 0;
+  double deepest = 0.0;       ///< m behind the wall, positive
+  double nearest = infinite;  ///< m in front of it
+  Vec<Dim> deepest_at, nearest_at;
+
+  /// Of two places that are equally near or deep, the one seen first counts.
+  void add(const Contact& later) {
+    in_front += later.in_front;
+    behind += later.behind;
+    too_near += later.too_near;
+    if (later.deepest > deepest) {
+      deepest = later.deepest;
+      deepest_at = later.deepest_at;
+    }
+    if (later.nearest < nearest) {
+      nearest = later.nearest;
+      nearest_at = later.nearest_at;
+    }
+  }
+};
+
+/// How near a block comes to a face that it is straight in front of.
+template <int Dim>
+struct Approach {
+  double distance = infinite;  ///< m
+  Vec<Dim> at;
+
+  void add(const Approach& later) {
+    if (later.distance < distance) *this = later;
+  }
+};
+
+/// What all ranks have found, by the same keys.
+template <class Found>
+std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
+                                              const std::map<std::pair<int, int>, Found>& own) {
+  struct Entry {
+    int first, second;  // a pair is no plain value
+    Found found;
+  };
+  std::vector<Entry> entries;
+  for (const auto& [key, found] : own) entries.push_back({key.first, key.second, found});
+  std::map<std::pair<int, int>, Found> all;
+  for (const Entry& entry : gather_on_all(ranks, entries)) all[{entry.first, entry.second}].add(entry.found);
+  return all;
+}
+
+/// Where the fluid is beside the walls.
+template <int Dim>
+struct Contacts {
+  std::map<std::pair<int, int>, Contact<Dim>> by_wall;   ///< and block
+  std::map<std::pair<int, int>, Approach<Dim>> by_face;  ///< and block
+};
+
+template <int Dim>
+Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double dx) {
+  Contacts<Dim> contacts;
+  std::vector<bool> is_sheet(boundary.walls.size(), false);
+  for (const WallPlate& plate : boundary.plates) is_sheet[plate.wall] = plate.sheet != nullptr;
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    const Vec<Dim>& x = fluid.position[i];
+    const NearestWall<Dim> near = boundary.nearest(x, infinite);
+    const double height = boundary.faces[near.face].height(x);
+    const int wall = boundary.faces[near.face].wall;
+    Contact<Dim>& contact = contacts.by_wall[{wall, fluid.block[i]}];
+    // Beyond a free end of a wall the sign has no meaning. Only places straight in front of or behind a face count.
+    const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
+    if (near.signed_distance >= 0.0) {
+      contact.in_front += is_square ? 1 : 0;
+      contact.too_near += near.signed_distance < least ? 1 : 0;
+      if (near.signed_distance < contact.nearest) {
+        contact.nearest = near.signed_distance;
+        contact.nearest_at = x;
+      }
+      // The particles nearest to a small triangle of a mesh may all be farther away than those beside it.
+      if (!is_square || is_sheet[wall] || boundary.mesh_of(near.face) != nullptr) continue;
+      Approach<Dim>& approach = contacts.by_face[{near.face, fluid.block[i]}];
+      if (near.signed_distance < approach.distance) approach = {near.signed_distance, x};
+    } else if (is_square) {
+      ++contact.behind;
+      if (-near.signed_distance > contact.deepest) {
+        contact.deepest = -near.signed_distance;
+        contact.deepest_at = x;
+      }
+    }
+  }
+  return {together(fluid.ranks, contacts.by_wall), together(fluid.ranks, contacts.by_face)};
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  if (boundary.faces.empty()) return {};
+  const double dx = spec.particles.spacing;
+  const auto [regular, least, gap_from, gap_to] = standing(spec);
+  const Contacts<Dim> contacts = contacts_of(boundary, fluid, least, dx);
+  std::vector<std::size_t> in_front(boundary.walls.size(), 0);
+  for (const auto& [key, contact] : contacts.by_wall) in_front[key.first] += contact.in_front;
+
+  Findings findings;
+  for (const auto& [key, contact] : contacts.by_wall) {
+    const std::string wall = wall_label(boundary, key.first);
+    const std::string block = fluid_label(spec, key.second);
+    if (contact.behind > 0 && in_front[key.first] > 0) {
+      findings.push_back(Finding::error(
+          "{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} m deep at {}; where the water "
+          "starts inside a bed, let the block end on the bed (shape = \"polygon\"); where a wall stands in water, draw "
+          "it with two faces at least {} spacings apart",
+          wall, contact.behind, block, contact.deepest, place(contact.deepest_at), dummy_layers(spec) + 1));
+    } else if (contact.behind > 0) {
+      findings.push_back(Finding::error(
+          "{} lies behind {}: {} particles, up to {:.6g} m deep at {}; give the wall the other fluid_side, or move the "
+          "block",
+          block, wall, contact.behind, contact.deepest, place(contact.deepest_at)));
+    }
+    if (contact.too_near > 0) {
+      findings.push_back(
+          Finding::error("{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} m at {}; put "
+                         "the block's edge "
+                         "on the wall or a whole number of spacings ({:.6g} m) from it",
+                         block, wall, contact.too_near, least, contact.nearest, place(contact.nearest_at), dx));
+    }
+  }
+  std::set<std::pair<int, int>> reported;  // wall and block
+  for (const auto& [key, approach] : contacts.by_face) {
+    const int wall = boundary.faces[key.first].wall;
+    const bool is_gap = approach.distance > gap_from && approach.distance < gap_to;
+    if (!is_gap || !reported.insert({wall, key.second}).second) continue;
+    findings.push_back(
+        Finding::warning("there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, "
+                         "at {}, instead of "
+                         "{:.2f}; put the block's edge on the wall, or at least two spacings away from it",
+                         fluid_label(spec, key.second), wall_label(boundary, wall), approach.distance / dx,
+                         place(approach.at), regular));
+  }
+  return findings;
+}
+
+template Findings check_fluid_at_walls(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_fluid_at_walls(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

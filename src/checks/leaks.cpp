@@ -1,0 +1,54 @@
+#include <limits>
+#include <set>
+
+#include "checks/cell_space.h"
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+
+namespace tailwater {
+namespace {
+
+/// Largest number of cells; if cells of size dx were more, they are larger.
+constexpr double most_cells_of_flood = 4e6;
+
+/// Where water reaches the back of a wall, one finding per wall.
+template <int Dim>
+Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached) {
+  Findings findings;
+  std::set<int> reported;
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const int wall = boundary.faces[f].wall;
+    const std::optional<Vec<Dim>>& place_behind = reached.behind[f];
+    if (!place_behind || boundary.walls[wall].is_plate || !reported.insert(wall).second) continue;
+    findings.push_back(Finding::error(
+        "the water can reach the back of {}, at {}, where nothing would hold it: draw a wall that has water on both "
+        "sides with shape = \"plate\", or with two faces",
+        wall_label(boundary, wall), place(*place_behind)));
+  }
+  return findings;
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.all == 0) return {};
+  std::vector<WallFace<Dim>> faces = boundary.faces;
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    const std::vector<WallFace<Dim>> closing = end.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
+  }
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_flood);
+  const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid), Vec<Dim>(gravity.normalized()));
+  if (!reached.way_out) return water_behind(boundary, reached);
+  const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());
+  return {Finding::error("the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
+                         place(*reached.way_out), wall_label(boundary, boundary.faces[wall.face].wall))};
+}
+
+template Findings check_leaks(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_leaks(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "motion/wall_motion.h"
+
+namespace tailwater {
+namespace {
+
+/// Walls that are faster than this multiple of sqrt(2 g L), the speed of water that falls from its own height, are not
+/// what a laboratory does. They would make every step as many times shorter.
+constexpr double fastest_over_water = 10.0;
+
+/// Share of the largest way in a file by which the curve may leave the values of two neighbouring lines. A sine does so
+/// by 1 % with 20 lines per period and by 10 % with 7.
+constexpr double largest_overshoot = 0.1;
+
+/// Height of the water at the start along gravity [m]; 0 without gravity.
+template <int Dim>
+double water_height(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.norm() == 0.0 || fluid.all == 0) return 0.0;
+  return fluid.extent_along(gravity.normalized()) + spec.particles.spacing;
+}
+
+/// The samples of one file, as the wall's corners follow them.
+template <int Dim>
+class FileWalk {
+ public:
+  FileWalk(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall, const TimeSeries& series, double start)
+      : series_(series),
+        start_(start),
+        label_(wall_label(drawn, wall)),
+        path_(spec, spec.walls[wall], label_),
+        dx_(spec.particles.spacing) {
+    for (const WallFace<Dim>& face : drawn.faces) {
+      if (face.wall == wall) corners_.insert(corners_.end(), face.corners.begin(), face.corners.end());
+    }
+  }
+
+  /// A jump, or else the largest overshoot; nothing if the motion is smooth.
+  Findings findings(double fastest) const {
+    double largest_way = 0.0;
+    double worst = 0.0;
+    std::size_t worst_at = 0;
+    const AffineMap<Dim> start = path_.at(0.0);
+    for (std::size_t k = 0; k + 1 < series_.time.size(); ++k) {
+      const double from = start_ + series_.time[k];
+      const double to = start_ + series_.time[k + 1];
+      const AffineMap<Dim> before = path_.at(from);
+      const AffineMap<Dim> after = path_.at(to);
+      for (const Vec<Dim>& corner : corners_) {
+        const double way = (after(corner) - before(corner)).norm();
+        if (fastest > 0.0 && way > 0.25 * dx_ && way > fastest * (to - from)) return {jump(k, way, to - from, fastest)};
+        largest_way = std::max(largest_way, (after(corner) - start(corner)).norm());
+        const double overshoot = overshoot_of(corner, before, after, from, to);
+        if (overshoot > worst) {
+          worst = overshoot;
+          worst_at = k;
+        }
+      }
+    }
+    if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_way)) return {};
+    return {Finding::warning(
+        "{} moves {:.3g} m beyond what lines {} and {} of {} say, because its speed changes more suddenly than these "
+        "lines can tell; give more lines there",
+        label_, worst, series_.line[worst_at], series_.line[worst_at + 1], series_.file)};
+  }
+
+ private:
+  Finding jump(std::size_t k, double way, double duration, double fastest) const {
+    return Finding::error(
+        "{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g} m/s, which is more than "
+        "{:.0f} "
+        "times as fast as the water falls ({:.3g} m/s); correct the lines, or the units in the file's header",
+        label_, series_.line[k], series_.line[k + 1], series_.file, way, duration, way / duration, fastest_over_water,
+        fastest / fastest_over_water);
+  }
+
+  /// How far a corner gets from the straight way between two samples, along that way and beyond its ends; for a corner
+  /// that rests, in any direction.
+  double overshoot_of(const Vec<Dim>& corner, const AffineMap<Dim>& before, const AffineMap<Dim>& after, double from,
+                      double to) const {
+    const Vec<Dim> begin = before(corner);
+    const Vec<Dim> way = after(corner) - begin;
+    double largest = 0.0;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const Vec<Dim> off = path_.at(from + share * (to - from))(corner) - begin;
+      const double along = way.norm() > 0.0 ? off.dot(way.normalized()) : off.norm();
+      largest = std::max({largest, along - way.norm(), way.norm() > 0.0 ? -along : 0.0});
+    }
+    return largest;
+  }
+
+  const TimeSeries& series_;
+  double start_;
+  std::string label_;
+  WallPath<Dim> path_;
+  double dx_;
+  std::vector<Vec<Dim>> corners_;
+};
+
+}  // namespace
+
+template <int Dim>
+Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  Findings findings;
+  const double fastest = fastest_over_water * std::sqrt(2.0 * gravity_of<Dim>(spec).norm() * water_height(spec, fluid));
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    const Drive& drive = spec.walls[w].drive;
+    const bool is_gate = drive.by == Drive::By::gate;
+    const TimeSeries& series = is_gate ? spec.gates[drive.index].series : spec.walls[w].series;
+    if (series.empty()) continue;
+    const double start = is_gate ? spec.gates[drive.index].start : 0.0;
+    append(findings, FileWalk<Dim>(spec, drawn, static_cast<int>(w), series, start).findings(fastest));
+  }
+  return findings;
+}
+
+template Findings check_motion_files(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_motion_files(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include "base/fp_traps.h"
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "motion/wall_motion.h"
+
+namespace tailwater {
+namespace {
+
+/// ", in its file motion.csv," for a wall that moves as a file says.
+std::string file_of(const CaseSpec& spec, int wall) {
+  const std::string& file = spec.walls[wall].series.file;
+  return file.empty() ? "" : fmt::format(", in its file {},", file);
+}
+
+/// Adds an error if the wall is not where it is drawn at t = 0; returns whether it is.
+template <int Dim>
+bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall, Findings& findings) {
+  const AffineMap<Dim> start = WallPath<Dim>(spec, spec.walls[wall], wall_label(drawn, wall)).at(0.0);
+  for (const WallFace<Dim>& face : drawn.faces) {
+    if (face.wall != wall) continue;
+    const Vec<Dim> way = start(face.corners[0]) - face.corners[0];
+    if (way.norm() <= corner_tolerance * spec.particles.spacing) continue;
+    findings.push_back(Finding::error(
+        "{} is not where it is drawn at t = 0: its point {} has moved by {} m; displacement and rotation{} must begin "
+        "with 0, so subtract their start or draw the wall elsewhere",
+        wall_label(drawn, wall), place(face.corners[0]), place(way), file_of(spec, wall)));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  const SuspendFpTraps suspended;  // a path may not be finite
+  Findings findings;
+  std::vector<int> moving;
+  for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
+    if (starts_where_it_is_drawn(spec, drawn, wall, findings) && drawn.walls[wall].moves()) moving.push_back(wall);
+  }
+  if (moving.empty()) return findings;
+  append(findings, check_motion_files(spec, drawn, fluid));
+  if (has_error(findings)) return findings;  // a path that jumps is not worth following
+  if constexpr (Dim == 2) append(findings, check_free_ends(spec, drawn));
+  append(findings, check_touching_rows(spec, drawn));
+  append(findings, check_paths(spec, drawn, fluid, moving));
+  return findings;
+}
+
+template Findings check_moving_walls(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_moving_walls(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

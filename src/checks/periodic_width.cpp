@@ -1,0 +1,48 @@
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+/// The walls that are longer along `axis` than the `period` (m) after which they would be repeated.
+template <int Dim>
+Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes(boundary.walls.size());
+  for (const WallFace<Dim>& face : boundary.faces) boxes[face.wall].extend(face.box());
+  Findings findings;
+  for (std::size_t w = 0; w < boxes.size(); ++w) {
+    const double length = boxes[w].isEmpty() ? 0.0 : boxes[w].sizes()[axis];
+    if (length <= period + 0.5 * spec.particles.spacing) continue;
+    findings.push_back(Finding::error(
+        "{} is {:.6g} m long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), so it would "
+        "lie in itself: draw one period of it",
+        wall_label(boundary, static_cast<int>(w)), length, "xyz"[axis], period, "xyz"[axis]));
+  }
+  return findings;
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  Findings findings;
+  const double support = spec.scheme.support * spec.particles.spacing;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    if (range.size() != 2) continue;
+    const double width = range[1] - range[0];
+    append(findings, walls_longer_than(width, axis, spec, boundary));
+    if (width >= (4.0 - corner_tolerance) * support) continue;
+    findings.push_back(Finding::error(
+        "domain.periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so a "
+        "particle "
+        "would meet its own image: make it at least {:.6g} m wide, or the spacing at most {:.6g} m",
+        "xyz"[axis], range[0], range[1], width, support, 4.0 * support, width / (4.0 * spec.scheme.support)));
+  }
+  return findings;
+}
+
+template Findings check_periodic_width(const CaseSpec&, const Boundary<2>&);
+template Findings check_periodic_width(const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,375 @@
+#include "checks/preview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+
+namespace tailwater {
+namespace {
+
+constexpr std::size_t most_dots = 40000;
+constexpr std::size_t most_drawn_faces = 20000;
+constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
+constexpr double plot_height = 620.0;
+constexpr double margin = 24.0;
+constexpr double axis_margin = 64.0;  // for the labels of the vertical axis
+constexpr double title_height = 64.0;
+constexpr double line_height = 18.0;
+constexpr double font_size = 13.0;
+constexpr double letter_width = 0.62;  // of the font size: wider than a sans-serif's mean letter
+
+constexpr const char* fluid_colour = "#3b7dd8";
+constexpr const char* wall_colour = "#222222";
+constexpr const char* dummy_colour = "#b9b2a7";
+constexpr const char* probe_colour = "#c0392b";
+constexpr const char* opening_colour = "#1e8449";
+
+double text_width(std::string_view text) { return letter_width * font_size * static_cast<double>(text.size()); }
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// The two coordinates that the picture shows.
+template <class Point>
+Vec<2> project(const Point& x) {
+  return {x[0], x[x.size() - 1]};
+}
+
+struct Extent {
+  Vec<2> low = Vec<2>::Constant(std::numeric_limits<double>::max());
+  Vec<2> high = Vec<2>::Constant(std::numeric_limits<double>::lowest());
+  void include(const Vec<2>& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+};
+
+/// Metres to pixels; y points down in SVG.
+struct View {
+  Vec<2> low, high;  ///< m
+  double scale;      ///< px/m
+  double left, top;  ///< px
+
+  Vec<2> operator()(const Vec<2>& x) const { return {left + scale * (x[0] - low[0]), top + scale * (high[1] - x[1])}; }
+  double right() const { return left + scale * (high[0] - low[0]); }
+  double bottom() const { return top + scale * (high[1] - low[1]); }
+};
+
+/// The smallest step of at least `least` metres that is 1, 2 or 5 times a power of ten.
+double tick_step(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= least) {
+      return factor * decade;
+    }
+  }
+  return 10.0 * decade;
+}
+
+class Svg {
+ public:
+  template <class... Arguments>
+  void add(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text_), text, std::forward<Arguments>(arguments)...);
+    text_ += '\n';
+  }
+  void text(double x, double y, std::string_view anchor, std::string_view words, double size = font_size) {
+    add(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}" font-size="{}">{}</text>)", x, y, anchor, size, escaped(words));
+  }
+  void line(const Vec<2>& from, const Vec<2>& to, std::string_view colour, double width) {
+    add(R"(<line x1="{:.2f}" y1="{:.2f}" x2="{:.2f}" y2="{:.2f}" stroke="{}" stroke-width="{}"/>)", from[0], from[1],
+        to[0], to[1], colour, width);
+  }
+  void outline(const std::vector<Vec<2>>& corners, std::string_view fill, std::string_view stroke) {
+    std::string points;
+    for (const Vec<2>& corner : corners)
+      fmt::format_to(std::back_inserter(points), "{:.2f},{:.2f} ", corner[0], corner[1]);
+    add(R"(<polygon points="{}" fill="{}" fill-opacity="0.35" stroke="{}"/>)", points, fill, stroke);
+  }
+  /// Round dots in one path: segments of length 0 with round caps.
+  template <int Dim>
+  void dots(const std::vector<Vec<Dim>>& points, const View& view, std::string_view colour, double diameter) {
+    std::string path;
+    for (const Vec<Dim>& x : points) {
+      const Vec<2> p = view(project(x));
+      fmt::format_to(std::back_inserter(path), "M{:.2f} {:.2f}h0", p[0], p[1]);
+    }
+    add(R"(<path d="{}" stroke="{}" stroke-width="{:.3f}" stroke-linecap="round" fill="none"/>)", path, colour,
+        diameter);
+  }
+  const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+struct Marker {
+  std::string name;
+  std::vector<Vec<2>> points;  ///< m; one point, or the two ends of a stretch
+  bool is_vertical = false;    ///< a depth probe looks up and down its whole column
+};
+
+std::vector<Marker> markers_of(const CaseSpec& spec) {
+  std::vector<Marker> markers;
+  for (const ProbeTable& probe : spec.probes) {
+    Marker marker{probe.name, {}, probe.type == ProbeType::depth};
+    for (const Coordinates& x : {probe.at, probe.from, probe.to}) {
+      // A depth probe may leave its height out.
+      if (x.size() >= 2) {
+        marker.points.push_back(project(x));
+      } else if (x.size() == 1 && marker.is_vertical) {
+        marker.points.push_back({x[0], 0.0});
+      }
+    }
+    if (!marker.points.empty()) {
+      markers.push_back(marker);
+    }
+  }
+  return markers;
+}
+
+void draw_axes(Svg& svg, const View& view) {
+  const double least_apart[] = {80.0, 26.0};  // px, along x and along the vertical axis
+  for (int axis = 0; axis < 2; ++axis) {
+    const double step = tick_step(least_apart[axis] / view.scale);
+    for (double k = std::ceil(view.low[axis] / step - 1e-9); k * step <= view.high[axis] + 1e-9 * step; ++k) {
+      // + 0.0 turns -0 into 0.
+      const std::string label = fmt::format("{:.6g}", k * step + 0.0);
+      if (axis == 0) {
+        const double x = view.left + view.scale * (k * step - view.low[0]);
+        svg.line({x, view.bottom()}, {x, view.bottom() + 6.0}, wall_colour, 1.0);
+        svg.text(x, view.bottom() + 20.0, "middle", label);
+      } else {
+        const double y = view.top + view.scale * (view.high[1] - k * step);
+        svg.line({view.left - 6.0, y}, {view.left, y}, wall_colour, 1.0);
+        svg.text(view.left - 10.0, y + 0.35 * font_size, "end", label);
+      }
+    }
+  }
+  svg.add(R"(<rect x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="none" stroke="{}" stroke-width="0.6"/>)",
+          view.left, view.top, view.right() - view.left, view.bottom() - view.top, wall_colour);
+}
+
+/// Rows of probe names above the plot. From right to left each name takes the lowest row where it has room, starting at
+/// its marker, so that the line down to the marker passes only names that begin further right.
+std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(x.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x[a] > x[b]; });
+  std::vector<int> rows(x.size());
+  std::vector<double> room_until;  // left end of the leftmost name of each row
+  for (const std::size_t i : order) {
+    std::size_t row = 0;
+    while (row < room_until.size() && x[i] + text_width(names[i]) + 8.0 > room_until[row]) ++row;
+    room_until.resize(std::max(room_until.size(), row + 1));
+    room_until[row] = x[i];
+    rows[i] = static_cast<int>(row);
+  }
+  return rows;
+}
+
+/// Inlets and outlets, each with its name and an arrow in the direction in which the water goes.
+template <int Dim>
+void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View& view) {
+  constexpr double arrow = 20.0;  // px
+  for (const Opening<Dim>& end : ends) {
+    Vec<Dim> far_corner = end.corner;
+    for (const Vec<Dim>& edge : end.edges) far_corner += edge;
+    for (const WallFace<Dim>& face : end.as_faces()) {
+      for (int c = 0; c < Dim; ++c) {
+        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), opening_colour, 3.0);
+      }
+    }
+    const Vec<2> middle = view(project(Vec<Dim>(0.5 * (end.corner + far_corner))));
+    const Vec<2> out(project(end.way())[0], -project(end.way())[1]);
+    const Vec<2> aside(-out[1], out[0]);
+    const Vec<2> tip = middle + arrow * out;
+    svg.line(middle, tip, opening_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out + 0.6 * aside), opening_colour, 2.0);
+    svg.line(tip, tip - 0.4 * arrow * (out - 0.6 * aside), opening_colour, 2.0);
+    const bool is_on_the_right = middle[0] > 0.5 * (view.left + view.right());
+    svg.text(middle[0] + (is_on_the_right ? -6.0 : 6.0), middle[1] - 6.0, is_on_the_right ? "end" : "start", end.name);
+  }
+}
+
+/// The extent of all that the picture must show.
+template <int Dim>
+Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
+                 const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers,
+                 std::span<const Vec<Dim>> bad_places) {
+  Extent extent;
+  const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
+    for (const WallFace<Dim>& face : faces) {
+      for (const Vec<Dim>& corner : face.corners) extent.include(project(corner));
+    }
+  };
+  for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
+  for (const Vec<Dim>& x : walls.position) extent.include(project(x));
+  include_faces(boundary.faces);
+  for (const Opening<Dim>& end : ends) include_faces(end.as_faces());
+  for (const Marker& marker : markers) {
+    for (const Vec<2>& x : marker.points) {
+      if (!marker.is_vertical) extent.include(x);
+    }
+  }
+  for (const Vec<Dim>& x : bad_places) extent.include(project(x));
+  if (extent.low[0] > extent.high[0]) extent.include(Vec<2>::Zero());
+  return extent;
+}
+
+/// The scale at which the plot fits, and its left edge. Its top is not set: it depends on what stands above the plot.
+View fitted_view(const Extent& extent, double dx) {
+  View view;
+  view.low = extent.low.array() - 1.5 * dx;
+  view.high = extent.high.array() + 1.5 * dx;
+  const Vec<2> size = view.high - view.low;
+  view.scale = std::min(plot_width / size[0], plot_height / size[1]);
+  view.left = margin + axis_margin;
+  view.top = 0.0;
+  return view;
+}
+
+template <int Dim>
+void draw_wall_particles(Svg& svg, const WallParticles<Dim>& walls, const View& view, double diameter) {
+  // Seen along y, the walls before and behind the scene would hide it.
+  std::vector<Vec<Dim>> shown;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) shown.push_back(walls.position[i]);
+  }
+  if (shown.size() <= most_dots) svg.dots(shown, view, dummy_colour, diameter);
+}
+
+template <int Dim>
+void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid, const View& view, double diameter) {
+  if (fluid.position.size() <= most_dots) {
+    svg.dots(fluid.position, view, fluid_colour, diameter);
+    return;
+  }
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    std::vector<Vec<2>> corners;
+    if (block.shape == BlockShape::polygon) {
+      for (const Coordinates& x : block.points) corners.push_back(view(project(x)));
+    } else {
+      Extent extent;
+      for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+        if (fluid.block[i] == static_cast<int>(b)) extent.include(project(fluid.position[i]));
+      }
+      const Vec<2> low = view(extent.low);
+      const Vec<2> high = view(extent.high);
+      corners = {low, {high[0], low[1]}, high, {low[0], high[1]}};
+    }
+    svg.outline(corners, fluid_colour, fluid_colour);
+  }
+}
+
+template <int Dim>
+void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
+  if (boundary.faces.size() > most_drawn_faces) return;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
+      const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];
+      const bool is_diagonal_of_rectangle = Dim == 3 && edge.cwiseAbs().maxCoeff() < (1.0 - 1e-9) * edge.norm();
+      if (is_diagonal_of_rectangle) continue;
+      svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), wall_colour, 1.5);
+    }
+  }
+}
+
+/// A marker with its name in the given row above the plot, and a line down to it.
+void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
+  const double baseline = view.top - 10.0 - row * line_height;
+  std::vector<Vec<2>> points;
+  for (const Vec<2>& x : marker.points) points.push_back(view(marker.is_vertical ? Vec<2>(x[0], view.high[1]) : x));
+  const double end = marker.is_vertical ? view.bottom() : points[0][1];
+  svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.6" )"
+          R"(stroke-dasharray="4 3"/>)",
+          points[0][0], baseline - 8.0, end, probe_colour);
+  if (points.size() == 2) svg.line(points[0], points[1], probe_colour, 3.0);
+  if (!marker.is_vertical) {
+    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="{}"/>)", points[0][0], points[0][1], probe_colour);
+  }
+  svg.text(points[0][0] + 4.0, baseline, "start", marker.name);
+}
+
+}  // namespace
+
+template <int Dim>
+std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                        const WallParticles<Dim>& walls, std::span<const Vec<Dim>> bad_places) {
+  const double dx = spec.particles.spacing;
+  const std::vector<Marker> markers = markers_of(spec);
+  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
+  View view = fitted_view(extent_of(boundary, fluid, walls, ends, markers, bad_places), dx);
+
+  std::vector<double> label_x;
+  std::vector<std::string> names;
+  for (const Marker& marker : markers) {
+    label_x.push_back(view(marker.points[0])[0]);
+    names.push_back(marker.name);
+  }
+  const std::vector<int> rows = label_rows(label_x, names);
+  const int row_count = rows.empty() ? 0 : 1 + *std::max_element(rows.begin(), rows.end());
+  view.top = title_height + row_count * line_height + 8.0;
+
+  const std::string summary =
+      fmt::format("spacing {:.6g} m, {} fluid and {} wall particles", dx, fluid.position.size(), walls.size());
+  double width =
+      std::max({view.right(), view.left + text_width(summary), view.left + 1.4 * text_width(spec.general.title)});
+  for (std::size_t i = 0; i < names.size(); ++i) width = std::max(width, label_x[i] + 6.0 + text_width(names[i]));
+  width += margin;
+  const double height = view.bottom() + 56.0;
+
+  Svg svg;
+  svg.add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" )"
+          R"(font-family="DejaVu Sans, Arial, sans-serif">)",
+          width, height);
+  svg.add(R"(<rect width="100%" height="100%" fill="white"/>)");
+  svg.text(view.left, 28.0, "start", spec.general.title, 1.35 * font_size);
+  svg.text(view.left, 50.0, "start", summary);
+
+  const double diameter = 0.85 * dx * view.scale;
+  draw_wall_particles(svg, walls, view, diameter);
+  draw_fluid(svg, spec, fluid, view, diameter);
+  draw_walls(svg, boundary, view);
+  draw_open_ends(svg, ends, view);
+  draw_axes(svg, view);
+  svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
+  svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");
+  for (std::size_t i = 0; i < markers.size(); ++i) draw_marker(svg, markers[i], rows[i], view);
+  for (const Vec<Dim>& x : bad_places) {
+    const Vec<2> p = view(project(x));
+    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="10" fill="none" stroke="{}" stroke-width="2.5"/>)", p[0], p[1],
+            probe_colour);
+  }
+  svg.add("</svg>");
+  return svg.str();
+}
+
+template std::string preview_svg(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&, const WallParticles<2>&,
+                                 std::span<const Vec<2>>);
+template std::string preview_svg(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&, const WallParticles<3>&,
+                                 std::span<const Vec<3>>);
+
+}  // namespace tailwater

@@ -1,0 +1,36 @@
+#include <algorithm>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "sampling/wall_particles.h"
+
+namespace tailwater {
+
+template <int Dim>
+Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
+  if (!placement_of(spec.scheme.walls).on_wall) return {};
+  const double dx = spec.particles.spacing;
+  for (const WallFace<Dim>& face : drawn.faces) {
+    for (const WallFace<Dim>& other : drawn.faces) {
+      if (drawn.walls[face.wall].body == drawn.walls[other.wall].body) continue;
+      for (const Vec<Dim>& corner : face.corners) {
+        const double distance = (closest_point(other, corner) - corner).norm();
+        if (distance > (1.0 - corner_tolerance) * dx) continue;
+        // The message begins with the wall that moves.
+        const auto [moving, near] = std::minmax(
+            face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
+        return {Finding::error(
+            "{} is {:.3g} m from {} at {}, and scheme.walls = \"{}\" puts particles on both: draw it {:.6g} m away, or "
+            "choose scheme.walls = \"{}\"",
+            wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner), name_of(spec.scheme.walls), dx,
+            name_of(WallTreatment::dummies))};
+      }
+    }
+  }
+  return {};
+}
+
+template Findings check_touching_rows(const CaseSpec&, const Boundary<2>&);
+template Findings check_touching_rows(const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,72 @@
+#include "geometry/face.h"
+
+#include <algorithm>
+
+namespace tailwater {
+
+template <int Dim>
+double WallFace<Dim>::measure() const {
+  if constexpr (Dim == 2) {
+    return (corners[1] - corners[0]).norm();
+  } else {
+    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  }
+}
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> WallFace<Dim>::box() const {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const Vec<Dim>& corner : corners) box.extend(corner);
+  return box;
+}
+
+Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
+  const Vec<2> edge = face.corners[1] - face.corners[0];
+  return face.corners[0] + std::clamp(edge.dot(x - face.corners[0]) / edge.squaredNorm(), 0.0, 1.0) * edge;
+}
+
+// The region of a triangle (corner, edge, inside) that holds the nearest point follows from the signs of the
+// barycentric coordinates of the projection: C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
+Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& x) {
+  const Vec<3> ab = b - a;
+  const Vec<3> ac = c - a;
+  const double ab_a = ab.dot(x - a), ac_a = ac.dot(x - a);
+  if (ab_a <= 0.0 && ac_a <= 0.0) return {a, 0};
+  const double ab_b = ab.dot(x - b), ac_b = ac.dot(x - b);
+  if (ab_b >= 0.0 && ac_b <= ab_b) return {b, 1};
+  const double ab_c = ab.dot(x - c), ac_c = ac.dot(x - c);
+  if (ac_c >= 0.0 && ab_c <= ac_c) return {c, 2};
+
+  const double weight_c = ab_a * ac_b - ab_b * ac_a;
+  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) return {a + ab_a / (ab_a - ab_b) * ab, 3};
+  const double weight_b = ab_c * ac_a - ab_a * ac_c;
+  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) return {a + ac_a / (ac_a - ac_c) * ac, 5};
+  const double weight_a = ab_b * ac_c - ab_c * ac_b;
+  const double towards_c = ac_b - ab_b, towards_b = ab_c - ac_c;
+  if (weight_a <= 0.0 && towards_c >= 0.0 && towards_b >= 0.0) {
+    return {b + towards_c / (towards_c + towards_b) * (c - b), 4};
+  }
+  return {a + (weight_b * ab + weight_c * ac) / (weight_a + weight_b + weight_c), -1};
+}
+
+Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x) {
+  return closest_feature(face.corners[0], face.corners[1], face.corners[2], x).point;
+}
+
+template <int Dim>
+bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance) {
+  const double before = face.height(from);
+  const double after = face.height(to);
+  if (std::min(before, after) > -tolerance || std::max(before, after) < tolerance) {
+    return false;
+  }
+  const Vec<Dim> hit = meet(face, from, to);
+  return (closest_point(face, hit) - hit).norm() <= tolerance;
+}
+
+template struct WallFace<2>;
+template struct WallFace<3>;
+template bool crosses(const WallFace<2>&, const Vec<2>&, const Vec<2>&, double);
+template bool crosses(const WallFace<3>&, const Vec<3>&, const Vec<3>&, double);
+
+}  // namespace tailwater

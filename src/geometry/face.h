@@ -1,0 +1,58 @@
+// The flat pieces that walls are made of: segments in 2D, triangles in 3D.
+#pragma once
+
+#include <array>
+
+#include "base/vec.h"
+
+namespace tailwater {
+
+/// Two points nearer than this share of dx are the same corner.
+inline constexpr double corner_tolerance = 1e-6;
+
+/// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left as one
+/// walks from corner 0 to corner 1; in 3D the corners run counter-clockwise as the fluid sees them.
+template <int Dim>
+struct WallFace {
+  std::array<Vec<Dim>, Dim> corners;
+  Vec<Dim> normal;
+  int wall = 0;  ///< index into Boundary::walls
+
+  /// Distance from the face's plane, m; positive on the fluid side.
+  double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
+  /// Length (2D, m) or area (3D, m^2).
+  double measure() const;
+  /// The axis-parallel box around it.
+  Eigen::AlignedBox<double, Dim> box() const;
+};
+
+/// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
+/// corner 2 to corner 0.
+struct Foot {
+  Vec<3> point = Vec<3>::Zero();
+  int feature = -1;  ///< -1: the inside; 0 to 2: a corner; 3 to 5: an edge
+
+  bool is_corner() const { return feature >= 0 && feature < 3; }
+  bool is_edge() const { return feature >= 3; }
+  int number() const { return feature % 3; }  ///< of the corner or edge
+};
+
+Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& x);
+
+/// Point of the face nearest to `x`.
+Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
+Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
+
+/// Where the line through two points, which must not be equally high above it, meets the face's plane.
+template <int Dim>
+Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const double before = face.height(from);
+  return from + before / (before - face.height(to)) * (to - from);
+}
+
+/// Whether the path from `from` to `to` passes through the face. An end nearer to its plane than `tolerance` (m) has
+/// not passed; a path within `tolerance` of the face's rim has.
+template <int Dim>
+bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
+
+}  // namespace tailwater

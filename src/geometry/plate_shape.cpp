@@ -1,0 +1,84 @@
+#include "geometry/plate_shape.h"
+
+#include <array>
+#include <map>
+
+namespace tailwater {
+namespace {
+
+/// 1 + cos of the angle by which a rim turns. Where it turns by more than 120 degrees, its corner is not drawn on.
+constexpr double least_opening = 0.5;
+
+/// Radians; a rim that turns by less goes straight on.
+constexpr double straight = 1e-6;
+
+}  // namespace
+
+Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate) {
+  const WallFace<3>& face = boundary.faces[plate.first_face];
+  const Vec<3> far_corner = boundary.faces[plate.first_face + 1].corners[2];
+  const Vec<3> first = face.corners[1] - face.corners[0];
+  const Vec<3> second = far_corner - face.corners[0];
+  return {face.corners[0],
+          face.normal,
+          {first.normalized(), second.normalized()},
+          {{{0.0, first.norm()}, {0.0, second.norm()}}},
+          plate.wall,
+          plate.first_face,
+          plate.first_face + plate.pieces};
+}
+
+WidenedSheet widened(const MeshSurface& sheet, double reach,
+                     const std::function<bool(const Vec<3>&, const Vec<3>&)>& is_wanted) {
+  struct Strip {
+    int triangle;
+    Vec<3> out;      ///< unit vector
+    int begin, end;  ///< points of its outer edge
+  };
+  WidenedSheet wide{sheet.mesh(), {}};
+  TriangleMesh& mesh = wide.mesh;
+  const int drawn = static_cast<int>(mesh.triangles.size());
+  for (int t = 0; t < drawn; ++t) wide.from.push_back(t);
+  const auto add = [&](int a, int b, int c, int from) {
+    mesh.triangles.push_back({a, b, c});
+    wide.from.push_back(from);
+  };
+  const auto add_point = [&](const Vec<3>& x) {
+    mesh.points.push_back(x);
+    return static_cast<int>(mesh.points.size()) - 1;
+  };
+  std::map<int, Strip> strips;  // by the point at which the edge begins
+  std::vector<std::array<int, 2>> edges;
+  for (int t = 0; t < drawn; ++t) {
+    for (int e = 0; e < 3; ++e) {
+      const int a = mesh.triangles[t][e];
+      const int b = mesh.triangles[t][(e + 1) % 3];
+      const Vec<3> from = mesh.points[a];
+      const Vec<3> to = mesh.points[b];
+      if (sheet.neighbours()[t][e] >= 0 || !is_wanted(from, to)) continue;
+      const Vec<3> out = (to - from).cross(mesh.area_normal(t)).normalized();
+      const Strip strip{t, out, add_point(from + reach * out), add_point(to + reach * out)};
+      add(b, a, strip.begin, t);
+      add(b, strip.begin, strip.end, t);
+      strips[a] = strip;
+      edges.push_back({a, b});
+    }
+  }
+  for (const auto& [a, b] : edges) {
+    const auto next = strips.find(b);
+    if (next == strips.end()) continue;
+    const Strip& one = strips.at(a);
+    const Strip& other = next->second;
+    const double turn = one.out.cross(other.out).dot(mesh.area_normal(one.triangle).normalized());
+    const double opening = 1.0 + one.out.dot(other.out);
+    if (turn <= straight || opening < least_opening)
+      continue;  // the strips touch or overlap, or the corner is a needle
+    const int corner = add_point(mesh.points[b] + reach / opening * (one.out + other.out));
+    add(b, one.end, corner, one.triangle);
+    add(b, corner, other.begin, other.triangle);
+  }
+  weld(mesh, 2.0 * straight * reach);
+  return wide;
+}
+
+}  // namespace tailwater

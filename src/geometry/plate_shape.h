@@ -1,0 +1,26 @@
+// The shapes of plates in 3D, from which both what they hide and their particles are made.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "geometry/boundary.h"
+#include "geometry/mesh_surface.h"
+
+namespace tailwater {
+
+/// The front of a plate that is a rectangle of two triangles, without other walls.
+Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate);
+
+/// A sheet that has been drawn on beyond its rim.
+struct WidenedSheet {
+  TriangleMesh mesh;      ///< the triangles of the sheet come first
+  std::vector<int> from;  ///< of each triangle: that of the sheet whose plane it goes on in
+};
+
+/// Draws a sheet on by `reach` (m), each triangle in its own plane, beyond the edges of its rim for which
+/// is_wanted(from, to) is true, and around corners where two of these meet.
+WidenedSheet widened(const MeshSurface& sheet, double reach,
+                     const std::function<bool(const Vec<3>&, const Vec<3>&)>& is_wanted);
+
+}  // namespace tailwater

@@ -1,0 +1,177 @@
+#include "motion/channel_end.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "case/named_numbers.h"
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+/// A smaller share of gravity along an opening is rounding error.
+constexpr double least_gravity_share = 1e-9;
+/// Points of a tabulated profile: with straight lines between them a seventh root is off by 1 % at the bed and by 1e-4
+/// in the mean.
+constexpr int profile_points = 1000;
+
+std::vector<double> tabulated_profile(const std::optional<Varying>& profile, const CaseSpec& spec,
+                                      const std::string& owner) {
+  if (!profile || std::holds_alternative<double>(*profile)) return {};
+  NamedNumbers numbers = named_numbers(spec);
+  numbers.erase(std::string(height_name[0]));
+  Formula formula(std::get<std::string>(*profile), numbers, height_name);
+  std::vector<double> values;
+  for (int k = 0; k < profile_points; ++k) {
+    const double share = (k + 0.5) / profile_points;
+    values.push_back(formula.at(std::array{share}));
+    if (!std::isfinite(values.back())) {
+      throw InputError(
+          fmt::format("{}: profile has no finite value at s = {:.4g}: give an expression that has one "
+                      "everywhere from the bed, s = 0, to the surface, s = 1",
+                      owner, share));
+    }
+  }
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / profile_points;
+  if (mean <= 0.0) {
+    throw InputError(
+        fmt::format("{}: profile has the mean {:.4g}: give one whose mean is above 0; a discharge or a "
+                    "velocity below 0 lets water out",
+                    owner, mean));
+  }
+  for (double& value : values) value /= mean;
+  return values;
+}
+
+/// The quantity from its key or from a column of the file.
+std::optional<TimeFunction> time_function(const std::optional<Varying>& value, const TimeSeries& series,
+                                          std::size_t column, const NamedNumbers& numbers) {
+  if (value) return TimeFunction(*value, numbers);
+  if (column >= series.columns.size() || series.columns[column].empty()) return std::nullopt;
+  return TimeFunction(SmoothCurve(series.time, series.columns[column]));
+}
+
+}  // namespace
+
+double EndFlow::profile_at(double share) const {
+  if (profile.empty()) return 1.0;
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(profile.size()) - 0.5;
+  const double below = std::clamp(std::floor(place), 0.0, static_cast<double>(profile.size() - 2));
+  const auto k = static_cast<std::size_t>(below);
+  return std::lerp(profile[k], profile[k + 1], std::clamp(place - below, 0.0, 1.0));
+}
+
+double EndFlow::largest_in_profile() const {
+  return profile.empty() ? 1.0 : *std::max_element(profile.begin(), profile.end());
+}
+
+template <int Dim>
+ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity)
+    : opening(std::move(place)), flow(std::move(what_flows)) {
+  const Vec<Dim> along = full_gravity - opening.normal.dot(full_gravity) * opening.normal;
+  gravity = along.norm() > least_gravity_share * full_gravity.norm() ? along.norm() : 0.0;
+  up = gravity > 0.0 ? Vec<Dim>(-along / gravity) : Vec<Dim>(Vec<Dim>::Zero());
+  floor = up.dot(opening.corner);
+  for (const Vec<Dim>& edge : opening.edges) floor += std::min(0.0, up.dot(edge));
+  width = 1.0;
+  Vec<Dim> upright = opening.edges[0];
+  low = opening.corner;
+  if constexpr (Dim == 3) {
+    const bool first_is_wide = std::abs(up.dot(opening.edges[0])) < std::abs(up.dot(opening.edges[1]));
+    const Vec<3>& wide = opening.edges[first_is_wide ? 0 : 1];
+    upright = opening.edges[first_is_wide ? 1 : 0];
+    width = wide.norm();
+    aside = wide / width;
+  }
+  if (up.dot(upright) < 0.0) {
+    low += upright;
+    upright = -upright;
+  }
+  height = upright.norm();
+  rise = upright / height;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::depth_at_level(double level) const {
+  return gravity > 0.0 ? std::clamp(level - floor, 0.0, height) : height;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::discharge_per_width(double time, double depth) const {
+  if (flow.discharge) return flow.discharge->at(time) / width;
+  return flow.velocity ? flow.velocity->at(time) * depth : 0.0;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::critical_depth(double time) const {
+  if (gravity == 0.0) return 0.0;
+  if (flow.discharge) {
+    const double q = flow.discharge->at(time) / width;
+    return std::cbrt(q * q / gravity);
+  }
+  const double u = flow.velocity ? flow.velocity->at(time) : 0.0;
+  return u * u / gravity;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::largest_speed(double time) const {
+  if (flow.velocity) return std::abs(flow.velocity->at(time)) * flow.largest_in_profile();
+  const double depth = flow.level      ? depth_at_level(flow.level->at(time))
+                       : gravity > 0.0 ? critical_depth(time)
+                                       : height;
+  if (!flow.discharge) return std::sqrt(gravity * depth);
+  return depth > 0.0 ? std::abs(flow.discharge->at(time)) / (width * depth) * flow.largest_in_profile() : 0.0;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::largest_depth(double end_time) const {
+  constexpr int samples = 100;
+  double largest = 0.0;
+  for (int k = 0; is_driven() && k <= samples; ++k) {
+    const double time = end_time * k / samples;
+    const double depth = flow.level ? depth_at_level(flow.level->at(time)) : critical_depth(time);
+    largest = std::max(largest, std::min(depth, height));
+  }
+  return largest;
+}
+
+template <int Dim>
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
+  const NamedNumbers numbers = named_numbers(spec);
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  std::vector<ChannelEnd<Dim>> ends;
+  std::size_t outlet = 0;
+  std::size_t inlet = 0;
+  for (Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
+    EndFlow flow;
+    if (opening.kind == OpeningKind::inlet) {
+      const InletTable& table = spec.inlets[inlet++];
+      flow = {time_function(table.discharge, table.series, 0, numbers),
+              time_function(table.velocity, table.series, 1, numbers),
+              time_function(table.level, table.series, 2, numbers),
+              tabulated_profile(table.profile, spec, opening.label())};
+    } else {
+      const OutletTable& table = spec.outlets[outlet++];
+      flow.level = time_function(table.level, table.series, 0, numbers);
+    }
+    ends.emplace_back(std::move(opening), std::move(flow), gravity);
+  }
+  for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
+    const InletTable& table = spec.inlets[k];
+    if (table.water_from.empty()) continue;
+    const auto source = std::ranges::find(spec.outlets, table.water_from, &OutletTable::name);  // checked by the reader
+    const std::size_t index = spec.inlets.size() + static_cast<std::size_t>(source - spec.outlets.begin());
+    ends[k].circuit = ends[index].circuit = static_cast<int>(index);
+    ends[k].reserve = table.reserve;
+  }
+  return ends;
+}
+
+template struct ChannelEnd<2>;
+template struct ChannelEnd<3>;
+template std::vector<ChannelEnd<2>> make_channel_ends(const CaseSpec&);
+template std::vector<ChannelEnd<3>> make_channel_ends(const CaseSpec&);
+
+}  // namespace tailwater

@@ -1,0 +1,137 @@
+#include "motion/floating_body.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "geometry/from_spec.h"
+
+namespace tailwater {
+namespace {
+
+/// Entries of a Twist, by the names of the case file.
+template <int Dim>
+int entry_of(std::string_view way) {
+  constexpr std::array<std::string_view, 3> in_plane{"x", "y", "rotation"};
+  constexpr std::array<std::string_view, 6> in_space{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
+  if constexpr (Dim == 2) {
+    return static_cast<int>(std::ranges::find(in_plane, way) - in_plane.begin());
+  } else {
+    return static_cast<int>(std::ranges::find(in_space, way) - in_space.begin());
+  }
+}
+
+/// Where a line is fastened, how far it is stretched, and the direction in which it pulls.
+template <int Dim>
+struct Line {
+  Line(const Mooring<Dim>& mooring, const BodyState<Dim>& state) : end(state.placement(mooring.at)) {
+    const Vec<Dim> way = mooring.anchor - end;
+    const double length = way.norm();
+    stretch = length - mooring.length;
+    if (length > 0.0) direction = way / length;
+  }
+  Vec<Dim> end;
+  Vec<Dim> direction = Vec<Dim>::Zero();
+  double stretch;
+};
+
+}  // namespace
+
+// A body is where its walls were placed, to the last bit: a run that goes on places them from the state.
+template <int Dim>
+AffineMap<Dim> BodyState<Dim>::at(double t) const {
+  if (t == time) return placement;
+  const Mat<Dim> turn = rotation_by<Dim>((t - time) * angular_velocity());
+  AffineMap<Dim> there;
+  there.linear = rotation_by<Dim>(angle_of<Dim>(turn * placement.linear));  // products of rotations drift by rounding
+  there.constant = turn * (placement.constant - centre) + centre_at(t);
+  return there;
+}
+
+template <int Dim>
+void BodyState<Dim>::go_on(double t) {
+  placement = at(t);
+  centre = centre_at(t);
+  time = t;
+}
+
+template <int Dim>
+FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
+    : name(table.name), mass(table.mass), inertia(Turn<Dim>::Ones()) {
+  const std::string owner = "body '" + name + "'";
+  for (std::size_t k = 0; k < table.inertia.size(); ++k) inertia[static_cast<int>(k)] = table.inertia[k];
+  for (const std::string& way : table.free) free.push_back(entry_of<Dim>(way));
+  std::ranges::sort(free);
+  free.erase(std::unique(free.begin(), free.end()), free.end());
+  drawn.centre = to_vec<Dim>(table.centre, owner, "centre");
+  drawn.velocity.template head<Dim>() = to_vec<Dim>(table.velocity, owner, "velocity");
+  for (const MooringTable& mooring : spec.moorings) {
+    if (mooring.body != name) continue;
+    const std::string line = "mooring '" + mooring.name + "'";
+    moorings.push_back({to_vec<Dim>(mooring.at, line, "at"), to_vec<Dim>(mooring.anchor, line, "anchor"),
+                        mooring.stiffness, mooring.length, mooring.damping});
+  }
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (std::ranges::find(table.walls, spec.walls[w].name) != table.walls.end()) walls.push_back(static_cast<int>(w));
+  }
+}
+
+template <int Dim>
+Mat<Dim == 2 ? 1 : 3> FloatingBody<Dim>::inertia_of(const BodyState<Dim>& state) const {
+  if constexpr (Dim == 2) {
+    return inertia;
+  } else {
+    return state.placement.linear * inertia.asDiagonal() * state.placement.linear.transpose();
+  }
+}
+
+template <int Dim>
+Twist<Dim> FloatingBody<Dim>::force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const {
+  Twist<Dim> force;
+  force.template head<Dim>() = mass * acceleration.template head<Dim>();
+  force.template tail<turns<Dim>>() = inertia_of(state) * acceleration.template tail<turns<Dim>>();
+  return force;
+}
+
+template <int Dim>
+Twist<Dim> FloatingBody<Dim>::scale() const {
+  Twist<Dim> scale;
+  scale.template head<Dim>().setConstant(mass);
+  scale.template tail<turns<Dim>>().setConstant(inertia.mean());
+  return scale;
+}
+
+template <int Dim>
+Twist<Dim> FloatingBody<Dim>::load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const {
+  Twist<Dim> load = Twist<Dim>::Zero();
+  load.template head<Dim>() = mass * gravity;
+  if constexpr (Dim == 3) {
+    const Vec<3> omega = state.angular_velocity();
+    load.template tail<3>() = -omega.cross(Vec<3>(inertia_of(state) * omega));
+  }
+  for (const Mooring<Dim>& mooring : moorings) {
+    const Line<Dim> line(mooring, state);
+    if (line.stretch <= 0.0) continue;
+    const double stretching = -line.direction.dot(state.velocity_at(line.end));
+    const double pull = std::max(0.0, mooring.stiffness * line.stretch + mooring.damping * stretching);
+    load.template head<Dim>() += pull * line.direction;
+    load.template tail<turns<Dim>>() += moment_of<Dim>(line.end - state.centre, pull * line.direction);
+  }
+  return load;
+}
+
+template <int Dim>
+std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec) {
+  std::vector<FloatingBody<Dim>> bodies;
+  for (const BodyTable& table : spec.bodies) bodies.emplace_back(spec, table);
+  return bodies;
+}
+
+template struct BodyState<2>;
+template struct BodyState<3>;
+template struct FloatingBody<2>;
+template struct FloatingBody<3>;
+template std::vector<FloatingBody<2>> make_bodies(const CaseSpec&);
+template std::vector<FloatingBody<3>> make_bodies(const CaseSpec&);
+
+}  // namespace tailwater

@@ -1,0 +1,136 @@
+// Rigid bodies that the water moves: what they are, and where they are.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "case/spec.h"
+#include "motion/affine_map.h"
+
+namespace tailwater {
+
+/// Axes about which a body can turn: one in 2D.
+template <int Dim>
+inline constexpr int turns = Dim == 2 ? 1 : 3;
+
+template <int Dim>
+using Turn = Eigen::Matrix<double, turns<Dim>, 1>;
+
+/// Of a rigid body: first what goes along the axes, then what goes about them. A velocity [m/s, rad/s], an
+/// acceleration, or a force with its moment [N, N m].
+template <int Dim>
+using Twist = Eigen::Matrix<double, Dim + turns<Dim>, 1>;
+
+/// arm x force
+template <int Dim>
+Turn<Dim> moment_of(const Vec<Dim>& arm, const Vec<Dim>& force) {
+  if constexpr (Dim == 2) {
+    return Turn<2>(arm[0] * force[1] - arm[1] * force[0]);
+  } else {
+    return arm.cross(force);
+  }
+}
+
+/// omega x arm
+template <int Dim>
+Vec<Dim> velocity_about(const Turn<Dim>& omega, const Vec<Dim>& arm) {
+  if constexpr (Dim == 2) {
+    return {-omega[0] * arm[1], omega[0] * arm[0]};
+  } else {
+    return omega.cross(arm);
+  }
+}
+
+/// The rotation about the axis of `angle` [rad] by its length.
+template <int Dim>
+Mat<Dim> rotation_by(const Turn<Dim>& angle) {
+  if constexpr (Dim == 2) {
+    return Eigen::Rotation2Dd(angle[0]).toRotationMatrix();
+  } else {
+    const double size = angle.norm();
+    return size > 0.0 ? Eigen::AngleAxisd(size, angle / size).toRotationMatrix() : Mat<3>::Identity().eval();
+  }
+}
+
+/// The angle of a rotation, times its axis.
+template <int Dim>
+Turn<Dim> angle_of(const Mat<Dim>& rotation) {
+  if constexpr (Dim == 2) {
+    return Turn<2>(std::atan2(rotation(1, 0), rotation(0, 0)));
+  } else {
+    const Eigen::AngleAxisd turn(rotation);
+    return turn.angle() * turn.axis();
+  }
+}
+
+/// A line that holds a body.
+template <int Dim>
+struct Mooring {
+  Vec<Dim> at;      ///< m; on the body, as drawn
+  Vec<Dim> anchor;  ///< m
+  double stiffness;
+  double length;  ///< m
+  double damping;
+};
+
+/// Where a body is and how it moves: from `time` on with the same velocity, until the step ends.
+template <int Dim>
+struct BodyState {
+  double time = 0.0;                   ///< s
+  AffineMap<Dim> placement;            ///< at `time`; from where it is drawn
+  Vec<Dim> centre = Vec<Dim>::Zero();  ///< m; of mass, at `time`
+  Twist<Dim> velocity = Twist<Dim>::Zero();
+  Twist<Dim> acceleration = Twist<Dim>::Zero();  ///< in the last step
+  Twist<Dim> carried_over = Twist<Dim>::Zero();  ///< N s, N m s; impulse that has reached it and not moved it yet
+
+  Vec<Dim> linear_velocity() const { return velocity.template head<Dim>(); }
+  Turn<Dim> angular_velocity() const { return velocity.template tail<turns<Dim>>(); }
+  Vec<Dim> velocity_at(const Vec<Dim>& x) const {
+    return linear_velocity() + velocity_about<Dim>(angular_velocity(), x - centre);
+  }
+
+  Vec<Dim> centre_at(double t) const { return centre + (t - time) * linear_velocity(); }
+  AffineMap<Dim> at(double t) const;
+  /// Goes on to time t.
+  void go_on(double t);
+};
+
+/// All bodies of a case.
+template <int Dim>
+struct BodyStates {
+  std::vector<BodyState<Dim>> each;
+  /// Row by row: how much more force each degree of freedom of all bodies needs per acceleration of each, with the
+  /// water that goes with it [kg, kg m, kg m^2]. Empty: not known.
+  std::vector<double> inertia = {};
+};
+
+template <int Dim>
+struct FloatingBody {
+  /// Throws InputError, which names the body, for numbers of the wrong dimension.
+  FloatingBody(const CaseSpec& spec, const BodyTable& table);
+
+  std::string name;
+  double mass;            ///< kg; in 2D per metre of width
+  Turn<Dim> inertia;      ///< kg m^2; about the axes as drawn
+  std::vector<int> free;  ///< entries of a Twist
+  BodyState<Dim> drawn;   ///< at the start
+  std::vector<Mooring<Dim>> moorings;
+  std::vector<int> walls;  ///< indices into Boundary::walls
+
+  /// The force and moment that give the body an acceleration, beside gyration.
+  Twist<Dim> force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const;
+  /// Mass, or the mean moment of inertia, of each entry of a Twist: for comparing them.
+  Twist<Dim> scale() const;
+  /// Of weight, gyration and moorings.
+  Twist<Dim> load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
+
+ private:
+  Mat<Dim == 2 ? 1 : 3> inertia_of(const BodyState<Dim>& state) const;
+};
+
+template <int Dim>
+std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec);
+
+}  // namespace tailwater

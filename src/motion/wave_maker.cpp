@@ -1,0 +1,227 @@
+#include "motion/wave_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "geometry/from_spec.h"
+#include "motion/wave_theory.h"
+
+namespace tailwater {
+namespace {
+
+/// A solitary wave begins where it is this share of its height: sech^2 of this phase, 0.2 %.
+constexpr double phase_at_start = -3.8;
+
+/// [peak frequency]; between them lie 99.8 % of the energy of a JONSWAP spectrum.
+constexpr double lowest_frequency = 0.5;
+constexpr double highest_frequency = 3.0;
+
+/// Largest height of a periodic wave over its length, and over tanh kh: R. Miche (1944).
+constexpr double steepest = 0.142;
+
+/// Periods after which an absorbing plate has come back. Long beside a period, so that it hardly matters for the waves.
+constexpr double periods_remembered = 20.0;
+
+/// [dx]; the gauge of an absorbing plate is this far in front of it, and half as wide on each side.
+constexpr double gauge_distance = 2.0;
+
+double sech_squared(double x) {
+  const double cosh_x = std::cosh(std::min(std::abs(x), 300.0));
+  return 1.0 / (cosh_x * cosh_x);
+}
+
+/// The shape of the JONSWAP spectrum over f/f_p, up to a factor: K. Hasselmann et al. (1973).
+double jonswap(double f, double peak_enhancement) {
+  const double width = f <= 1.0 ? 0.07 : 0.09;
+  const double off = (f - 1.0) / width;
+  return std::pow(f, -5.0) * std::exp(-1.25 * std::pow(f, -4.0)) *
+         std::pow(peak_enhancement, std::exp(-0.5 * off * off));
+}
+
+double gain_of(const WaveMakerTable& maker, double gravity) {
+  if (maker.period > 0.0) {
+    const double omega = 2.0 * std::numbers::pi / maker.period;
+    return omega / maker_transfer(maker.type, omega, gravity, maker.depth).wave;
+  }
+  // Long waves: omega = k sqrt(g h), and the wave is k h of the stroke of a piston, half of it of a flap.
+  return (maker.type == MakerType::flap ? 2.0 : 1.0) * std::sqrt(gravity / maker.depth);
+}
+
+}  // namespace
+
+SolitaryWave::SolitaryWave(double height, double depth, double gravity)
+    : height_(height),
+      depth_(depth),
+      celerity_(std::sqrt(gravity * (depth + height))),
+      beta_(std::sqrt(0.75 * height / (depth * depth * (depth + height)))) {}
+
+double SolitaryWave::displacement(double phase) const { return height_ / (beta_ * depth_) * std::tanh(phase); }
+
+// The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this is
+// dX/dtheta = H/(beta h) sech^2 theta, so that c t = theta/beta + X(theta).
+double SolitaryWave::phase(double since) const {
+  const double way = celerity_ * since + phase_at_start / beta_ + displacement(phase_at_start);
+  double theta = beta_ * way;
+  // The slope lies between 1/beta and (1 + H/h)/beta, so Newton's method gets nearer with every step.
+  for (int step = 0; step < 200; ++step) {
+    const double change =
+        (way - theta / beta_ - displacement(theta)) / ((1.0 + height_ / depth_ * sech_squared(theta)) / beta_);
+    theta += change;
+    if (std::abs(change) <= 1e-14 * std::max(1.0, std::abs(theta))) break;
+  }
+  return theta;
+}
+
+double SolitaryWave::stroke(double since) const { return displacement(phase(since)) - displacement(phase_at_start); }
+
+double SolitaryWave::elevation(double since, double ahead) const {
+  return height_ * sech_squared(phase(since) - beta_ * ahead);
+}
+
+PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double gauge) : ramp_(maker.ramp) {
+  const double h = maker.depth;
+  const auto sine = [&](double omega, double amplitude, double phase) {
+    const MakerTransfer transfer = maker_transfer(maker.type, omega, gravity, h);
+    return Sine{omega,     wave_number(omega, gravity, h), phase, amplitude / transfer.wave,
+                amplitude, transfer.near_field_at(gauge)};
+  };
+  if (maker.waves == WaveKind::regular) {
+    const double omega = 2.0 * std::numbers::pi / maker.period;
+    sines_.push_back(sine(omega, 0.5 * maker.height, 0.0));
+    if (maker.order == 1 || maker.type == MakerType::flap) return;
+    // O.S. Madsen (1971), (20): the free wave of twice the frequency that the plate must not make.
+    const double k = sines_.front().wave_number;
+    const double H = maker.height;
+    const double y = std::min(k * h, 100.0);
+    const double sinh_y = std::sinh(y);
+    const double stroke = H * H / (32.0 * h) *
+                          (3.0 * std::cosh(y) / (sinh_y * sinh_y * sinh_y) - 2.0 * sines_.front().stroke / (0.5 * H));
+    const double bound = H * H * k / 16.0 * std::cosh(y) * (2.0 + std::cosh(2.0 * y)) / (sinh_y * sinh_y * sinh_y);
+    sines_.push_back({2.0 * omega, 2.0 * k, 0.0, stroke, bound, 0.0});
+    return;
+  }
+  const auto seed = static_cast<std::uint64_t>(maker.seed);
+  const double width = (highest_frequency - lowest_frequency) / maker.components;
+  double energy = 0.0;
+  std::vector<double> amplitudes;
+  std::vector<double> frequencies;
+  for (int n = 0; n < maker.components; ++n) {
+    // Anywhere in its own bin, so that the waves do not repeat themselves.
+    const double f = lowest_frequency + width * (n + 0.5 + 0.5 * random_number(seed, static_cast<std::uint64_t>(n), 0));
+    frequencies.push_back(f);
+    amplitudes.push_back(std::sqrt(2.0 * jonswap(f, maker.peak_enhancement) * width));
+    energy += 0.5 * amplitudes.back() * amplitudes.back();
+  }
+  const double factor = 0.25 * maker.height / std::sqrt(energy);  // H_m0 = 4 sqrt(m_0)
+  for (int n = 0; n < maker.components; ++n) {
+    const double phase = std::numbers::pi * random_number(seed, static_cast<std::uint64_t>(n), 1);
+    sines_.push_back(sine(2.0 * std::numbers::pi * frequencies[n] / maker.period, factor * amplitudes[n], phase));
+  }
+}
+
+/// Smooth growth from 0 to 1.
+double PeriodicWaves::share(double since) const {
+  return since >= ramp_ ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * since / ramp_));
+}
+
+double PeriodicWaves::stroke(double since) const {
+  double sum = 0.0;
+  for (const Sine& sine : sines_) sum += sine.stroke * std::sin(sine.omega * since + sine.phase);
+  return share(since) * sum;
+}
+
+double PeriodicWaves::elevation(double since, double ahead) const {
+  const double x = ahead + stroke(since);
+  double sum = 0.0;
+  for (const Sine& sine : sines_) {
+    const double angle = sine.omega * since + sine.phase;
+    sum += sine.elevation * std::cos(angle - sine.wave_number * x) + sine.near_field * sine.stroke * std::sin(angle);
+  }
+  return share(since) * sum;
+}
+
+MakerLaw::MakerLaw(const WaveMakerTable& maker, double gravity, double gauge)
+    : start_(maker.start),
+      gauge_(gauge),
+      gain_(gain_of(maker, gravity)),
+      forgetting_(maker.period > 0.0 ? 1.0 / (periods_remembered * maker.period) : 0.0) {
+  if (maker.waves == WaveKind::solitary) {
+    waves_.emplace<SolitaryWave>(maker.height, maker.depth, gravity);
+  } else if (maker.waves != WaveKind::none) {
+    waves_.emplace<PeriodicWaves>(maker, gravity, gauge);
+  }
+}
+
+double MakerLaw::stroke(double time) const {
+  const double since = time - start_;
+  if (since <= 0.0) return 0.0;
+  if (const auto* wave = std::get_if<SolitaryWave>(&waves_)) return wave->stroke(since);
+  if (const auto* waves = std::get_if<PeriodicWaves>(&waves_)) return waves->stroke(since);
+  return 0.0;
+}
+
+double MakerLaw::elevation(double time) const {
+  const double since = time - start_;
+  if (since <= 0.0) return 0.0;
+  if (const auto* wave = std::get_if<SolitaryWave>(&waves_)) return wave->elevation(since, gauge_);
+  if (const auto* waves = std::get_if<PeriodicWaves>(&waves_)) return waves->elevation(since, gauge_);
+  return 0.0;
+}
+
+template <int Dim>
+WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
+    : forward(Vec<Dim>::Zero()),
+      up(Vec<Dim>::Zero()),
+      along(Vec<Dim>::Zero()),
+      width(1.0),
+      depth(maker.depth),
+      gauge(gauge_distance * spec.particles.spacing),
+      turns(maker.type == MakerType::flap),
+      absorbs(maker.absorption == Absorption::active),
+      law(maker, gravity_of<Dim>(spec).norm(), gauge) {
+  const std::string owner = fmt::format("wave_maker '{}'", maker.name);
+  const Vec<Dim> from = to_vec<Dim>(maker.from, owner, "from");
+  const Vec<Dim> to = to_vec<Dim>(maker.to, owner, "to");
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.norm() == 0.0) {
+    throw InputError(fmt::format("{}: without gravity there are no waves; give physics.gravity", owner));
+  }
+  up = -gravity.normalized();
+  const auto side = static_cast<int>(maker.side);
+  forward = (side % 2 == 0 ? 1.0 : -1.0) * Vec<Dim>::Unit(side / 2);
+  if (std::abs(forward.dot(up)) > 1e-9) {
+    throw InputError(
+        fmt::format("{}: lies flat, but a plate that makes waves stands upright; give `from` and `to` on an upright "
+                    "{}",
+                    owner, Dim == 2 ? "segment" : "rectangle"));
+  }
+  if (up.dot(to - from) < depth) {
+    throw InputError(
+        fmt::format("{}: its top is {:.4g} m above its foot, below the still water's level of {:.4g} m: give a higher "
+                    "`to`, the foot as `from`, or correct depth",
+                    owner, up.dot(to - from), depth));
+  }
+  if (maker.waves == WaveKind::regular) {
+    const double k = wave_number(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
+    const double highest = steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
+    if (maker.height > highest) {
+      throw InputError(fmt::format(
+          "{}: its height of {:.4g} m is too much for its period of {:.4g} s: such waves break at {:.4g} m; "
+          "give a smaller height, or a longer period",
+          owner, maker.height, maker.period, highest));
+    }
+  }
+  foot = from;
+  if constexpr (Dim == 3) {
+    along = up.cross(forward);
+    width = std::abs(along.dot(to - from));
+    foot += 0.5 * along.dot(to - from) * along;
+  }
+}
+
+template struct WavePlate<2>;
+template struct WavePlate<3>;
+
+}  // namespace tailwater

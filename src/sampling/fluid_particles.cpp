@@ -1,0 +1,340 @@
+#include "sampling/fluid_particles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <unordered_set>
+#include <utility>
+#include <variant>
+
+#include "base/random.h"
+#include "case/named_numbers.h"
+#include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+#include "geometry/polygon.h"
+#include "sampling/cut_cells.h"
+#include "sampling/wall_particles.h"
+#include "sampling/water_lattice.h"
+#include "sampling/water_shape.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
+
+/// Share of the volume of a mesh that may be in cells without particles: at a surface half of the cells that it cuts
+/// are left out, with a quarter of their volume, which is 0.3 of a ball of three spacings in diameter.
+constexpr double largest_misfit = 0.4;
+
+/// The starting velocity of one block.
+template <int Dim>
+class StartVelocity {
+ public:
+  /// Throws InputError, which names the block's `owner`.
+  StartVelocity(const CaseSpec& spec, const FluidTable& block, const std::string& owner) : owner_(owner) {
+    if (!block.velocity.empty() && block.velocity.size() != Dim) {
+      throw InputError(
+          fmt::format("{}: velocity has {} components but the case has {} dimensions: give one per dimension", owner,
+                      block.velocity.size(), Dim));
+    }
+    for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
+      if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
+        constant_[axis] = *number;
+      } else {
+        const std::string& text = std::get<std::string>(block.velocity[axis]);
+        varying_.push_back(
+            {static_cast<int>(axis), text, Formula(text, named_numbers(spec), std::span(position_names).first(Dim))});
+      }
+    }
+  }
+
+  Vec<Dim> at(const Vec<Dim>& x) {
+    Vec<Dim> velocity = constant_;
+    for (Component& component : varying_) {
+      velocity[component.axis] = component.formula.at({x.data(), Dim});
+      if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
+        throw InputError(
+            fmt::format("{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is a number of at most {:g} "
+                        "wherever the block has particles",
+                        owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number));
+      }
+    }
+    return velocity;
+  }
+
+ private:
+  struct Component {
+    int axis;
+    std::string text;
+    Formula formula;
+  };
+
+  std::string owner_;
+  Vec<Dim> constant_ = Vec<Dim>::Zero();
+  std::vector<Component> varying_;
+};
+
+/// Whether no fluid particle takes the lattice place `x`, because a wall particle stands there or because it is behind
+/// the wall.
+template <int Dim>
+bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const Vec<Dim>& x) {
+  const double dx = spec.particles.spacing;
+  const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+  if (wall.face < 0) return false;
+  if (placement_of(spec.scheme.walls).on_wall) {
+    return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
+  }
+  return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
+}
+
+/// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
+template <int Dim>
+Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x) {
+  const double dx = spec.particles.spacing;
+  if constexpr (Dim == 3) {
+    // What is behind a mesh may be nearer to another wall, in front of it.
+    for (const WallMesh& mesh : boundary.meshes) {
+      const Vec<3> way = boundary.way_of(mesh);
+      const SurfacePlace place = mesh.surface->nearest(x - way, 0.5 * dx);
+      if (place.triangle < 0 || place.is_on_rim || place.signed_distance >= 0.0) continue;
+      x += (least_wall_distance * dx - place.signed_distance) * boundary.faces[mesh.first_face + place.triangle].normal;
+    }
+  }
+  // In a corner, a move away from one wall may approach the next. At most Dim walls meet, so Dim moves are enough.
+  for (int move = 0; move < Dim; ++move) {
+    const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
+    const double missing = least_wall_distance * dx - wall.signed_distance;
+    if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
+    const WallFace<Dim>& face = boundary.faces[wall.face];
+    // From an edge straight away: the normal of one of its faces leads along the other.
+    const bool is_at_edge =
+        wall.signed_distance > corner_tolerance * dx && face.height(x) < wall.signed_distance - corner_tolerance * dx;
+    x += missing * (is_at_edge ? Vec<Dim>((x - wall.point) / wall.signed_distance) : face.normal);
+  }
+  return x;
+}
+
+/// The water of one block: which places of its lattice hold particles.
+template <int Dim>
+class BlockWater {
+ public:
+  /// Collective.
+  BlockWater(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary, const Bodies<Dim>& bodies,
+             const Communicator& ranks)
+      : spec_(spec),
+        block_(spec.fluid[index]),
+        boundary_(boundary),
+        bodies_(bodies),
+        owner_(fluid_label(spec, index)),
+        axes_(make_lattice<Dim>(spec, index, boundary)),
+        shape_(spec, index, boundary, axes_),
+        velocity_(spec, block_, owner_),
+        lattice_{axes_, {}},
+        stands_on_walls_(placement_of(spec.scheme.walls).on_wall) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const bool is_on_nodes = stands_on_walls_ && periodic_range(spec.domain, axis).empty();
+      lattice_.count[axis] = axes_[axis].count() + (is_on_nodes ? 1 : 0);
+      share_[axis] = is_on_nodes ? 0.0 : 0.5;
+    }
+    const CellTest<Dim> is_reached = [&](const Cell<Dim>& cell) { return reaches(cell); };
+    if (stands_on_walls_) {
+      if (block_.shape == BlockShape::polygon) leave_out_half_of_outline();
+      fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
+      return;
+    }
+    const CellTest<Dim> has_room = [&](const Cell<Dim>& cell) { return leaves_room(cell); };
+    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, has_room, ranks);
+    if (block_.shape == BlockShape::mesh) require_room(index);
+  }
+
+  std::int64_t particles() const {
+    return std::llround(std::accumulate(fitted_.in_row.begin(), fitted_.in_row.end(), 0.0));
+  }
+
+  /// Calls put(position, velocity, volume) for the particles `from` to `to` - 1 of this block; its first one is number
+  /// `first` of all.
+  template <class Put>
+  void make(std::int64_t from, std::int64_t to, std::int64_t first, Put&& put) {
+    const double jitter = spec_.particles.jitter * spec_.particles.spacing;
+    std::int64_t number = 0;
+    for (std::int64_t row = 0; row < lattice_.rows() && number < to; ++row) {
+      const std::int64_t in_row = std::llround(fitted_.in_row[row]);
+      if (number + in_row <= from) {
+        number += in_row;
+        continue;
+      }
+      lattice_.visit_row(row, [&](const Cell<Dim>& cell) {
+        if (!takes(cell)) return;
+        const std::int64_t n = number++;
+        if (n < from || n >= to) return;
+        const Vec<Dim> centre = at(cell);
+        Vec<Dim> x = centre;
+        for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
+          x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
+        }
+        // Not to the other side of a plate.
+        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x, -1))
+          x = centre;
+        x = kept_off_walls(spec_, boundary_, block_, x);
+        double volume = fitted_.share;
+        for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
+        put(x, velocity_.at(x), volume);
+      });
+    }
+  }
+
+ private:
+  Vec<Dim> at(const Cell<Dim>& cell) const {
+    Vec<Dim> x;
+    for (int axis = 0; axis < Dim; ++axis) x[axis] = axes_[axis].at(static_cast<int>(cell[axis]), share_[axis]);
+    return x;
+  }
+
+  /// Whether the place of a cell is in the water.
+  bool reaches(const Cell<Dim>& cell) {
+    const Vec<Dim> x = at(cell);
+    // What is poured in has been stopped by walls already.
+    if (block_.shape == BlockShape::fill && !stands_on_walls_) return shape_.holds(cell, x);
+    return shape_.holds(cell, x) && !left_out_.contains(cell_key<Dim>(cell)) &&
+           !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
+  }
+
+  /// Whether the particle of a cell that is cut can stand in front of all walls.
+  bool leaves_room(const Cell<Dim>& cell) const {
+    const double dx = spec_.particles.spacing;
+    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, at(cell)), dx);
+    return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
+  }
+
+  bool takes(const Cell<Dim>& cell) {
+    const auto cut = std::ranges::lower_bound(fitted_.cut, cell, is_before<Dim>, &FittedCells<Dim>::Cut::cell);
+    if (cut != fitted_.cut.end() && cut->cell == cell) return cut->is_taken;
+    return reaches(cell);
+  }
+
+  /// Of the places on the outline of a polygon every second one, in their order, because half of their cells is inside.
+  void leave_out_half_of_outline() {
+    if constexpr (Dim == 2) {
+      const std::vector<Vec<2>> outline = outline_of(block_, owner_);
+      const double tolerance = corner_tolerance * spec_.particles.spacing;
+      bool takes_next = false;
+      for (std::int64_t row = 0; row < lattice_.rows(); ++row) {
+        lattice_.visit_row(row, [&](const Cell<2>& cell) {
+          if (where_in(outline, at(cell), tolerance) != Where::on_outline) return;
+          takes_next = !takes_next;
+          if (!takes_next) left_out_.insert(cell_key<2>(cell));
+        });
+      }
+    }
+  }
+
+  /// Throws InputError if a mesh is too thin for the spacing.
+  void require_room(std::size_t index) const {
+    if constexpr (Dim == 3) {
+      const MeshSurface& surface = *boundary_.water[index];
+      const double dx = spec_.particles.spacing;
+      const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * dx;
+      if (!is_thin && fitted_.missed <= largest_misfit) return;
+      throw InputError(fmt::format(
+          "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
+          "leave out {:.0f} % of that: it is too small or too thin for them; use a smaller spacing, or correct scale = "
+          "{:g}",
+          owner_, block_.file, place<3>(surface.low()), place<3>(surface.high()), shape_.volume(), dx,
+          100.0 * fitted_.missed, block_.scale));
+    }
+  }
+
+  const CaseSpec& spec_;
+  const FluidTable& block_;
+  const Boundary<Dim>& boundary_;
+  const Bodies<Dim>& bodies_;
+  std::string owner_;
+  Lattice<Dim> axes_;
+  WaterShape<Dim> shape_;
+  StartVelocity<Dim> velocity_;
+  LatticeBlock<Dim> lattice_;
+  bool stands_on_walls_;
+  std::array<double, Dim> share_{};  ///< of the way through its cell at which a place stands
+  FittedCells<Dim> fitted_;
+  std::unordered_set<std::uint64_t> left_out_;  ///< places on the outline of a polygon
+};
+
+}  // namespace
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> FluidParticles<Dim>::box() const {
+  // Least values, of the highest places with the sign turned.
+  std::array<double, 2 * Dim> least;
+  least.fill(std::numeric_limits<double>::max());
+  for (const Vec<Dim>& x : position) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      least[axis] = std::min(least[axis], x[axis]);
+      least[Dim + axis] = std::min(least[Dim + axis], -x[axis]);
+    }
+  }
+  ranks.least_of_each(least);
+  Eigen::AlignedBox<double, Dim> box;
+  if (all == 0) return box;
+  for (int axis = 0; axis < Dim; ++axis) {
+    box.min()[axis] = least[axis];
+    box.max()[axis] = -least[Dim + axis];
+  }
+  return box;
+}
+
+template <int Dim>
+double FluidParticles<Dim>::extent_along(const Vec<Dim>& direction) const {
+  std::array<double, 2> least;
+  least.fill(std::numeric_limits<double>::max());
+  for (const Vec<Dim>& x : position) {
+    const double height = direction.dot(x);
+    least[0] = std::min(least[0], height);
+    least[1] = std::min(least[1], -height);
+  }
+  ranks.least_of_each(least);
+  return all == 0 ? 0.0 : -least[1] - least[0];
+}
+
+template <int Dim>
+FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary, const Communicator& ranks,
+                                         std::int64_t others) {
+  const Bodies<Dim> bodies(spec, boundary);
+  std::vector<std::unique_ptr<BlockWater<Dim>>> blocks;
+  FluidParticles<Dim> fluid;
+  fluid.ranks = ranks;
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks));
+    fluid.all += blocks.back()->particles();
+  }
+  const auto begin_of = [&](int rank) { return std::min((fluid.all + others) * rank / ranks.size(), fluid.all); };
+  fluid.first = begin_of(ranks.rank());
+  const std::int64_t end = begin_of(ranks.rank() + 1);
+  fluid.position.reserve(end - fluid.first);
+  fluid.velocity.reserve(end - fluid.first);
+  fluid.volume.reserve(end - fluid.first);
+  fluid.block.reserve(end - fluid.first);
+  std::int64_t first = 0;  // of a block
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const auto put = [&](const Vec<Dim>& x, const Vec<Dim>& velocity, double volume) {
+      fluid.position.push_back(x);
+      fluid.velocity.push_back(velocity);
+      fluid.volume.push_back(volume);
+      fluid.block.push_back(static_cast<int>(b));
+    };
+    blocks[b]->make(fluid.first - first, end - first, first, put);
+    first += blocks[b]->particles();
+  }
+  return fluid;
+}
+
+template struct FluidParticles<2>;
+template struct FluidParticles<3>;
+template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&, const Communicator&, std::int64_t);
+template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&, const Communicator&, std::int64_t);
+
+}  // namespace tailwater

@@ -1,0 +1,46 @@
+// The fluid's particles at the start.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.h"
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "parallel/communicator.h"
+
+namespace tailwater {
+
+/// One rank's part of the water at the start. The parts of all ranks, one after the other, are all of it.
+template <int Dim>
+struct FluidParticles {
+  std::vector<Vec<Dim>> position;
+  std::vector<Vec<Dim>> velocity;
+  std::vector<double> volume;  ///< m^Dim
+  std::vector<int> block;      ///< index into CaseSpec::fluid
+  std::int64_t first = 0;      ///< number of the first one, among those of all ranks
+  std::int64_t all = 0;        ///< how many all ranks have
+  Communicator ranks;
+
+  /// The box around the particles of all ranks; empty if there are none. Collective.
+  Eigen::AlignedBox<double, Dim> box() const;
+  /// Between the lowest and the highest of all of them along a unit vector, m. Collective.
+  double extent_along(const Vec<Dim>& direction) const;
+};
+
+/// The particles on the starting lattice (water_lattice.h). With dummy walls a particle is the centre of its cell. As
+/// many cells become particles as the block, without what bodies and walls take, has volume, those that have most of
+/// their volume in it (cut_cells.h), and the particles have this volume to round-off. Where nothing cuts a cell,
+/// particles have the volumes of their cells. With a row of particles on the wall they stand at the cells' corners,
+/// except in periodic directions, but not nearer than dx/2 to a wall, where a wall particle stands; of those on the
+/// outline of a polygon every second one is taken, because half of their cells is inside. Particles nearer than dx/4 to
+/// a wall to which their block adapts are moved to that distance, which keeps the volume. check_geometry reports
+/// everything else that fits badly. Jitter, if any, is drawn from `particles.seed` and is the same on every machine.
+///
+/// Each rank makes only its part: as much as it gets when all particles and `others` that follow them are shared out
+/// equally. Collective. Throws InputError, which names the block, for a block without extent or with coordinates of the
+/// wrong dimension, and for a fill as filled_cells does.
+template <int Dim>
+FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                         const Communicator& ranks = {}, std::int64_t others = 0);
+
+}  // namespace tailwater

@@ -1,0 +1,49 @@
+#include "sampling/particle_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/vec.h"
+#include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+#include "sampling/wall_particles.h"
+
+namespace tailwater {
+
+template <int Dim>
+ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const double dx = spec.particles.spacing;
+  ParticleCount count;
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    const std::string label = fluid_label(spec, b);
+    if (block.shape == BlockShape::polygon) {
+      count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
+    } else if (block.shape == BlockShape::fill) {
+      // At most: the box around the walls up to the level.
+      Eigen::AlignedBox<double, Dim> box;
+      for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+      if (box.isEmpty()) continue;
+      box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
+      count.fluid += std::max(box.volume(), 0.0) / power<Dim>(dx);  // below 0 with a level below the walls
+    } else if (Dim == 3 && block.shape == BlockShape::mesh) {
+      if constexpr (Dim == 3) {
+        count.fluid += six_volumes(boundary.water[b]->mesh(), [](int) { return true; }) / 6.0 / power<Dim>(dx);
+      }
+    } else {
+      const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - to_vec<Dim>(block.min, label, "min");
+      count.fluid += (extent / dx).array().round().max(1.0).prod();
+    }
+  }
+  const int layers = placement_of(spec.scheme.walls).behind ? dummy_layers(spec) : 1;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    count.wall += layers * face.measure() * dx / power<Dim>(dx);
+  }
+  return count;
+}
+
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<2>&);
+template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,115 @@
+// Common parts of making wall particles for every kind of wall geometry. Each kind is one file with one function. The
+// function proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps the
+// free ones. It is declared at the end of this file and called in wall_particles.cpp.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "geometry/boundary.h"
+#include "geometry/point_grid.h"
+#include "sampling/wall_particles.h"
+
+namespace tailwater {
+
+/// The layers of particles asked for, `spacing` (m) apart.
+struct WallLayers {
+  double spacing;
+  int count;
+  bool starts_on_wall;    ///< whether the first layer stands on the wall; else it is spacing/2 behind it
+  SpaceShare share = {};  ///< the part of space whose particles are wanted
+
+  /// The same of a wall that moves, all of whose particles are wanted, or of one at rest.
+  WallLayers of_wall(bool moves) const { return {spacing, count, starts_on_wall, moves ? SpaceShare{} : share}; }
+  double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
+};
+
+/// A place for a wall particle.
+template <int Dim>
+struct WallPlace {
+  Vec<Dim> position;                   ///< where it needs room
+  Vec<Dim> foot;                       ///< the point of its own wall nearest to it
+  std::vector<Vec<Dim>> normals;       ///< of the faces that act there; several at a corner
+  int wall = 0;                        ///< index into Boundary::walls
+  Vec<Dim> offset = Vec<Dim>::Zero();  ///< m; from there to where the particle stands
+  double share = 1.0;                  ///< its volume, over dx^Dim
+
+  Vec<Dim> stands_at() const { return position + offset; }
+};
+
+/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept. Every place
+/// proposed has a number; those outside the share that is wanted are not looked at, but for a seam, which decides who
+/// has room at its border: particles beyond it could matter only through a chain of places, each in the way of the
+/// next.
+template <int Dim>
+class WallParticleCollector {
+ public:
+  WallParticleCollector(const Boundary<Dim>& body, const WallLayers& layers);
+
+  /// The number of a place to be proposed.
+  std::int64_t take_number() { return particles_.numbers++; }
+
+  /// Whether a place is in the share that is wanted, or in its seam.
+  bool wants(const Vec<Dim>& x) const { return share_.is_near(x, seam_); }
+
+  /// Keeps the place if no other particle is near.
+  void add(const WallPlace<Dim>& place) {
+    const std::int64_t number = take_number();
+    if (wants(place.position) && !taken_.has_near(place.position)) keep(place, number);
+  }
+
+  /// The same, unless a face that is not the place's own lies between the place and its foot; the place is then behind
+  /// another wall. is_own(f) says whether Boundary::faces[f], which is of no mesh, is the place's own.
+  template <class IsOwn>
+  void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
+    const std::int64_t number = take_number();
+    if (wants(place.position)) add_unless_behind_another(place, number, is_own);
+  }
+
+  /// The same for a place that is wanted and has its number.
+  template <class IsOwn>
+  void add_unless_behind_another(const WallPlace<Dim>& place, std::int64_t number, IsOwn&& is_own,
+                                 const WallMesh* own_mesh = nullptr) {
+    if (taken_.has_near(place.position)) return;
+    bool is_behind = is_behind_mesh(place, own_mesh);
+    body_.visit_plain_faces([&](int f) {
+      is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_));
+    });
+    if (!is_behind) keep(place, number);
+  }
+
+  /// Call after all places on the wall itself have been proposed, before those behind it.
+  void end_of_places_on_wall() { particles_.numbers_on_wall = particles_.numbers; }
+
+  WallParticles<Dim> particles() && { return std::move(particles_); }
+
+ private:
+  /// Whether a mesh other than its own lies between a place and its foot.
+  bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
+  void keep(const WallPlace<Dim>& place, std::int64_t number);
+
+  const Boundary<Dim>& body_;
+  double tolerance_;  ///< m
+  SpaceShare share_;
+  double seam_;  ///< m
+  PointGrid<Dim> taken_;
+  WallParticles<Dim> particles_;
+};
+
+/// 2D: faces joined to chains (wall_chains.cpp).
+WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
+
+/// 3D: axis-parallel boxes (wall_boxes.cpp).
+void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);
+
+/// 3D: meshes (wall_meshes.cpp), on the nodes of a lattice. Throws InputError if the layers start on the wall.
+void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
+                   WallParticleCollector<3>& collector);
+
+/// Plates (wall_plates.cpp), as many parts as they have sides. The two sides of a plate share the space on both of its
+/// sides; water feels only those of them that the plate hides from it. Those from meshes stand on nodes of the lattice.
+template <int Dim>
+std::vector<WallParticles<Dim>> sample_plates(const Boundary<Dim>& boundary, const WallLayers& layers,
+                                              const Lattice<Dim>& lattice);
+
+}  // namespace tailwater

@@ -1,0 +1,98 @@
+// Wall particles behind meshes: the cells of the water's own lattice, continued behind the surface as deep as there are
+// layers. A cell that the surface cuts has a particle with the volume of the part behind it, at the centre of that
+// part. Kernel sums over the wall are thus integrals over the space behind it, whatever its shape.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/mesh_surface.h"
+#include "sampling/cut_cells.h"
+#include "sampling/nodes_near.h"
+#include "sampling/wall_layers.h"
+
+namespace tailwater {
+namespace {
+
+/// Beyond the rim of an open mesh, wall particles stand only where they are more behind its last triangle than beside
+/// it.
+constexpr double least_behind = 0.7;
+
+constexpr double least_share = 0.01;  // of a cell; less than that behind the wall gets no particle
+
+bool is_beyond_rim(const TriangleMesh& mesh, const Vec<3>& x, const SurfacePlace& place) {
+  if (!place.is_on_rim) return false;
+  return mesh.area_normal(place.triangle).normalized().dot(x - place.point) > least_behind * place.signed_distance;
+}
+
+/// The part of a cell that is behind a surface.
+struct Behind {
+  double share = 0.0;              ///< of the cell
+  Vec<3> offset = Vec<3>::Zero();  ///< m; of its centre from the cell's
+};
+
+Behind part_behind(const MeshSurface& surface, const Vec<3>& centre, const Vec<3>& edge) {
+  Behind behind;
+  for_each_part<3>(centre, edge, [&](const Vec<3>& x, const Vec<3>& part) {
+    const SurfacePlace place = surface.nearest(x, 2.0 * edge.norm());
+    if (place.triangle < 0 || is_beyond_rim(surface.mesh(), x, place)) return;
+    const bool is_on_surface = std::abs(place.signed_distance) < corner_tolerance * part.norm();
+    const Vec<3> n = is_on_surface ? surface.mesh().area_normal(place.triangle).normalized()
+                                   : Vec<3>((x - place.point) / place.signed_distance);
+    const PartOfBox found = part_in_front<3>(part, -n, -place.signed_distance);
+    behind.share += found.share;
+    behind.offset += found.share * (x - (found.distance + place.signed_distance) * n - centre);
+  });
+  if (behind.share > 0.0) behind.offset /= behind.share;
+  behind.share /= parts_of_cell<3>;
+  return behind;
+}
+
+}  // namespace
+
+void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
+                   WallParticleCollector<3>& collector) {
+  if (layers.starts_on_wall && !body.meshes.empty()) {
+    throw InputError(
+        wall_label(body, body.meshes[0].wall) +
+        " is a mesh, and wall particles stand behind a mesh, not on it: choose scheme.walls = \"dummies\"");
+  }
+  struct Proposal {
+    WallPlace<3> place;
+    std::int64_t number;
+    const WallMesh* mesh;
+  };
+  std::vector<Proposal> proposals;
+  for (const WallMesh& mesh : body.meshes) {
+    const MeshSurface& surface = *mesh.surface;
+    const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
+      const std::int64_t number = collector.take_number();
+      if (!collector.wants(x)) return;
+      Vec<3> edge;
+      for (int axis = 0; axis < 3; ++axis) edge[axis] = lattice[axis].width(lattice[axis].cell_at(x[axis]));
+      const double half_diagonal = 0.5 * edge.norm();
+      if (place.signed_distance >= half_diagonal || is_beyond_rim(surface.mesh(), x, place)) return;
+      Behind behind{.share = 1.0};
+      if (place.signed_distance > -half_diagonal) behind = part_behind(surface, x, edge);
+      if (behind.share < least_share) return;
+      const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
+      proposals.push_back({{.position = x,
+                            .foot = near.point,
+                            .normals = normals_at(surface.mesh(), near),
+                            .wall = mesh.wall,
+                            .offset = behind.offset,
+                            .share = behind.share * edge.prod() / power<3>(layers.spacing)},
+                           number,
+                           &mesh});
+    };
+    NodesNear(surface, lattice, layers.count * layers.spacing, propose).find();
+  }
+  // Where two meshes cut a cell, it is behind the one that leaves less of it.
+  std::ranges::stable_sort(proposals,
+                           [](const Proposal& a, const Proposal& b) { return a.place.share > b.place.share; });
+  for (const Proposal& proposal : proposals) {
+    collector.add_unless_behind_another(
+        proposal.place, proposal.number, [](int) { return false; }, proposal.mesh);
+  }
+}
+
+}  // namespace tailwater

@@ -1,0 +1,133 @@
+#include "sampling/wall_particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "sampling/wall_layers.h"
+
+namespace tailwater {
+namespace {
+
+// Which function samples the walls in each dimension.
+WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
+  return sample_chains(body, layers);
+}
+WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice) {
+  WallParticleCollector<3> collector(body, layers);
+  sample_boxes(body, layers, collector);
+  sample_meshes(body, layers, lattice, collector);
+  return std::move(collector).particles();
+}
+
+/// Appends `part` to `all`, where `on_wall` numbers of particles on the wall, and `behind` of those behind it, are
+/// taken.
+template <int Dim>
+void append(WallParticles<Dim>& all, WallParticles<Dim> part, std::int64_t on_wall, std::int64_t behind) {
+  for (std::int64_t& number : part.number) {
+    number += number < part.numbers_on_wall ? on_wall : all.numbers_on_wall + behind - part.numbers_on_wall;
+  }
+  if (all.size() == 0) {
+    part.numbers = all.numbers;
+    part.numbers_on_wall = all.numbers_on_wall;
+    all = std::move(part);
+    return;
+  }
+  const auto put = [](auto& into, const auto& entries) { into.insert(into.end(), entries.begin(), entries.end()); };
+  all.apply_to_fields(
+      [&](auto&... into) { part.apply_to_fields([&](const auto&... entries) { (put(into, entries), ...); }); });
+}
+
+/// A body with its own faces only, without plates.
+template <int Dim>
+Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
+  Boundary<Dim> alone;
+  alone.walls = boundary.walls;
+  std::ranges::copy_if(boundary.meshes, std::back_inserter(alone.meshes),
+                       [&](const WallMesh& mesh) { return boundary.walls[mesh.wall].body == body; });
+  // Meshes first: their faces are consecutive.
+  for (WallMesh& mesh : alone.meshes) {
+    const auto from = boundary.faces.begin();
+    const int first = static_cast<int>(alone.faces.size());
+    alone.faces.insert(alone.faces.end(), from + mesh.first_face, from + mesh.end_face());
+    mesh.first_face = first;
+  }
+  boundary.visit_plain_faces([&](int f) {
+    const WallProperties& wall = boundary.walls[boundary.faces[f].wall];
+    if (wall.body == body && !wall.is_plate) alone.faces.push_back(boundary.faces[f]);
+  });
+  return alone;
+}
+
+/// Samples each body as if it were alone, because bodies separate.
+template <int Dim>
+WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers& layers, const Lattice<Dim>& lattice) {
+  std::set<int> bodies;
+  for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
+  std::vector<WallParticles<Dim>> parts;
+  for (const int body : bodies)
+    parts.push_back(sample(body_alone(boundary, body), layers.of_wall(body != resting_body), lattice));
+  for (WallParticles<Dim>& side : sample_plates<Dim>(boundary, layers, lattice)) parts.push_back(std::move(side));
+  WallParticles<Dim> all;
+  for (const WallParticles<Dim>& part : parts) {
+    all.numbers += part.numbers;
+    all.numbers_on_wall += part.numbers_on_wall;
+  }
+  std::int64_t on_wall = 0;
+  std::int64_t behind = 0;
+  for (WallParticles<Dim>& part : parts) {
+    const std::int64_t more_on_wall = part.numbers_on_wall;
+    const std::int64_t more_behind = part.numbers - part.numbers_on_wall;
+    append(all, std::move(part), on_wall, behind);
+    on_wall += more_on_wall;
+    behind += more_behind;
+  }
+  all.apply_to_fields([](auto&... field) { (field.shrink_to_fit(), ...); });
+  return all;
+}
+
+}  // namespace
+
+WallPlacement placement_of(WallTreatment treatment) {
+  switch (treatment) {
+    case WallTreatment::pressure_rows:
+      return {.on_wall = true, .behind = false};
+    case WallTreatment::row_and_dummies:
+      return {.on_wall = true, .behind = true};
+    case WallTreatment::dummies:
+      break;
+  }
+  return {.on_wall = false, .behind = true};
+}
+
+template <int Dim>
+WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                        const SpaceShare& share, const Lattice<Dim>& lattice) {
+  return sample_bodies<Dim>(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = false, .share = share},
+                            lattice);
+}
+
+template <int Dim>
+WallParticles<Dim> make_surface_particles(const Boundary<Dim>& boundary, double spacing, const SpaceShare& share) {
+  return make_row_and_dummy_particles(boundary, spacing, 1, share);
+}
+
+template <int Dim>
+WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
+                                                const SpaceShare& share) {
+  return sample_bodies<Dim>(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = true, .share = share},
+                            Lattice<Dim>{});
+}
+
+template WallParticles<2> make_dummy_particles<2>(const Boundary<2>&, double, int, const SpaceShare&,
+                                                  const Lattice<2>&);
+template WallParticles<3> make_dummy_particles<3>(const Boundary<3>&, double, int, const SpaceShare&,
+                                                  const Lattice<3>&);
+template WallParticles<2> make_surface_particles(const Boundary<2>&, double, const SpaceShare&);
+template WallParticles<3> make_surface_particles(const Boundary<3>&, double, const SpaceShare&);
+template WallParticles<2> make_row_and_dummy_particles(const Boundary<2>&, double, int, const SpaceShare&);
+template WallParticles<3> make_row_and_dummy_particles(const Boundary<3>&, double, int, const SpaceShare&);
+
+}  // namespace tailwater

@@ -1,0 +1,21 @@
+// The lattice of the water: its cells along each axis.
+#pragma once
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "sampling/lattice_axis.h"
+
+namespace tailwater {
+
+/// The cells of a block's lattice along each axis. A box has cells between its ends and the planes of axis-parallel
+/// walls that reach into it, a fill between those of all walls and its level, a polygon and a mesh between those of
+/// their own axis-parallel sides as well. Throws InputError as make_fluid_particles does.
+template <int Dim>
+Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary);
+
+/// The same of the first block, which goes on behind walls from meshes: their particles stand on it. Nothing is looked
+/// at if there are no such walls, or no water.
+template <int Dim>
+Lattice<Dim> lattice_behind_meshes(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+}  // namespace tailwater

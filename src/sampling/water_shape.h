@@ -1,0 +1,85 @@
+// The shape that a block of water is drawn with, whatever walls and bodies leave of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+#include "geometry/mesh_surface.h"
+#include "sampling/cell_set.h"
+#include "sampling/lattice_axis.h"
+
+namespace tailwater {
+
+/// Corners of a polygon. Throws InputError, which begins with the block's `owner`, if they are less than three.
+std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner);
+
+/// A box and a fill have no surface of their own: their lattice ends where they do.
+template <int Dim>
+class WaterShape {
+ public:
+  /// Throws InputError as outline_of and filled_cells do.
+  WaterShape(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary, const Lattice<Dim>& lattice);
+
+  /// Whether the place, the centre of a cell, is in it or on its surface. Asked along a line it looks at a mesh seldom:
+  /// what is nearer to the last place than the surface was is on the same side.
+  bool holds(const Cell<Dim>& cell, const Vec<Dim>& x);
+
+  bool has_surface() const { return mesh_ != nullptr || !outline_.faces.empty(); }
+  double volume() const { return volume_; }  ///< m^Dim, that its surface encloses
+
+  /// Calls visit(point, height, normal) with the place of the surface nearest to x, if it is within the reach: its
+  /// height above it is positive inside.
+  template <class Visit>
+  void visit_surface(const Vec<Dim>& x, double reach, Visit&& visit) const {
+    if (!outline_.faces.empty()) {
+      const NearestWall<Dim> near = outline_.nearest(x, reach);
+      if (near.face >= 0) visit(near.point, near.signed_distance, outline_.faces[near.face].normal);
+    }
+    if constexpr (Dim == 3) {
+      if (mesh_ == nullptr) return;
+      const SurfacePlace near = mesh_->nearest(x, reach);
+      if (near.triangle < 0) return;
+      visit(near.point, -near.signed_distance, Vec<3>(-mesh_->mesh().area_normal(near.triangle).normalized()));
+    }
+  }
+
+ private:
+  double tolerance_;                   ///< m
+  Boundary<Dim> outline_;              ///< of a polygon
+  std::vector<Vec<2>> corners_;        ///< of the polygon
+  const MeshSurface* mesh_ = nullptr;  ///< its front is outside
+  std::optional<CellSet<Dim>> filled_;
+  double volume_ = 0.0;
+  Vec<Dim> last_ = Vec<Dim>::Zero();  ///< the last place asked about
+  double last_height_ = 0.0;          ///< m; of it above the mesh
+};
+
+/// Bodies that stand in the water: walls with the water outside.
+template <int Dim>
+class Bodies {
+ public:
+  Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+  /// Whether `x` is inside one of them, and not on its surface.
+  bool hold(const Vec<Dim>& x) const;
+
+ private:
+  const Boundary<Dim>& boundary_;
+  double tolerance_;  ///< m
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
+  std::vector<std::vector<Vec<2>>> outlines_;
+  std::vector<const WallMesh*> meshes_;
+};
+
+/// Whether the particles of `block` are fitted to this face. A misfit between an axis-parallel wall that is no body and
+/// the edge of a box is the case file's, and check_geometry reports it.
+template <int Dim>
+bool adapts_to_wall(const CaseSpec& spec, const FluidTable& block, const WallFace<Dim>& face) {
+  const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
+  return block.shape != BlockShape::box || !is_axis_parallel || spec.walls[face.wall].fluid_side == FluidSide::outside;
+}
+
+}  // namespace tailwater

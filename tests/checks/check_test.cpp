@@ -1,0 +1,593 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "checks/check.h"
+#include "geometry/cases.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+template <int Dim = 2>
+std::vector<Finding> check(const CaseSpec& spec) {
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  return check_geometry<Dim>(spec, boundary, make_fluid_particles<Dim>(spec, boundary));
+}
+
+std::string listed(const std::vector<Finding>& findings) {
+  std::string text = "findings:";
+  for (const Finding& finding : findings) {
+    text += (finding.severity == Severity::error ? "\n  error: " : "\n  warning: ") + finding.message;
+  }
+  return text;
+}
+
+/// The findings are exactly one, of this severity, and its message has all these parts.
+void expect_only(const std::vector<Finding>& findings, Severity severity, const std::vector<std::string>& parts) {
+  ASSERT_EQ(findings.size(), 1u) << listed(findings);
+  EXPECT_EQ(findings[0].severity, severity) << listed(findings);
+  for (const std::string& part : parts) {
+    EXPECT_NE(findings[0].message.find(part), std::string::npos) << "'" << part << "' in " << listed(findings);
+  }
+}
+
+/// One of the findings is of this severity and has all these parts.
+void expect_among(const std::vector<Finding>& findings, Severity severity, const std::vector<std::string>& parts) {
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.severity == severity && std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+             return finding.message.find(part) != std::string::npos;
+           });
+  })) << listed(findings);
+}
+
+TEST(Check, AGoodCaseHasNoFindings) {
+  CaseSpec spec = tank();
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.particles.jitter = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.particles.jitter = 0.0;
+  spec.scheme.walls = WallTreatment::pressure_rows;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, AGoodCaseIn3DHasNoFindings) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
+// A dam break over a triangular sill with a pool behind it, the fluid drawn as polygons.
+TEST(Check, ASlopedBedIsGood) {
+  CaseSpec spec = empty_case(0.01);
+  spec.walls = {polyline({{0, 0.4}, {0, 0}, {1, 0}, {1.4, 0.2}, {1.8, 0}, {3, 0}, {3, 0.4}})};
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.3}), polygon_fluid({{1.8, 0}, {3, 0}, {3, 0.1}, {1.6, 0.1}})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+// A box that stands on the bed and touches it with its own bottom.
+TEST(Check, AnObstacleOnTheBedIsGood) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {3, 0}, {3, 1}}), box_wall({1.5, 0}, {1.8, 0.4}, {}, FluidSide::outside)};
+  spec.fluid = {box_fluid({0, 0}, {1.5, 0.3})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, NoFluid) {
+  CaseSpec spec = tank();
+  spec.fluid.clear();
+  expect_only(check(spec), Severity::error, {"no fluid", "[[fluid]]"});
+}
+
+TEST(Check, BlockSmallerThanTheSpacing) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {1, 0.04})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1'", "0.04 m long in y", "0.1 m"});
+  spec.fluid = {polygon_fluid({{0.1, 0.1}, {0.13, 0.1}, {0.1, 0.13}})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1'", "holds no particle", "(0.1, 0.1)"});
+}
+
+TEST(Check, ExtentNeedNotBeAWholeNumberOfSpacings) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.45})};
+  EXPECT_TRUE(check(spec).empty());
+}
+
+TEST(Check, OverlappingBlocks) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.4}), box_fluid({0.4, 0}, {1, 0.4})};
+  spec.fluid[0].name = "west";
+  expect_only(check(spec), Severity::error, {"'west'", "'fluid2'", "(0.45, 0.05)", "4 particles"});
+  spec.fluid[1].min[0] = 0.5;
+  spec.particles.jitter = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, FluidBehindAWall) {
+  CaseSpec spec = tank();
+  spec.walls[0].fluid_side = FluidSide::right;
+  spec.walls[0].name = "tank";
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1' lies behind wall 'tank'", "40 particles", "fluid_side"});
+}
+
+TEST(Check, FluidOnBothSides) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
+  spec.walls[1].name = "gate";
+  expect_among(check(spec), Severity::error, {"wall 'gate' has fluid on both sides", "fluid 'fluid1'"});
+}
+
+TEST(Check, FluidTooNearToAWall) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({-0.03, 0}, {0.77, 0.4})};
+  expect_only(check(spec), Severity::error, {"'fluid1' is too near to wall 'wall1'", "4 particles", "0.02 m", "0.1 m"});
+}
+
+TEST(Check, RoughnessLargerThanTheSpacing) {
+  CaseSpec spec = tank();
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].manning = 0.03;  // gravel
+  expect_only(check(spec), Severity::warning, {"wall 'wall1'", "k_s = 0.194 m", "manning = 0.03", "0.1 m", "draw"});
+  spec.walls[0].manning = 0.02;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, GapBetweenFluidAndWall) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0.06, 0}, {0.56, 0.4})};
+  expect_only(check(spec), Severity::warning, {"gap", "'fluid1'", "'wall1'", "1.10 spacings", "(0.11, "});
+  spec.fluid = {box_fluid({0.3, 0}, {0.6, 0.4})};  // on purpose away from the wall
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WallThatCrossesItself) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{2, 0}, {3, 1}, {3, 0}, {2, 1}}));
+  expect_among(check(spec), Severity::error, {"wall 'wall2' crosses itself at (2.5, 0.5)"});
+}
+
+TEST(Check, WallThinnerThanItsLayers) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(box_wall({0.6, -0.1}, {0.8, 0.5}, {"-y"}, FluidSide::outside));
+  spec.walls[1].name = "pier";
+  spec.fluid = {box_fluid({0, 0}, {0.6, 0.4})};
+  expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick", "3 layers", "0.3 m"});
+}
+
+TEST(Check, TwoWallsBackToBackHaveNoThickness) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
+  spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}, FluidSide::right));
+  expect_among(check(spec), Severity::error, {"wall 'wall2' is only 0 m thick", "'wall3' on its other side"});
+}
+
+TEST(Check, WaterThatPoursOut) {
+  CaseSpec spec = tank();
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.7, 0.0}})};
+  spec.walls[0].name = "tank";
+  spec.fluid = {box_fluid({0, 0}, {0.4, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out", "near wall 'tank'"});
+  spec.physics.gravity = {0.0, 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
+  CaseSpec spec = tank();
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.2}})};
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.6, 0.0}}), polyline({{0.8, 0.0}, {1.0, 0.0}, {1.0, 0.6}})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.walls[1].points[0] = {0.6, 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+// Slopes of 45 degrees pass exactly through the centres of a grid that is in step with the lattice.
+TEST(Check, SlantedWallsAreTight) {
+  for (const double shift : {0.0, 0.025, 0.05, 0.075}) {
+    CaseSpec spec = empty_case(0.1);
+    spec.walls = {polyline({{0, 2}, {0, 0.5}, {0.5 + shift, shift}, {1 + shift, shift}, {2, 1}, {2, 2}})};
+    spec.fluid = {box_fluid({0.6, 0.6}, {1, 1})};
+    EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  }
+}
+
+TEST(Check, WaterThatPoursOutIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  expect_only(check<3>(spec), Severity::error, {"pour out"});
+}
+
+TEST(Check, WaterGoesRoundAPeriodicDomain) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {2, 0}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.4})};
+  expect_only(check(spec), Severity::error, {"pour out"});
+  spec.domain.periodic_x = {0.0, 2.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, PeriodicDirectionTooNarrow) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {1, 0}})};
+  spec.fluid = {box_fluid({0, 0}, {1, 0.4})};
+  spec.domain.periodic_x = {0.0, 1.0};
+  expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
+}
+
+// Its wall particles would be wrapped into one period, hundreds on top of each other.
+TEST(Check, AWallLongerThanThePeriod) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {2, 0}}), polyline({{500, 1}, {2, 1}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.4})};
+  spec.domain.periodic_x = {0.0, 2.0};
+  expect_among(check(spec), Severity::error, {"wall 'wall2' is 498 m long in x", "every 2 m", "draw one period"});
+}
+
+TEST(Check, ACrestAsHighAsTheEndsOfItsBed) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.6}, {2, 0}, {3, 0}, {3, 0.5}})};
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.3})};
+  expect_only(check(spec), Severity::error, {"wall 'wall1' has a crest at (1.5, 0.6)", "0.1 m", "lower the crest"});
+  spec.walls[0].points[3][1] = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  // A beach that is the end of its bed, and a bed that ends open.
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {3, 0.6}})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WaterThatStartsInsideTheBed) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {1.5, 0.2}, {2, 0}, {3, 0}, {3, 0.5}})};
+  spec.fluid = {box_fluid({0, 0}, {3, 0.3})};
+  expect_among(check(spec), Severity::error, {"wall 'wall1'", "starts inside a bed", "(1.4", "polygon"});
+}
+
+/// A gate three spacings thick between two pools, on its path for 1 s.
+CaseSpec gate_case(VectorField displacement) {
+  CaseSpec spec = empty_case(0.05);
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{0, 1}, {0, 0}, {2.15, 0}, {2.15, 1}}),
+                box_wall({1, 0}, {1.15, 0.8}, {}, FluidSide::outside)};
+  spec.walls[1].name = "gate";
+  spec.walls[1].displacement = std::move(displacement);
+  spec.fluid = {box_fluid({0, 0}, {1, 0.5}), box_fluid({1.15, 0}, {2.15, 0.1})};
+  return spec;
+}
+
+TEST(CheckMotion, AGateThatOpensIsGood) {
+  EXPECT_TRUE(check(gate_case({0.0, "1.5*max(0, t - 0.1)"})).empty());
+  CaseSpec spec = empty_case(0.05, 3);
+  spec.time.end = 1.0;
+  spec.walls = {box_wall({0, 0, 0}, {2.15, 0.3, 1}, {"+z"}),
+                box_wall({1, 0, 0}, {1.15, 0.3, 0.8}, {}, FluidSide::outside)};
+  spec.walls[1].displacement = {0.0, 0.0, "1.5*t"};
+  spec.fluid = {box_fluid({0, 0, 0}, {1, 0.3, 0.5})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
+TEST(CheckMotion, AGateThatSlidesAlongAWallIsGood) {
+  CaseSpec spec = gate_case({0.0, "t"});
+  spec.walls.push_back(box_wall({0.8, 0.8}, {1, 2}, {}, FluidSide::outside));  // a guide beside its way
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(CheckMotion, ATankThatMovesAsAWholeIsGood) {
+  CaseSpec spec = tank();
+  spec.time.end = 5.0;
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.0}, {1.0, 0.6}})};
+  for (WallTable& wall : spec.walls) wall.rotation = "0.5*sin(3*t)";
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(CheckMotion, NotWhereItIsDrawn) {
+  expect_only(check(gate_case({0.0, "0.2 + t"})), Severity::error, {"wall 'gate'", "t = 0", "(0, 0.2)", "subtract"});
+  expect_only(check(gate_case({0.1, 0.0})), Severity::error, {"wall 'gate'", "(0.1, 0)"});
+}
+
+TEST(CheckMotion, NotFinite) {
+  expect_only(check(gate_case({0.0, "t < 0.5 ? t : sqrt(0.4 - t)"})), Severity::error,
+              {"wall 'gate'", "no finite place", "t = 0.5"});
+}
+
+TEST(CheckMotion, TooFast) {
+  expect_only(check(gate_case({0.0, "200*t"})), Severity::error, {"wall 'gate'", "150 m/s", "t = 0"});
+  // A jump is faster than any speed.
+  expect_only(check(gate_case({0.0, "t < 0.3 ? 0 : 0.1"})), Severity::error, {"wall 'gate'", "0.1 m", "t = 0.29"});
+}
+
+TEST(CheckMotion, ThroughAWall) {
+  // The gate's side x = 1.15 reaches the wall x = 2.15 at t = 1/2; it may come as near as dx, which is at 0.475.
+  expect_only(check(gate_case({"2*t", "min(t, 0.01)"})), Severity::error, {"wall 'gate'", "wall 'wall1'", "t = 0.4"});
+  // Its foot is on the bed: down it goes through at once.
+  expect_only(check(gate_case({0.0, "-0.1*t"})), Severity::error,
+              {"wall 'gate' crosses wall 'wall1'", "t = 0.1", "(1", "change its path"});
+}
+
+TEST(CheckMotion, ClosingCrushesTheWater) {
+  // Up by 0.3 m and down again: the foot is a spacing from the bed at t = 0.5 + 0.25/0.6.
+  expect_only(check(gate_case({0.0, "0.6*min(t, 1 - t)"})), Severity::error,
+              {"wall 'gate'", "wall 'wall1'", "crushed", "t = 0.9"});
+  EXPECT_TRUE(check(gate_case({0.0, "0.6*min(t, max(1 - t, 0.1))"})).empty());
+}
+
+TEST(CheckMotion, RowsOnTheWallsMustNotLieInEachOther) {
+  CaseSpec spec = gate_case({0.0, "1.5*t"});
+  spec.scheme.walls = WallTreatment::row_and_dummies;
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.5})};
+  expect_only(check(spec), Severity::error, {"wall 'gate' is 0 m from wall 'wall1' at (1, 0)", "0.05 m", "dummies"});
+  spec.walls[1].min[1] = 0.05;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+/// A lid 1 m wide with its lower side at 0.8 m over 0.5 m of water, on its path for 1 s.
+CaseSpec lid_case(VectorField displacement) {
+  CaseSpec spec = empty_case(0.05);
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{0, 1.2}, {0, 0}, {1, 0}, {1, 1.2}}), box_wall({0, 0.8}, {1, 1}, {}, FluidSide::outside)};
+  spec.walls[1].name = "lid";
+  spec.walls[1].displacement = std::move(displacement);
+  spec.fluid = {box_fluid({0, 0}, {1, 0.5})};
+  return spec;
+}
+
+TEST(CheckMotion, APistonThatCrushesTheWaterInAClosedBox) {
+  // The water fills 200 cells. Where n rows of 20 have their middles below the lid it may have 20 n + (20 + 20 + 2 n)/2
+  // of them, too few from n = 8 on: below 0.425 m, looked for every dx.
+  expect_only(check(lid_case({0.0, "-0.43*t"})), Severity::error,
+              {"wall 'lid' crushes the water at t = 0.", "at (0.5, 0.", "0.47 m^2", "0.5 m^2 of water"});
+  EXPECT_TRUE(check(lid_case({0.0, "-0.29*t"})).empty());
+  // It comes from above, into the open box.
+  CaseSpec spec = lid_case({0.0, "-0.95*t"});
+  spec.walls[1].min[1] = 1.3;
+  spec.walls[1].max[1] = 1.5;
+  expect_only(check(spec), Severity::error, {"wall 'lid' crushes the water at t = 0.9", "at (0.5, 0.3"});
+  // Beside it the water gets out.
+  spec.walls[1].min[0] = 0.1;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(CheckMotion, APistonThatCrushesTheWaterInAClosedBoxIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.time.end = 1.0;
+  spec.walls = {box_wall({0, 0, 0}, {1, 1, 2}, {"+z"}), box_wall({0, 0, 1}, {1, 1, 1.4}, {}, FluidSide::outside)};
+  spec.walls[1].displacement = {0.0, 0.0, "-0.8*t"};
+  spec.fluid = {box_fluid({0, 0, 0}, {1, 1, 0.6})};
+  expect_only(check<3>(spec), Severity::error, {"wall 'wall2' crushes the water", "m^3"});
+  spec.walls[1].displacement = {0.0, 0.0, "-0.3*t"};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
+TEST(CheckMotion, AWallThatEndsAtAMovingOneIsToldToGoOn) {
+  CaseSpec spec = tank();
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.6}}), polyline({{0.0, 0.6}, {0.0, 0.0}})};
+  spec.walls[1].displacement = {"0.2*t", 0.0};
+  expect_only(check(spec), Severity::warning, {"wall 'wall1' ends at (0, 0)", "wall 'wall2'", "0.3 m"});
+  spec.walls[0].points[0][0] = -0.3;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, AnOutletIsNoLeak) {
+  EXPECT_TRUE(check(open_channel()).empty()) << listed(check(open_channel()));
+  CaseSpec full = open_channel();
+  full.fluid = {box_fluid({0.0, 0.0}, {2.0, 0.4})};
+  EXPECT_TRUE(check(full).empty()) << listed(check(full));
+  CaseSpec closed_above = open_channel();
+  closed_above.walls.push_back(polyline({{2.0, 0.8}, {0.0, 0.8}}));
+  EXPECT_TRUE(check(closed_above).empty()) << listed(check(closed_above));
+
+  CaseSpec low = open_channel();
+  low.outlets = {outlet({2.0, 0.0}, {2.0, 0.2})};
+  expect_only(check(low), Severity::error, {"would pour out"});
+}
+
+// Drawn as a line, a weir lets water through from behind.
+TEST(Check, WaterBehindALineIsAnError) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}), polyline({{1.0, 0.2}, {1.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.5, 0.4})};
+  spec.walls[1].fluid_side = FluidSide::right;
+  expect_only(check(spec), Severity::error, {"can reach the back of wall 'wall2'", "shape = \"plate\""});
+  spec.walls[1].shape = WallShape::plate;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.scheme.walls = WallTreatment::pressure_rows;
+  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"dummies\""});
+}
+
+// Water on both sides of a slanted plate, each nearer than dx/2 to the other.
+TEST(Check, BlocksOnBothSidesOfAPlateMayBeNearEachOther) {
+  CaseSpec spec = empty_case(0.05);
+  spec.particles.jitter = 0.2;
+  spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0}, {1, 1}}), polyline({{0.4, 0}, {0.6, 1}})};
+  spec.walls[1].shape = WallShape::plate;
+  for (const double seed : {0.1, 0.9}) {
+    FluidTable water;
+    water.shape = BlockShape::fill;
+    water.seed = {seed, 0.1};
+    water.level = 0.8;
+    spec.fluid.push_back(water);
+  }
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, AnOutletIn3DIsNoLeak) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  spec.outlets = {outlet({1.0, 0.0, 0.0}, {1.0, 0.5, 0.6})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.outlets = {outlet({1.0, 0.1, 0.0}, {1.0, 0.5, 0.6})};
+  expect_among(check<3>(spec), Severity::error, {"'outlet1' leaves a gap to the walls", "(1, 0.1, "});
+}
+
+TEST(Check, AnOutletThatOverlapsAWallIsAnError) {
+  CaseSpec closed = open_channel();
+  closed.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
+  expect_only(check(closed), Severity::error, {"outlet 'outlet1' overlaps wall 'wall1' at (2, ", "leave that piece"});
+  CaseSpec crossed = open_channel();
+  crossed.walls.push_back(box_wall({1.8, 0.35}, {2.5, 0.7}, {}, FluidSide::outside));
+  expect_among(check(crossed), Severity::error, {"outlet 'outlet1' overlaps wall 'wall2'"});
+}
+
+TEST(Check, AnOutletThatCutsThroughWaterIsAnError) {
+  CaseSpec spec = open_channel();
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {3.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.3, 0.4})};
+  expect_among(check(spec), Severity::error, {"'outlet1' cuts through fluid 'fluid1': 12 particles", "(2.05, 0.05)"});
+  CaseSpec backward = open_channel();
+  backward.outlets[0].direction = {-1.0, 0.0};
+  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "the opposite direction"});
+}
+
+TEST(Check, AnOutletOffTheWallsIsAnError) {
+  CaseSpec gap = open_channel();
+  gap.outlets = {outlet({2.0, 0.03}, {2.0, 0.8})};
+  expect_among(check(gap), Severity::error, {"leaves a gap to the walls at (2, 0.03)", "(2, 0), 0.03 m away"});
+  CaseSpec below = open_channel();
+  below.outlets = {outlet({2.0, -0.03}, {2.0, 0.8})};
+  expect_among(check(below), Severity::error, {"at (2, -0.03)", "0.03 m away"});
+  CaseSpec outside = open_channel();
+  outside.outlets = {outlet({5.0, 0.0}, {5.0, 0.8})};
+  expect_among(check(outside), Severity::error, {"leaves a gap to the walls at (5, 0)", "3 m away"});
+  CaseSpec no_wall = open_channel();
+  no_wall.walls.clear();
+  expect_only(check(no_wall), Severity::error, {"the case has no wall"});
+}
+
+TEST(Check, AnOutletInAPeriodicDirectionIsAnError) {
+  CaseSpec spec = open_channel();
+  spec.domain.periodic_x = {0.0, 2.0};
+  expect_among(check(spec), Severity::error, {"'outlet1'", "lets water out in x", "periodic_x"});
+}
+
+/// A tank that a file moves to and fro, with 20 lines per period of 1 s.
+CaseSpec shaken_tank() {
+  CaseSpec spec = tank();
+  spec.time.end = 2.0;
+  TimeSeries& series = spec.walls[0].series;
+  series.file = "shake.csv";
+  series.columns.resize(4);
+  for (int k = 0; k <= 40; ++k) {
+    series.line.push_back(k + 2);
+    series.time.push_back(0.05 * k);
+    series.columns[0].push_back(0.3 * std::pow(std::sin(0.05 * k * 3.14159265), 2));
+  }
+  spec.walls[0].motion = series.file;
+  return spec;
+}
+
+TEST(Check, ASmoothMotionOfAFileHasNoFindings) {
+  EXPECT_TRUE(check(shaken_tank()).empty()) << listed(check(shaken_tank()));
+}
+
+TEST(Check, AFileThatJumpsIsRefusedWithItsLines) {
+  CaseSpec spec = shaken_tank();
+  for (std::size_t k = 13; k <= 40; ++k) spec.walls[0].series.columns[0][k] += 2.0;  // 40 m/s; sqrt(2 g L) is 2.8 m/s
+  expect_only(check(spec), Severity::error,
+              {"wall 'wall1' jumps between lines 14 and 15 of shake.csv", "0.05 s", "units"});
+}
+
+TEST(Check, AFileTooCoarseForItsMotionIsToldWithItsLines) {
+  CaseSpec spec = shaken_tank();
+  spec.walls[0].series.columns[0].assign(41, 0.0);
+  for (std::size_t k = 20; k <= 40; ++k) spec.walls[0].series.columns[0][k] = 0.5;
+  expect_only(check(spec), Severity::warning,
+              {"wall 'wall1'", "beyond what lines 2", "of shake.csv", "more lines there"});
+}
+
+TEST(Check, AFileThatDoesNotBeginWhereItsWallIsDrawnIsRefused) {
+  CaseSpec spec = shaken_tank();
+  for (double& x : spec.walls[0].series.columns[0]) x += 0.2;
+  expect_only(check(spec), Severity::error, {"wall 'wall1' is not where it is drawn", "shake.csv", "(0.2, 0)"});
+}
+
+/// Channel from 0 to 2 m, 0.8 m high, open at both ends, with 0.4 m of water; one thing is prescribed at its inlet.
+CaseSpec flume(const Varying& discharge = 0.1) {
+  CaseSpec spec = open_channel();
+  spec.walls = {polyline({{0.0, 0.0}, {2.0, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.0, 0.4})};
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, discharge)};
+  spec.outlets[0].level = 0.4;
+  spec.time.end = 10.0;
+  return spec;
+}
+
+TEST(Check, AFlumeIsSound) { EXPECT_TRUE(check(flume()).empty()) << listed(check(flume())); }
+
+TEST(Check, ACrestMayBeHigherThanTheBedAtOpenEnds) {
+  CaseSpec spec = flume();
+  spec.walls = {polyline({{0.0, 0.05}, {0.5, 0.0}, {1.0, 0.0}, {1.0, 0.2}, {1.4, 0.2}, {1.4, 0.0}, {2.0, 0.0}})};
+  spec.inlets[0].from = {0.0, 0.05};
+  spec.fluid.clear();
+  for (const Finding& finding : check(spec)) EXPECT_EQ(finding.message.find("crest"), std::string::npos);
+}
+
+TEST(Check, AnOpenEndThatFacesTheWrongWayIsAnError) {
+  CaseSpec spec = flume();
+  spec.fluid.clear();
+  spec.inlets[0].direction = {-1.0, 0.0};
+  expect_only(check(spec), Severity::error, {"inlet 'inlet1' at (0, 0) faces the wrong way", "(-1, 0)", "opposite"});
+  spec.inlets[0].direction = {1.0, 0.0};
+  spec.outlets[0].direction = {-1.0, 0.0};
+  expect_only(check(spec), Severity::error, {"outlet 'outlet1' at (2, 0) faces the wrong way"});
+}
+
+TEST(Check, AnInletInAWallOrOffTheBedIsAnError) {
+  CaseSpec low = flume();
+  low.inlets[0].from = {0.0, -0.2};
+  expect_among(check(low), Severity::error, {"inlet 'inlet1'", "at (0, -0.2)", "0.2 m away"});
+  CaseSpec closed = flume();
+  closed.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}})};
+  expect_among(check(closed), Severity::error, {"inlet 'inlet1' overlaps wall 'wall1' at (0, "});
+}
+
+TEST(Check, WhatAnInletCannotPassIsAnError) {
+  // Critical depth cbrt(q^2/g): 0.8 m at q = 2.24 m^2/s.
+  EXPECT_TRUE(check(flume(2.2)).empty()) << listed(check(flume(2.2)));
+  expect_only(check(flume(2.3)), Severity::error,
+              {"inlet 'inlet1'", "more water enters than the opening can pass", "0.8 m high", "1 l/s is 0.001"});
+  CaseSpec fast = flume();
+  fast.inlets[0].discharge.reset();
+  fast.inlets[0].velocity = 3.0;  // critical at 0.92 m
+  expect_only(check(fast), Severity::error, {"more water enters", "needs its level too"});
+  fast.inlets[0].level = 0.4;
+  EXPECT_TRUE(check(fast).empty()) << listed(check(fast));
+  fast.inlets[0].velocity = 50.0;
+  expect_only(check(fast), Severity::error, {"at 50 m/s, which is implausible", "a velocity in m/s"});
+  fast.inlets[0].velocity = 1.0;
+  expect_only(check(fast), Severity::error, {"level is given with a flow that is subcritical", "remove the level"});
+  CaseSpec thin = flume(0.09);  // critical at 0.094 m
+  expect_only(check(thin), Severity::warning,
+              {"critical at a depth of 0.0938 m at most, less than the spacing of 0.1 m"});
+}
+
+TEST(Check, ALevelOutsideItsOpeningIsAnError) {
+  CaseSpec spec = flume();
+  spec.outlets[0].level = "0.4 + 0.05*t";
+  expect_only(check(spec), Severity::error,
+              {"outlet 'outlet1': level = 0.8", "is above the top of the opening, 0.8 m"});
+  spec.outlets[0].level = -0.1;
+  expect_only(check(spec), Severity::error, {"level = -0.1 m at t = 0 s is below the lowest point", "not depths"});
+}
+
+TEST(Check, ASeriesThatIsTooShortOrJumpsIsAnError) {
+  CaseSpec spec = flume();
+  spec.inlets[0].discharge.reset();
+  spec.inlets[0].series = {"hydrograph.csv", {2, 3}, {0.0, 8.0}, {{0.1, 0.2}, {}, {}}};
+  expect_only(check(spec), Severity::error,
+              {"inlet 'inlet1': file covers t = 0 to 8 s", "time.end = 10 s", "add rows"});
+  spec.inlets[0].series.time = {1.0, 12.0};
+  expect_only(check(spec), Severity::error, {"file covers t = 1 to 12 s"});
+  spec.inlets[0].series = {"hydrograph.csv", {2, 3, 4}, {0.0, 5.0, 5.01, 12.0}, {{0.1, 0.1, 0.3, 0.3}, {}, {}}};
+  expect_only(check(spec), Severity::error, {"inlet 'inlet1': discharge jumps by", "let it change over"});
+  expect_only(check(flume("t < 3 ? 0.1 : 0.5")), Severity::error, {"discharge jumps by 0.4 m^3/s between t = "});
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,92 @@
+// What is checked of walls from meshes.
+#include <gtest/gtest.h>
+
+#include "checks/check.h"
+#include "checks/checks.h"
+#include "geometry/meshes.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
+  const MeshFolder folder;
+  const auto errors = [&](const TriangleMesh& mesh, double scale = 1.0) {
+    CaseSpec spec = case_with(folder.wall(mesh, FluidSide::outside));
+    spec.walls[0].scale = scale;
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    std::string text;
+    for (const Finding& finding : check_meshes(spec, boundary, make_fluid_particles(spec, boundary))) {
+      text += finding.message + "\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(errors(unit_box()), "");
+  EXPECT_EQ(errors(sphere_mesh(Vec<3>::Zero(), 0.5, 16)), "");
+  expect_words(errors(box_mesh({5.0, 0.0, 0.0}, {1005.0, 200.0, 300.0})),
+               {"wall 'wall1' is 1000 m long and the water 3 m", "scale = 0.001"});
+  expect_words(errors(unit_box(), 0.001), {"is 0.001 m long, less than a spacing of 0.1 m"});
+  expect_words(errors(box_mesh({0.0, 0.0, 0.0}, {1.0, 1.0, 0.25})), {"only 0.25 m thick at", "need 0.3 m"});
+  TriangleMesh two = unit_box();
+  const TriangleMesh other = box_mesh({0.5, 0.5, 0.5}, {1.5, 1.6, 1.7});
+  for (const auto& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  two.points.insert(two.points.end(), other.points.begin(), other.points.end());
+  expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
+}
+
+// A tank of 3 m with a body in it, beside it, or so large that the tank is inside.
+TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(unit_box(), FluidSide::outside), box_wall({-1, -1, -1}, {2, 2, 2}, {"+z"})};
+  spec.fluid = {box_fluid({-1, -1, -1}, {2, 2, 1.5})};
+  const auto found = [&] {
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    return check_meshes(spec, boundary, make_fluid_particles(spec, boundary));
+  };
+  EXPECT_TRUE(found().empty());
+  spec.walls[0].translate = {5.0, 0.0, 0.0};
+  Findings findings = found();
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  expect_words(findings[0].message, {"wall 'wall1': file ", "mesh.stl reaches from (5, 0, 0) to (6, 1, 1)",
+                                     "from (-1, -1, -1) to (2, 2, 2), so it stands beside them", "correct translate"});
+  spec.walls[0].translate = {-4.0, -4.0, 0.0};
+  spec.walls[0].scale = 8.0;
+  findings = found();
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  expect_words(findings[0].message, {"is a body 8 m long among water and walls of 3 m", "0.001 for a file in mill"});
+}
+
+TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0.0, 0.0, 0.0}, {1.6, 1.6, 2.0}, {"+z"}),
+                folder.wall(sphere_mesh({0.831, 0.812, 0.822}, 0.5, 48), FluidSide::outside)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {1.6, 1.6, 1.6})};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
+    EXPECT_EQ(finding.severity, Severity::warning) << finding.message;
+  }
+}
+
+TEST(CheckFill, OfABoxTankThatDxDoesNotDivideHasNoFindings) {
+  CaseSpec spec = empty_case(0.0275, 3);
+  spec.walls = {box_wall({0.0, 0.0, 0.0}, {3.22, 1.0, 1.0}, {"+z"})};
+  FluidTable fill;
+  fill.shape = BlockShape::fill;
+  fill.seed = {0.5, 0.5, 0.2};
+  fill.level = 0.55;
+  for (const FluidTable& water : {fill, box_fluid({1.992, 0.0, 0.0}, {3.22, 1.0, 0.55})}) {
+    spec.fluid = {water};
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
+      ADD_FAILURE() << finding.message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tailwater

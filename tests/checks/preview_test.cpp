@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+#include "checks/broken_case.h"
+#include "checks/preview.h"
+#include "geometry/meshes.h"
+#include "sampling/wall_particles.h"
+#include "sampling/water_lattice.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+template <int Dim>
+std::string preview(const CaseSpec& spec) {
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  return preview_svg<Dim>(
+      spec, boundary, make_fluid_particles<Dim>(spec, boundary),
+      make_dummy_particles<Dim>(boundary, spec.particles.spacing, 3, {}, lattice_behind_meshes(spec, boundary)));
+}
+
+TEST(Preview, ShowsParticlesWallsProbesAndCounts) {
+  CaseSpec spec = tank();
+  spec.general.title = "Tank <at> rest & quiet";
+  ProbeTable probe;
+  probe.name = "H1";
+  probe.at = {0.5, 0.0};
+  spec.probes = {probe};
+  const std::string svg = preview<2>(spec);
+  EXPECT_EQ(occurrences(svg, "M"), 40u + 84u) << "a dot per particle";
+  EXPECT_NE(svg.find("Tank &lt;at&gt; rest &amp; quiet"), std::string::npos);
+  EXPECT_NE(svg.find("spacing 0.1 m, 40 fluid and 84 wall particles"), std::string::npos);
+  EXPECT_NE(svg.find(">H1</text>"), std::string::npos);
+}
+
+TEST(Preview, DrawsOutlinesWhenThereAreTooManyParticles) {
+  CaseSpec spec = tank();
+  spec.particles.spacing = 0.002;
+  const std::string svg = preview<2>(spec);
+  EXPECT_EQ(occurrences(svg, "<polygon"), 1u) << "100 000 particles are one block";
+  EXPECT_EQ(occurrences(svg, "<path"), 1u) << "the wall's";
+}
+
+TEST(Preview, Projects3DOnXAndZ) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {0.4, 0.5, 0.4})};
+  EXPECT_NE(preview<3>(spec).find("z (m)"), std::string::npos);
+}
+
+TEST(Preview, ShowsOutlets) {
+  CaseSpec spec = open_channel();
+  spec.outlets[0].name = "weir & end";
+  EXPECT_NE(preview<2>(spec).find(">weir &amp; end</text>"), std::string::npos);
+  spec.outlets.clear();
+  EXPECT_EQ(preview<2>(spec).find("weir"), std::string::npos);
+}
+
+TEST(Preview, CirclesBadPlaces) {
+  const CaseSpec spec = tank();
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const std::array<Vec<2>, 2> places{Vec<2>(0.5, 0.1), Vec<2>(2.5, 0.1)};
+  const std::string svg = preview_svg<2>(spec, boundary, make_fluid_particles<2>(spec, boundary), {}, places);
+  EXPECT_EQ(occurrences(svg, "<circle"), 2u);
+  EXPECT_NE(svg.find(">2.5</text>"), std::string::npos) << "the picture reaches to the second place";
+}
+
+TEST(Preview, OfAFineMeshDoesNotDrawItsFaces) {
+  CaseSpec spec = empty_case(0.1, 3);
+  const MeshFolder folder;
+  spec.walls = {folder.wall(sheet_mesh(110, [](double x, double y) { return 0.1 * x * y; }), FluidSide::above)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.3}, {0.4, 0.5, 0.4})};
+  EXPECT_LT(preview<3>(spec).size(), 1'000'000u) << "24 200 triangles would be 8 MB";
+}
+
+TEST(BrokenCase, MarksThePlacesThatTheMessageNames) {
+  const auto found = places_in<3>("wall 'pier': the edge from (0, -1.5, 2e-05) to (1, 2, 3.25) of triangle 3 (of 12)");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0], Vec<3>(0.0, -1.5, 2e-05));
+  EXPECT_EQ(found[1], Vec<3>(1.0, 2.0, 3.25));
+  EXPECT_EQ(places_in<2>("points[1] is at (0.5, 1)").size(), 1u);
+  EXPECT_TRUE(places_in<2>("at (0.5, 1, 2)").empty());
+  EXPECT_TRUE(places_in<3>("too much memory").empty());
+  EXPECT_TRUE(places_in<2>("wall '(1e999, -)' or '(1e+999, 0)'").empty());
+}
+
+TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {2.0, 1.0, 1.0}, {"+z"}),
+                folder.wall(box_mesh({0.5, 0.0, 0.0}, {1.0, 0.5, 0.5}), FluidSide::outside)};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {0.5, 1.0, 0.5})};
+  EXPECT_EQ(draw_broken_case<3>(spec).fluid.position.size(), 5u * 10u * 5u) << "nothing is wrong";
+
+  TriangleMesh open = box_mesh({0.5, 0.0, 0.0}, {1.0, 0.5, 0.5});
+  open.triangles.pop_back();
+  spec.walls[1] = folder.wall(open, FluidSide::outside);
+  spec.walls[1].translate = {0.0, 0.0, 3.0};
+  const BrokenCase<3> drawing = draw_broken_case<3>(spec);
+  EXPECT_EQ(drawing.boundary.faces.size(), 5u * 2u + 11u);
+  EXPECT_EQ(drawing.boundary.faces.back().wall, 1);
+  EXPECT_GE(drawing.boundary.faces.back().corners[0][2], 3.0) << "where it stands in the case";
+  EXPECT_TRUE(drawing.fluid.position.empty()) << "without all walls nobody knows where water can be";
+
+  spec.walls[1].file = "nowhere.stl";
+  EXPECT_EQ(draw_broken_case<3>(spec).boundary.faces.size(), 5u * 2u);
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/error.h"
+#include "geometry/boundary.h"
+#include "geometry/cases.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double round_off = 1e-14;
+
+std::string input_error_of(const CaseSpec& spec) {
+  try {
+    spec.general.dimension == 2 ? void(make_boundary<2>(spec)) : void(make_boundary<3>(spec));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Boundary, NormalsPointIntoTheFluid) {
+  CaseSpec spec = empty_case(0.1);
+  const std::vector<Coordinates> clockwise{{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+  spec.walls = {polyline({{0, 0}, {1, 0}}, FluidSide::left),     polyline({{0, 0}, {1, 0}}, FluidSide::right),
+                polygon(clockwise, FluidSide::inside),           polygon(clockwise, FluidSide::outside),
+                box_wall({0, 0}, {1, 1}, {}, FluidSide::inside), box_wall({0, 0}, {1, 1}, {}, FluidSide::outside)};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  ASSERT_EQ(boundary.faces.size(), 2u + 4 * 4);
+  const Vec<2> centre(0.5, 0.5);
+  for (const WallFace<2>& face : boundary.faces) {
+    const Vec<2> along = face.corners[1] - face.corners[0];
+    EXPECT_NEAR(along[0] * face.normal[1] - along[1] * face.normal[0], along.norm(), round_off) << "fluid on the left";
+    const bool fluid_at_centre = face.wall == 0 || face.wall == 2 || face.wall == 4;
+    EXPECT_EQ(face.height(centre) > 0.0, fluid_at_centre) << "wall " << face.wall;
+  }
+}
+
+TEST(Boundary, BoxIn3DHasTwoTrianglesPerClosedFace) {
+  for (const FluidSide side : {FluidSide::inside, FluidSide::outside}) {
+    CaseSpec spec = empty_case(0.1, 3);
+    spec.walls = {box_wall({0, 0, 0}, {1, 2, 3}, {"+z"}, side)};
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    ASSERT_EQ(boundary.faces.size(), 10u);
+    double area = 0.0;
+    for (const WallFace<3>& face : boundary.faces) {
+      const Vec<3> winding = (face.corners[1] - face.corners[0]).cross(face.corners[2] - face.corners[0]);
+      EXPECT_GT(winding.dot(face.normal), 0.0) << "counter-clockwise as the fluid sees it";
+      EXPECT_EQ(face.height(Vec<3>(0.5, 0.5, 0.5)) > 0.0, side == FluidSide::inside);
+      area += face.measure();
+    }
+    EXPECT_NEAR(area, 2.0 * (1 * 3 + 2 * 3) + 1 * 2, 20 * round_off);
+  }
+}
+
+TEST(Boundary, FrictionFollowsSlip) {
+  CaseSpec spec = empty_case(0.1);
+  for (const Slip slip : {Slip::free, Slip::no_slip, Slip::partial}) {
+    spec.walls.push_back(polyline({{0, 0}, {1, 0}}));
+    spec.walls.back().slip = slip;
+    spec.walls.back().friction = 0.25;
+  }
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  EXPECT_EQ(boundary.walls[0].friction, 0.0);
+  EXPECT_EQ(boundary.walls[1].friction, 1.0);
+  EXPECT_EQ(boundary.walls[2].friction, 0.25);
+  EXPECT_EQ(boundary.walls[1].name, "wall2");
+}
+
+TEST(Boundary, RoughnessOfManningIsThatOfStrickler) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {1, 0}}), polyline({{0, 0}, {1, 0}})};
+  spec.walls[0].manning = 0.012;
+  spec.walls[1].roughness = 0.003;
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  // Then U/u_tau = 8.1 (h/k_s)^(1/6) is Manning's U = h^(2/3) S^(1/2)/n, with u_tau = sqrt(g h S), for any h and S.
+  const double k_s = boundary.walls[0].roughness;
+  EXPECT_NEAR(std::pow(k_s, 1.0 / 6.0) / (8.1 * std::sqrt(9.81)), 0.012, 1e-15);
+  EXPECT_EQ(boundary.walls[1].roughness, 0.003);
+}
+
+// Fluid in the quadrant x, y > 0: a concave corner.
+TEST(Boundary, SignedDistanceAtAConcaveCorner) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {1, 0}})};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  EXPECT_NEAR(boundary.nearest({0.3, 0.2}, infinite).signed_distance, 0.2, round_off);
+  EXPECT_NEAR(boundary.nearest({-0.3, 0.5}, infinite).signed_distance, -0.3, round_off);
+  EXPECT_NEAR(boundary.nearest({-0.3, -0.4}, infinite).signed_distance, -0.5, round_off);
+  EXPECT_EQ(boundary.nearest({0.3, 0.2}, 0.1).face, -1);
+}
+
+// A wedge of solid with its tip at the origin, 2 x 0.1 rad thin: near the tip the two faces' planes disagree.
+TEST(Boundary, SignedDistanceAtASharpConvexCorner) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{-std::cos(0.1), std::sin(0.1)}, {0, 0}, {-std::cos(0.1), -std::sin(0.1)}})};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  for (const Vec<2>& x : {Vec<2>(0.2, 0.0), Vec<2>(0.05, 0.3), Vec<2>(0.05, -0.3), Vec<2>(0.2, 0.2)}) {
+    EXPECT_NEAR(boundary.nearest(x, infinite).signed_distance, x.norm(), round_off);
+  }
+  EXPECT_NEAR(boundary.nearest({-0.5, 0.0}, infinite).signed_distance, -0.5 * std::sin(0.1), round_off);
+}
+
+TEST(Boundary, SignedDistanceToABoxIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1, 1, 1}, {"+z"})};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  const auto distance = [&](double x, double y, double z) {
+    return boundary.nearest({x, y, z}, infinite).signed_distance;
+  };
+  EXPECT_NEAR(distance(0.5, 0.4, 0.1), 0.1, round_off);
+  EXPECT_NEAR(distance(0.9, 0.5, 0.5), 0.1, round_off);
+  EXPECT_NEAR(distance(0.5, 0.5, -0.2), -0.2, round_off);
+  EXPECT_NEAR(distance(-0.3, 0.5, -0.4), -0.5, round_off);                // an edge
+  EXPECT_NEAR(distance(-0.2, -0.3, -0.6), -0.7, round_off);               // a corner
+  EXPECT_NEAR(distance(0.5, 0.5, 1.5), std::hypot(0.5, 0.5), round_off);  // above the open top
+}
+
+TEST(Boundary, ClosestPointOfATriangleIsNearestOfAll) {
+  const WallFace<3> face{{Vec<3>(0, 0, 0), Vec<3>(2, 0, 0), Vec<3>(0.5, 1, 0)}, Vec<3>(0, 0, 1)};
+  constexpr int n = 40;
+  for (double x = -1.0; x <= 3.0; x += 0.37) {
+    for (double y = -1.0; y <= 2.0; y += 0.29) {
+      const Vec<3> p(x, y, 0.3);
+      const double distance = (p - closest_point(face, p)).norm();
+      double brute = infinite;
+      for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j) {
+          const Vec<3> q = face.corners[0] + i * (face.corners[1] - face.corners[0]) / n +
+                           j * (face.corners[2] - face.corners[0]) / n;
+          brute = std::min(brute, (p - q).norm());
+        }
+      }
+      EXPECT_LE(distance, brute + round_off);
+      EXPECT_GE(distance, brute - 2.0 / n) << "no sample of the triangle is farther than an edge's step from any point";
+    }
+  }
+}
+
+TEST(Boundary, BadWallsAreNamedWithThePoint) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0}, {1, 0}, {1, 0}, {2, 0}})};
+  spec.walls[0].name = "bed";
+  std::string message = input_error_of(spec);
+  EXPECT_TRUE(contains(message, "wall 'bed'") && contains(message, "points[2]") && contains(message, "(1, 0)"))
+      << message;
+
+  spec.walls = {polyline({{0, 0}})};
+  EXPECT_TRUE(contains(input_error_of(spec), "wall 'wall1' has 1 points"));
+  spec.walls = {polyline({{0, 0}, {1, 0, 0}})};
+  EXPECT_TRUE(contains(input_error_of(spec), "points[1] has 3 numbers"));
+  spec.walls = {polygon({{0, 0}, {1, 0}, {2, 0}}, FluidSide::inside)};
+  EXPECT_TRUE(contains(input_error_of(spec), "encloses no area"));
+  spec.walls = {polyline({{0, 0}, {1, 0}}, FluidSide::inside)};
+  EXPECT_TRUE(contains(input_error_of(spec), "a polyline has no inside"));
+  spec.walls = {box_wall({0, 1}, {1, 1})};
+  EXPECT_TRUE(contains(input_error_of(spec), "no extent in y"));
+  spec.walls = {box_wall({0, 0}, {1, 1}, {"top"})};
+  EXPECT_TRUE(contains(input_error_of(spec), "\"top\" is not a face"));
+  spec.walls = {box_wall({0, 0}, {1, 1}, {"-x", "+x", "-y", "+y"})};
+  EXPECT_TRUE(contains(input_error_of(spec), "no face left"));
+  spec = empty_case(0.1, 3);
+  spec.walls = {polyline({{0, 0, 0}, {1, 0, 0}})};
+  EXPECT_TRUE(contains(input_error_of(spec), "2D only"));
+}
+
+/// A search among filed faces finds what a search among all finds.
+template <int Dim>
+void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Vec<Dim>& high) {
+  Boundary<Dim> filed = make_boundary<Dim>(spec);
+  filed.file_faces(3.0 * spec.particles.spacing);
+  Boundary<Dim> plain;
+  plain.faces = filed.faces;
+  plain.walls = filed.walls;
+  const double reach = filed.filed_reach();
+  int found = 0;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int n = 0; n < 5000; ++n) {
+    Vec<Dim> x;
+    for (int d = 0; d < Dim; ++d) x[d] = low[d] + share(random) * (high[d] - low[d]);
+    for (const double distance : {0.2 * reach, reach}) {
+      const NearestWall<Dim> expected = plain.nearest(x, distance);
+      const NearestWall<Dim> nearest = filed.nearest(x, distance);
+      ASSERT_EQ(nearest.face, expected.face) << x.transpose();
+      ASSERT_EQ(nearest.signed_distance, expected.signed_distance);
+      ASSERT_EQ(nearest.point, expected.point);
+      found += nearest.face >= 0;
+    }
+  }
+  EXPECT_GT(found, 500);
+}
+
+TEST(FiledFaces, GiveTheNearestOfAll) {
+  CaseSpec spec = empty_case(0.05);
+  WallTable bed = polyline({});
+  for (int k = 0; k <= 400; ++k) bed.points.push_back({0.01 * k, 0.2 * std::sin(0.1 * k) + 0.01 * (k % 3)});
+  WallTable flap = box_wall({1.0, 0.3}, {1.15, 0.8}, {}, FluidSide::outside);
+  flap.rotation = "t";
+  spec.walls = {bed, polyline({{4.5, 0.0}, {6.0, 1.5}}), flap};
+  expect_the_same_nearest<2>(spec, {-0.3, -0.5}, {6.5, 2.0});
+}
+
+TEST(FiledFaces, GiveTheNearestOfAllIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.3, 0.5, 0.6}, {"+z"}),
+                box_wall({0.5, 0.2, 0}, {0.8, 0.5, 0.3}, {}, FluidSide::outside)};
+  expect_the_same_nearest<3>(spec, {-0.4, -0.4, -0.4}, {1.7, 0.9, 1.0});
+}
+
+}  // namespace
+}  // namespace tailwater

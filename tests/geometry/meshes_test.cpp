@@ -1,0 +1,258 @@
+// Walls from mesh files: formats, placement, signs of distances, what is refused and with which words.
+#include "geometry/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "base/error.h"
+#include "geometry/boundary.h"
+#include "geometry/mesh_surface.h"
+#include "geometry/mesh_walls.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TriangleMesh mesh_of(const WallTable& wall) { return make_wall_mesh(case_with(wall), wall, "wall 'pier'"); }
+
+std::string refusal_of(const WallTable& wall) {
+  try {
+    mesh_of(wall);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "the mesh was taken";
+  return {};
+}
+
+TEST(MeshFile, OfEveryFormatIsTheSameWeldedMesh) {
+  const MeshFolder folder;
+  const TriangleMesh box = unit_box();
+  for (const auto& [name, bytes] : {std::pair<std::string, std::string>{"a.stl", ascii_stl(box)},
+                                    {"b.STL", binary_stl(box)},
+                                    {"c.obj", obj(box)},
+                                    {"d.ply", ply(box)}}) {
+    const TriangleMesh mesh = mesh_of(MeshFolder::wall_of_file(folder.write(name, bytes), FluidSide::outside));
+    EXPECT_EQ(mesh.triangles.size(), 12u) << name;
+    EXPECT_EQ(mesh.points.size(), 8u) << name;
+    EXPECT_NEAR(volume_of(mesh), 1.0, 1e-12) << name;
+  }
+}
+
+TEST(MeshFile, IsScaledTurnedAndMoved) {
+  const MeshFolder folder;
+  WallTable wall = folder.wall(box_mesh({0.0, 0.0, 0.0}, {1000.0, 200.0, 300.0}), FluidSide::inside);
+  wall.scale = 0.001;
+  wall.rotate = {0.0, 0.0, 90.0};  // x becomes y
+  wall.translate = {5.0, 0.0, 1.0};
+  const TriangleMesh mesh = mesh_of(wall);
+  const MeshSurface surface(mesh);
+  EXPECT_LT((surface.low() - Vec<3>(4.8, 0.0, 1.0)).norm(), 1e-6);
+  EXPECT_LT((surface.high() - Vec<3>(5.0, 1.0, 1.3)).norm(), 1e-6);
+  EXPECT_NEAR(volume_of(mesh), -0.06, 1e-6);  // its front looks inwards, at the water
+}
+
+TEST(MeshFile, OfAnOpenSheetLooksToTheWater) {
+  const MeshFolder folder;
+  const TriangleMesh sheet = sheet_mesh(4, [](double x, double) { return 0.2 * x; });
+  TriangleMesh turned = sheet;
+  turn_over(turned);
+  for (const TriangleMesh& drawn : {sheet, turned}) {
+    EXPECT_GT(mesh_of(folder.wall(drawn, FluidSide::above)).area_normal(0)[2], 0.0);
+    EXPECT_LT(mesh_of(folder.wall(drawn, FluidSide::below)).area_normal(0)[2], 0.0);
+  }
+  EXPECT_GT(mesh_of(folder.wall(sheet, FluidSide::front)).area_normal(0)[2], 0.0);
+  EXPECT_GT(mesh_of(folder.wall(turned, FluidSide::back)).area_normal(0)[2], 0.0);
+}
+
+TEST(MeshFile, ThatIsBadIsRefusedWithPlaceAndRemedy) {
+  const MeshFolder folder;
+  const auto refusal = [&](const TriangleMesh& mesh, FluidSide side = FluidSide::outside) {
+    return refusal_of(folder.wall(mesh, side));
+  };
+  TriangleMesh open = unit_box();
+  open.triangles.pop_back();
+  expect_words(refusal(open),
+               {"wall 'pier': file ", "mesh.stl", "not watertight", "3 edges", "the edge from (1, ", "close the mesh"});
+  expect_words(refusal(unit_box(), FluidSide::above), {"closed mesh", "\"inside\" or \"outside\""});
+
+  TriangleMesh flipped = unit_box();
+  std::swap(flipped.triangles[6][0], flipped.triangles[6][1]);
+  expect_words(refusal(flipped), {"triangle 7", "face opposite sides", "turn one of them over"});
+
+  TriangleMesh doubled = unit_box();
+  doubled.triangles.push_back(doubled.triangles[4]);
+  expect_words(refusal(doubled), {"triangle 5 at", "triangle 13 have the same corners", "remove double"});
+
+  TriangleMesh needle = unit_box();
+  needle.points.emplace_back(0.5, 0.0, 0.0);
+  needle.triangles.push_back({0, 8, 1});
+  expect_words(refusal(needle), {"triangle 13 at (0.5, 0, 0) has no area", "remove degenerate"});
+
+  TriangleMesh finned = unit_box();
+  finned.points.emplace_back(-1.0, -1.0, 0.5);
+  finned.triangles.push_back({0, 4, 8});
+  expect_words(refusal(finned), {"belongs to 3 triangles", "the edge from (0, 0, 0) to (0, 0, 1)"});
+
+  TriangleMesh two = unit_box();
+  TriangleMesh other = box_mesh({3.0, 0.0, 0.0}, {3.5, 0.5, 0.5});
+  turn_over(other);
+  for (const auto& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  two.points.insert(two.points.end(), other.points.begin(), other.points.end());
+  expect_words(refusal(two), {"triangle 13", "inside out"});
+
+  expect_words(refusal(sheet_mesh(2, [](double x, double) { return x > 0.0 ? 1000.0 * x : 0.0; }), FluidSide::above),
+               {"neither side", "\"front\" or \"back\""});
+  expect_words(refusal(box_mesh({500000.0, 0.0, 0.0}, {500001.0, 1.0, 1.0})),
+               {"500001", "move the mesh to the origin"});
+}
+
+TEST(MeshFile, ThatIsDamagedIsRefused) {
+  const MeshFolder folder;
+  const auto refusal = [&](const std::string& name, const std::string& bytes) {
+    return refusal_of(MeshFolder::wall_of_file(folder.write(name, bytes), FluidSide::outside));
+  };
+  const std::string binary = binary_stl(unit_box());
+  expect_words(refusal("empty.stl", ""), {"empty.stl", "is empty"});
+  expect_words(refusal("cut.stl", binary.substr(0, binary.size() - 30)), {"cut.stl", "export the mesh again"});
+  expect_words(refusal("noise.stl",
+                       "\x7f"
+                       "ELF" +
+                           std::string(500, '\x01')),
+               {"noise.stl", "export the mesh again"});
+  expect_words(refusal("pier.step", "ISO-10303-21;"), {"\".step\" is no kind of mesh", ".stl, .obj or .ply"});
+  expect_words(refusal("none.ply", ply({})), {"none.ply", "export the mesh again"});
+  for (const char* format : {"ascii", "binary_little_endian"}) {  // without properties elements take no room
+    const std::string endless =
+        fmt::format("ply\nformat {} 1.0\nelement vertex 9000000000000000000\nend_header\n1 2 3\n", format);
+    expect_words(refusal("endless.ply", endless), {"endless.ply", "9000000000000000000", "6 bytes left", "cut off"});
+  }
+  TriangleMesh broken = unit_box();
+  broken.points[7][1] = std::numeric_limits<double>::quiet_NaN();
+  expect_words(refusal("nan.stl", binary_stl(broken)), {"nan.stl", "triangle 3 has a corner that is not a number"});
+  for (const std::string& bytes : {ascii_stl(unit_box()), binary, obj(unit_box()), ply(unit_box())}) {
+    const std::string name = bytes == binary              ? "part.stl"
+                             : bytes.starts_with("solid") ? "part.stl"
+                             : bytes.starts_with("ply")   ? "part.ply"
+                                                          : "part.obj";
+    for (std::size_t part = 1; part < 8; ++part) refusal(name, bytes.substr(0, part * bytes.size() / 8));
+  }
+}
+
+TEST(MeshSurface, MeasuresTheDistanceFromABoxOnAllSides) {
+  const MeshSurface surface(unit_box());
+  EXPECT_TRUE(surface.is_closed());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-0.6, 1.6);
+  for (int k = 0; k < 2000; ++k) {
+    const Vec<3> x(coordinate(random), coordinate(random), coordinate(random));
+    const Vec<3> out = (x.array() - 0.5).abs().matrix() - Vec<3>::Constant(0.5);
+    const double exact = out.cwiseMax(0.0).norm() + std::min(0.0, out.maxCoeff());
+    EXPECT_NEAR(surface.nearest(x, infinite).signed_distance, exact, 1e-12) << x.transpose();
+  }
+}
+
+/// A point of a body where ridges and valleys meet. Beside it, a nearest triangle may show the wrong sign.
+TriangleMesh saddle_body() {
+  // A disc of six directions that go steeply up and down in turn, closed by a plate far below.
+  TriangleMesh mesh;
+  mesh.points.push_back(Vec<3>::Zero());
+  for (int k = 0; k < 6; ++k) {
+    const double angle = std::numbers::pi * k / 3.0;
+    mesh.points.emplace_back(std::cos(angle), std::sin(angle), k % 2 == 0 ? 2.0 : -2.0);
+  }
+  for (int k = 0; k < 6; ++k) mesh.points.emplace_back(mesh.points[1 + k][0], mesh.points[1 + k][1], -5.0);
+  mesh.points.emplace_back(0.0, 0.0, -5.0);
+  for (int k = 0; k < 6; ++k) {
+    const int a = 1 + k;
+    const int b = 1 + (k + 1) % 6;
+    mesh.triangles.push_back({0, a, b});
+    add_quad(mesh, b, a, a + 6, b + 6);
+    mesh.triangles.push_back({13, b + 6, a + 6});
+  }
+  return mesh;
+}
+
+/// Whether a point is in a closed mesh, by the solid angle under which it sees the triangles (van Oosterom & Strackee
+/// 1983), which knows nothing of nearest points.
+bool sees_inside(const TriangleMesh& mesh, const Vec<3>& x) {
+  double angle = 0.0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Vec<3> a = mesh.corner(t, 0) - x;
+    const Vec<3> b = mesh.corner(t, 1) - x;
+    const Vec<3> c = mesh.corner(t, 2) - x;
+    angle += 2.0 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                                     b.dot(c) * a.norm() + c.dot(a) * b.norm());
+  }
+  return angle > 2.0 * std::numbers::pi;
+}
+
+TEST(MeshSurface, HasTheRightSignAroundASaddle) {
+  const TriangleMesh mesh = saddle_body();
+  const MeshSurface surface(mesh);
+  // The sign of the first of the nearest triangles, which is wrong at edges and corners.
+  const auto naive_sign_is_behind = [&](const Vec<3>& x) {
+    double least = infinite;
+    bool is_behind = false;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      const Vec<3> foot = closest_feature(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x).point;
+      if ((x - foot).norm() >= least) continue;
+      least = (x - foot).norm();
+      is_behind = mesh.area_normal(t).dot(x - foot) < 0.0;
+    }
+    return is_behind;
+  };
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  int naive_errors = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Vec<3> x = 0.3 * Vec<3>(coordinate(random), coordinate(random), coordinate(random));
+    const SurfacePlace place = surface.nearest(x, infinite);
+    ASSERT_EQ(place.signed_distance < 0.0, sees_inside(mesh, x)) << x.transpose();
+    EXPECT_NEAR(std::abs(place.signed_distance), (x - place.point).norm(), 1e-12);
+    naive_errors += naive_sign_is_behind(x) != (place.signed_distance < 0.0) ? 1 : 0;
+  }
+  EXPECT_GT(naive_errors, 0) << "the saddle does not tell the two signs apart";
+}
+
+TEST(MeshSurface, FindsTheTriangleThatAPathCrosses) {
+  const MeshSurface surface(sphere_mesh(Vec<3>::Zero(), 1.0, 20));
+  const int hit = surface.first_crossed({-3.0, 0.1, 0.2}, {3.0, 0.1, 0.2}, 1e-9);
+  ASSERT_GE(hit, 0);
+  EXPECT_LT(surface.mesh().corner(hit, 0)[0], 0.0);  // the nearer side
+  EXPECT_EQ(surface.first_crossed({-3.0, 1.1, 0.0}, {3.0, 1.1, 0.0}, 1e-9), -1);
+  EXPECT_EQ(surface.first_crossed({-3.0, 0.1, 0.2}, {-1.5, 0.1, 0.2}, 1e-9), -1);
+}
+
+TEST(MeshWall, ThatMovesIsFoundWhereItIs) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(unit_box(), FluidSide::outside)};
+  spec.walls[0].displacement = {"t", 0.0, 0.0};
+  Boundary<3> boundary = make_boundary<3>(spec);
+  boundary.file_faces(0.3);
+  for (WallFace<3>& face : boundary.faces) {
+    for (Vec<3>& corner : face.corners) corner[0] += 2.0;
+  }
+  EXPECT_NEAR(boundary.nearest({1.9, 0.5, 0.5}, 0.3).signed_distance, 0.1, 1e-12);
+  EXPECT_NEAR(boundary.nearest({2.1, 0.5, 0.5}, 0.3).signed_distance, -0.1, 1e-12);
+  EXPECT_LT(boundary.nearest({0.5, 0.5, 0.5}, 0.3).face, 0);
+}
+
+TEST(MeshWall, TouchingABoxIsBehindEither) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({-1.0, -1.0, 0.0}, {2.0, 2.0, 2.0}, {"+z"}), folder.wall(unit_box(), FluidSide::outside)};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  EXPECT_NEAR(boundary.nearest({-0.05, 0.5, -0.2}, infinite).signed_distance, -0.2, 1e-12);  // below both
+  EXPECT_NEAR(boundary.nearest({-0.1, 0.5, 0.3}, infinite).signed_distance, 0.1, 1e-12);
+  EXPECT_NEAR(boundary.nearest({0.1, 0.5, 0.6}, infinite).signed_distance, -0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "geometry/cases.h"
+#include "motion/wave_maker.h"
+#include "motion/wave_theory.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double g = 9.81;
+constexpr double h = 0.4;
+
+WaveMakerTable maker_of(WaveKind waves, double height, double period) {
+  WaveMakerTable maker;
+  maker.from = {0.0, 0.0};
+  maker.to = {0.0, 0.8};
+  maker.depth = h;
+  maker.waves = waves;
+  maker.height = height;
+  maker.period = period;
+  maker.ramp = 2.0 * period;
+  return maker;
+}
+
+double omega_at(double kh) { return std::sqrt(g * kh / h * std::tanh(kh)); }
+
+TEST(WaveTheory, TheWaveNumberSolvesTheDispersionRelation) {
+  for (const double kh : {1e-3, 0.1, 1.0, 3.0, 50.0}) EXPECT_NEAR(wave_number(omega_at(kh), g, h) * h / kh, 1.0, 1e-12);
+}
+
+// Long waves: a piston's is kh of its stroke (Galvin 1964), a flap's half of it, with errors of O(kh^2). Deep water:
+// both make waves of twice the stroke, but for the 1/kh by which a flap's motion decreases within a wave's reach.
+TEST(WaveTheory, APlateMakesTheKnownWavesInShallowAndInDeepWater) {
+  EXPECT_NEAR(maker_transfer(MakerType::piston, omega_at(0.01), g, h).wave / 0.01, 1.0, 1e-4);
+  EXPECT_NEAR(maker_transfer(MakerType::flap, omega_at(0.01), g, h).wave / 0.01, 0.5, 1e-4);
+  EXPECT_NEAR(maker_transfer(MakerType::piston, omega_at(50.0), g, h).wave, 2.0, 1e-12);
+  EXPECT_NEAR(maker_transfer(MakerType::flap, omega_at(50.0), g, h).wave, 2.0 * (1.0 - 1.0 / 50.0), 1e-12);
+}
+
+TEST(WaveTheory, TheNearFieldBelongsToTheModesThatDoNotTravel) {
+  const double omega = omega_at(1.0);
+  const MakerTransfer transfer = maker_transfer(MakerType::piston, omega, g, h);
+  for (const auto& term : transfer.near_field) {
+    const double y = term.wave_number * h;
+    EXPECT_NEAR(-y * std::tan(y), omega * omega * h / g, 1e-9);
+  }
+  // Half a depth away nothing but the first mode is left.
+  const auto& first = transfer.near_field.front();
+  EXPECT_NEAR(transfer.near_field_at(h) / (first.share * std::exp(-first.wave_number * h)), 1.0, 0.01);
+}
+
+// Where the plate has been, the wave's water is: the stroke is the wave's volume over the depth.
+TEST(MakerLaw, OfASolitaryWaveMovesWithTheWaterUnderIt) {
+  const double H = 0.1;
+  const MakerLaw law(maker_of(WaveKind::solitary, H, 0.0), g, 0.0);
+  const double beta = std::sqrt(0.75 * H / (h * h * (h + H)));
+  const double c = std::sqrt(g * (h + H));
+  EXPECT_EQ(law.stroke(0.0), 0.0);
+  EXPECT_NEAR(law.stroke(30.0), 2.0 * H / (beta * h) * 0.9995, 2.0 * H / (beta * h) * 0.0006);  // tanh(3.8) = 0.9990
+  const double e = 1e-5;
+  double highest = 0.0;
+  for (double t = 0.1; t < 4.0; t += 0.1) {
+    const double eta = law.elevation(t);
+    EXPECT_NEAR((law.stroke(t + e) - law.stroke(t - e)) / (2.0 * e), c * eta / (h + eta), 1e-8);
+    highest = std::max(highest, eta);
+  }
+  EXPECT_NEAR(highest, H, 0.02 * H);
+}
+
+// In long waves the plate moves with the water, h dX/dt = c eta, at second order as well: the bound wave of Stokes has
+// the amplitude 3 H^2/(16 k^2 h^3) there, and the plate's second harmonic is c/(2 omega h) of it, up to O(kh^2).
+TEST(MakerLaw, OfSecondOrderFollowsTheBoundWave) {
+  WaveMakerTable maker = maker_of(WaveKind::regular, 0.001, 2.0 * std::numbers::pi / omega_at(0.1));
+  const double k = 0.1 / h;
+  const double omega = 2.0 * std::numbers::pi / maker.period;
+  const MakerLaw second(maker, g, 0.0);
+  maker.order = 1;
+  const MakerLaw first(maker, g, 0.0);
+  // An eighth of a period after full periods, where sin(2 omega t) = 1.
+  const double t = 10.125 * maker.period;
+  const double bound = 3.0 * maker.height * maker.height / (16.0 * k * k * h * h * h);
+  const double expected = bound * omega / k / (2.0 * omega * h);
+  EXPECT_NEAR((second.stroke(t) - first.stroke(t)) / expected, 1.0, 0.02);
+  EXPECT_NEAR(
+      first.stroke(10.25 * maker.period) / (0.5 * maker.height / maker_transfer(MakerType::piston, omega, g, h).wave),
+      1.0, 1e-9);
+}
+
+TEST(MakerLaw, OfIrregularWavesHasTheSignificantHeightAndASeed) {
+  WaveMakerTable maker = maker_of(WaveKind::jonswap, 0.05, 1.2);
+  const MakerLaw law(maker, g, 0.0);
+  EXPECT_EQ(law.stroke(0.0), 0.0);
+  // 4 rms over 2000 periods; with 200 components its own scatter is below 1 %.
+  double sum = 0.0;
+  int count = 0;
+  for (double t = 10.0; t < 2400.0; t += 0.1) {
+    const double eta = law.elevation(t);
+    sum += eta * eta;
+    ++count;
+  }
+  // The elevation at the plate has the near field as well, a few percent.
+  EXPECT_NEAR(4.0 * std::sqrt(sum / count) / maker.height, 1.0, 0.05);
+  const double before = law.stroke(31.0);
+  EXPECT_EQ(MakerLaw(maker, g, 0.0).stroke(31.0), before);
+  maker.seed = 2;
+  EXPECT_NE(MakerLaw(maker, g, 0.0).stroke(31.0), before);
+}
+
+TEST(MakerLaw, GivesWayAsTheTheoryOfItsPeriodSays) {
+  WaveMakerTable maker = maker_of(WaveKind::none, 0.0, 0.0);
+  EXPECT_NEAR(MakerLaw(maker, g, 0.0).gain(), std::sqrt(g / h), 1e-12);
+  maker.type = MakerType::flap;
+  EXPECT_NEAR(MakerLaw(maker, g, 0.0).gain(), 2.0 * std::sqrt(g / h), 1e-12);
+  maker.period = 1000.0;
+  EXPECT_NEAR(MakerLaw(maker, g, 0.0).gain() / (2.0 * std::sqrt(g / h)), 1.0, 1e-3);
+}
+
+TEST(WavePlate, OfWavesThatBreakIsRefused) {
+  const CaseSpec spec = testing_cases::empty_case(0.1);
+  // In deep water 0.142 of g T^2/(2 pi).
+  const double highest = 0.142 * g * 0.25 * 0.25 / (2.0 * std::numbers::pi);
+  EXPECT_NO_THROW(WavePlate<2>(spec, maker_of(WaveKind::regular, 0.999 * highest, 0.25)));
+  EXPECT_THROW(WavePlate<2>(spec, maker_of(WaveKind::regular, 1.001 * highest, 0.25)), InputError);
+}
+
+TEST(WavePlate, TooLowOrFlatIsRefused) {
+  CaseSpec spec = testing_cases::empty_case(0.1);
+  WaveMakerTable maker = maker_of(WaveKind::regular, 0.05, 1.2);
+  EXPECT_NO_THROW(WavePlate<2>(spec, maker));
+  maker.to = {0.0, 0.3};
+  EXPECT_THROW(WavePlate<2>(spec, maker), InputError);
+  maker.to = {0.8, 0.0};
+  maker.side = AxisDirection::minus_y;
+  EXPECT_THROW(WavePlate<2>(spec, maker), InputError);
+}
+
+}  // namespace
+}  // namespace tailwater

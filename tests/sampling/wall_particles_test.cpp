@@ -1,0 +1,353 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "geometry/cases.h"
+#include "sampling/fluid_particles.h"
+#include "sampling/wall_particles.h"
+#include "support/circle.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+constexpr double round_off = 1e-12;
+
+template <int Dim>
+int find_at(const WallParticles<Dim>& particles, const Vec<Dim>& x) {
+  int found = -1;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if ((particles.position[i] - x).norm() < round_off) {
+      EXPECT_EQ(found, -1) << "twice at " << x.transpose();
+      found = static_cast<int>(i);
+    }
+  }
+  return found;
+}
+
+template <int Dim>
+double least_distance(const WallParticles<Dim>& particles) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (particles.position[i] - particles.position[j]).norm());
+  }
+  return least;
+}
+
+template <int Dim>
+int count_on_wall(const WallParticles<Dim>& particles) {
+  int count = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    count += particles.is_on_wall(static_cast<std::int32_t>(i)) ? 1 : 0;
+  return count;
+}
+
+template <int Dim>
+void expect_behind_walls(const WallParticles<Dim>& particles, const Boundary<Dim>& boundary, double spacing) {
+  for (const Vec<Dim>& x : particles.position) {
+    EXPECT_LE(boundary.nearest(x, 1e9).signed_distance, -(0.5 - 1e-6) * spacing) << x.transpose();
+  }
+  EXPECT_GE(least_distance(particles), (0.5 - 1e-6) * spacing);
+}
+
+// All lattice points outside the fluid's quarter-plane corners, within three layers, and no others.
+TEST(Dummies, ContinueTheLatticeAroundATank) {
+  const CaseSpec spec = tank();
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, 0.1, 3);
+  ASSERT_EQ(dummies.size(), 2u * 3 * 6 + 3 * 10 + 2 * 9) << "sides, bed, two corner patches of 3 x 3";
+  for (int i = -3; i < 13; ++i) {
+    for (int j = -3; j < 6; ++j) {
+      const bool left = i < 0, right = i >= 10, below = j < 0;
+      const int found = find_at<2>(dummies, {(i + 0.5) * 0.1, (j + 0.5) * 0.1});
+      ASSERT_EQ(found >= 0, left || right || below) << i << ", " << j;
+      if (found < 0) {
+        continue;
+      }
+      const Vec<2> normals(left ? 1.0 : right ? -1.0 : 0.0, below ? 1.0 : 0.0);
+      EXPECT_LT((dummies.normal[found] - normals.normalized()).norm(), round_off);
+      const Mat<2> blocked = normals.cwiseAbs2().asDiagonal();
+      EXPECT_LT((dummies.blocked[found] - blocked).norm(), round_off);
+    }
+  }
+  expect_behind_walls(dummies, boundary, 0.1);
+}
+
+TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
+  CaseSpec spec = tank();
+  const WallParticles<2> expected = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const std::vector<std::vector<WallTable>> ways = {
+      {polyline({{1.0, 0.6}, {1.0, 0.0}, {0.0, 0.0}, {0.0, 0.6}}, FluidSide::right)},
+      {box_wall({0, 0}, {1.0, 0.6}, {"+y"})},
+      {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.35, 0.0}}),
+       polyline({{1.0, 0.6}, {1.0, 0.0}, {0.35, 0.0}}, FluidSide::right)},
+  };
+  for (const std::vector<WallTable>& walls : ways) {
+    spec.walls = walls;
+    const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+    ASSERT_EQ(dummies.size(), expected.size());
+    for (const Vec<2>& x : expected.position) {
+      EXPECT_GE(find_at<2>(dummies, x), 0) << x.transpose();
+    }
+  }
+}
+
+// A block of 1.0 x 0.8 m standing in the water: its inside filled with rings, which shrink at its convex corners.
+TEST(Dummies, ShrinkAtConvexCorners) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {box_wall({0, 0}, {1.0, 0.8}, {}, FluidSide::outside)};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, 0.1, 3);
+  EXPECT_EQ(dummies.size(), 10u * 8 - 4 * 2);
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 8; ++j) {
+      const int depth = std::min({i, 9 - i, j, 7 - j});
+      EXPECT_EQ(find_at<2>(dummies, {(i + 0.5) * 0.1, (j + 0.5) * 0.1}) >= 0, depth < 3) << i << ", " << j;
+    }
+  }
+  expect_behind_walls(dummies, boundary, 0.1);
+}
+
+TEST(Dummies, SkipRowsThatHaveFlipped) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {box_wall({0, 0}, {0.3, 2.0}, {}, FluidSide::outside)};
+  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  EXPECT_EQ(dummies.size(), 3u * 20u) << "three cells wide: two rings, the inner one a single column";
+  EXPECT_NEAR(least_distance(dummies), 0.1, round_off);
+}
+
+// A bed that rises by 45 degrees and, mirrored, one that falls: rows meet on the bisector.
+TEST(Dummies, MeetOnTheBisectorOfA45DegreeCorner) {
+  const double dx = 0.1;
+  for (const double turn : {1.0, -1.0}) {
+    CaseSpec spec = empty_case(dx);
+    spec.walls = {polyline({{-1, 0}, {0, 0}, {1, turn}})};
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+    expect_behind_walls(dummies, boundary, dx);
+    const double half = turn * std::numbers::pi / 8;
+    for (int layer = 0; layer < 3; ++layer) {
+      // Towards the solid along the bisector, (sin, -cos) of half the turn, at the row's depth behind both faces.
+      const double reach = (layer + 0.5) * dx / std::cos(half);
+      const int found = find_at<2>(dummies, Vec<2>(std::sin(half), -std::cos(half)) * reach);
+      ASSERT_GE(found, 0) << "layer " << layer;
+      EXPECT_LT((dummies.normal[found] - Vec<2>(-std::sin(half), std::cos(half))).norm(), round_off);
+      // Sum of two n n^T at 45 degrees: eigenvalues 1 +- cos 45, along the mean normal and across it.
+      const Mat<2> blocked = dummies.blocked[found];
+      EXPECT_NEAR(blocked.trace(), 1.0 + (1.0 - std::numbers::sqrt2 / 2), round_off);
+      EXPECT_LT((blocked * dummies.normal[found] - dummies.normal[found]).norm(), round_off);
+    }
+  }
+}
+
+TEST(Dummies, StayNearASharpCorner) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polyline({{2.0, 0.8}, {0, 0}, {2.0, -0.8}})};  // fluid within 2 x 21.8 degrees
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+  expect_behind_walls(dummies, boundary, dx);
+  for (const Vec<2>& x : dummies.position) {
+    EXPECT_GE(boundary.nearest(x, 10.0).signed_distance, -1.5 * 3 * dx * (1 + 1e-9));
+  }
+}
+
+TEST(Dummies, FollowASmoothCurveEvenly) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polygon(circle(200), FluidSide::outside)};
+  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), dx, 3);
+  // Rows of radius 0.95, 0.85, 0.75 with N = round(2 pi r/dx).
+  EXPECT_EQ(dummies.size(), 60u + 53u + 47u);
+}
+
+TEST(Dummies, StopAtAnotherWall) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polyline({{0, 0}, {1, 0}}), polyline({{0, -0.2}, {1, -0.2}}, FluidSide::right)};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+  EXPECT_EQ(dummies.size(), 20u) << "a plate two spacings thick holds two rows";
+  for (const Vec<2>& x : dummies.position) {
+    EXPECT_LT(std::abs(x[1] + 0.1), 0.1);
+  }
+}
+
+TEST(Dummies, FillTheShellOfABoxIn3D) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  const WallParticles<3> dummies = make_dummy_particles<3>(boundary, dx, 3);
+  ASSERT_EQ(dummies.size(), (5u + 6) * (4 + 6) * (6 + 3) - 5 * 4 * 6) << "nothing stands above the open top";
+  for (int i = -3; i < 8; ++i) {
+    for (int j = -3; j < 7; ++j) {
+      for (int k = -3; k < 6; ++k) {
+        const Vec<3> normals(i < 0 ? 1.0 : i >= 5 ? -1.0 : 0.0, j < 0 ? 1.0 : j >= 4 ? -1.0 : 0.0, k < 0 ? 1.0 : 0.0);
+        const int found = find_at<3>(dummies, {(i + 0.5) * dx, (j + 0.5) * dx, (k + 0.5) * dx});
+        ASSERT_EQ(found >= 0, !normals.isZero());
+        if (found >= 0) {
+          EXPECT_LT((dummies.normal[found] - normals.normalized()).norm(), round_off);
+          const Mat<3> blocked = normals.cwiseAbs2().asDiagonal();
+          EXPECT_LT((dummies.blocked[found] - blocked).norm(), round_off);
+        }
+      }
+    }
+  }
+  expect_behind_walls(dummies, boundary, dx);
+}
+
+TEST(Dummies, FillAnObstacleIn3DFromItsClosedFaces) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.8, 0.8, 0.8}, {"-z"}, FluidSide::outside)};
+  const WallParticles<3> dummies = make_dummy_particles<3>(make_boundary<3>(spec), dx, 3);
+  EXPECT_EQ(dummies.size(), 8u * 8 * 8 - 2 * 2 * 5) << "but for a core two cells wide that reaches the open bottom";
+  const int edge = find_at<3>(dummies, {0.15, 0.35, 0.65});
+  ASSERT_GE(edge, 0);
+  EXPECT_LT((dummies.normal[edge] - Vec<3>(-1, 0, 1).normalized()).norm(), round_off) << "one deep in both";
+}
+
+TEST(SurfaceParticles, StandOnTheWallWithItsEndsAndCorners) {
+  const CaseSpec spec = tank();
+  const WallParticles<2> row = make_surface_particles<2>(make_boundary<2>(spec), 0.1);
+  ASSERT_EQ(row.size(), 6u + 11u + 6u);
+  for (int i = 0; i <= 10; ++i) {
+    EXPECT_GE(find_at<2>(row, {i * 0.1, 0.0}), 0);
+  }
+  const int corner = find_at<2>(row, {1.0, 0.0});
+  EXPECT_LT((row.normal[corner] - Vec<2>(-1, 1).normalized()).norm(), round_off);
+  EXPECT_LT((row.blocked[corner] - Mat<2>::Identity()).norm(), round_off);
+  EXPECT_GE(find_at<2>(row, {0.0, 0.6}), 0) << "the rim";
+}
+
+TEST(RowAndDummies, AreOneLatticeBehindTheWall) {
+  const CaseSpec spec = tank();
+  const WallParticles<2> rows = make_row_and_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  EXPECT_EQ(count_on_wall(rows), 6 + 11 + 6);
+  EXPECT_EQ(rows.size(), 3u * 7 * 2 + 9 * 3 + 2 * 3 * 2)
+      << "sides from the rim to the floor, floor between, corners below";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Vec<2>& x = rows.position[k];
+    const double depth = std::max({-x[0], x[0] - 1.0, -x[1]});
+    EXPECT_EQ(rows.is_on_wall(static_cast<std::int32_t>(k)), depth < 0.05);
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(x[d] / 0.1, std::round(x[d] / 0.1), 1e-9) << x.transpose();
+  }
+}
+
+TEST(RowAndDummies, SurroundABoxIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};
+  const WallParticles<3> nodes = make_row_and_dummy_particles<3>(make_boundary<3>(spec), 0.1, 3);
+  EXPECT_EQ(count_on_wall(nodes), 6 * 5 * 7 - 4 * 3 * 6);
+  EXPECT_EQ(nodes.size(), 10u * 9 * 9 - 4 * 3 * 6) << "two nodes more on each closed side";
+  const int behind = find_at<3>(nodes, {-0.2, 0.2, -0.1});
+  ASSERT_GE(behind, 0);
+  EXPECT_LT((nodes.normal[behind] - Vec<3>(1, 0, 1).normalized()).norm(), round_off);
+}
+
+TEST(RowAndDummies, FillAnObstacleIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.8, 0.8, 0.8}, {"-z"}, FluidSide::outside)};
+  const WallParticles<3> nodes = make_row_and_dummy_particles<3>(make_boundary<3>(spec), 0.1, 2);
+  EXPECT_EQ(nodes.size(), 9u * 9 * 9 - 5 * 5 * 7) << "but for a core three nodes deep that reaches the open bottom";
+}
+
+TEST(SurfaceParticles, CoverTheClosedFacesOfABoxIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {0.5, 0.4, 0.6}, {"+z"})};
+  const WallParticles<3> nodes = make_surface_particles<3>(make_boundary<3>(spec), 0.1);
+  EXPECT_EQ(nodes.size(), 6u * 5 * 7 - 4 * 3 * 6) << "all nodes but those inside and on the open top";
+  const int corner = find_at<3>(nodes, {0.0, 0.4, 0.0});
+  ASSERT_GE(corner, 0);
+  EXPECT_LT((nodes.normal[corner] - Vec<3>(1, -1, 1).normalized()).norm(), round_off);
+  EXPECT_LT((nodes.blocked[corner] - Mat<3>::Identity()).norm(), round_off);
+}
+
+// A crest of 60 degrees, whose first mitre is a whole dx behind it: water that stands dx/2 before the tip finds a
+// particle dx/2 behind it. A right angle keeps its lattice.
+TEST(Dummies, FillTheTipOfASharpCrest) {
+  CaseSpec spec = empty_case(0.1);
+  const double half = 0.6 / std::numbers::sqrt3;
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0 + half, 0.6}, {1.0 + 2.0 * half, 0.0}, {3.0, 0.0}})};
+  const Boundary<2> sharp = make_boundary<2>(spec);
+  const WallParticles<2> dummies = make_dummy_particles<2>(sharp, 0.1, 3);
+  EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.55}), 0);
+  EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.50}), 0);
+  EXPECT_GE(least_distance(dummies), (0.5 - 1e-6) * 0.1);
+  for (const Vec<2>& x : dummies.position) EXPECT_LT(sharp.nearest(x, 1e9).signed_distance, 0.0) << x.transpose();
+
+  spec.walls = {box_wall({0.0, 0.0}, {1.0, 1.0}, {}, FluidSide::outside)};
+  EXPECT_EQ(make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3).size(), 100u - 16u);
+}
+
+/// Shares of space, in cubes of 8 dx, together have the particles of all space, each once and as it is there; but those
+/// of walls that move are in each.
+template <int Dim>
+void expect_shares_to_be_all(const Boundary<Dim>& boundary, double dx, bool starts_on_wall, int shares) {
+  const auto make = [&](const SpaceShare& share) {
+    return starts_on_wall ? make_row_and_dummy_particles(boundary, dx, 3, share)
+                          : make_dummy_particles(boundary, dx, 3, share);
+  };
+  const WallParticles<Dim> all = make({});
+  std::map<std::int64_t, std::size_t> row_of_number;
+  for (std::size_t row = 0; row < all.size(); ++row) row_of_number[all.number[row]] = row;
+  ASSERT_EQ(row_of_number.size(), all.size()) << "numbers are unique";
+  EXPECT_LT(row_of_number.rbegin()->first, all.numbers);
+  std::vector<int> made(all.size(), 0);
+  std::size_t most = 0;
+  for (int share = 0; share < shares; ++share) {
+    const WallParticles<Dim> part = make({.edge = 8.0 * dx, .share = share, .shares = shares});
+    EXPECT_EQ(part.numbers, all.numbers);
+    EXPECT_EQ(part.numbers_on_wall, all.numbers_on_wall);
+    most = std::max(most, part.size());
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      ASSERT_TRUE(row_of_number.contains(part.number[k])) << part.position[k].transpose();
+      const std::size_t row = row_of_number[part.number[k]];
+      ++made[row];
+      EXPECT_EQ(part.position[k], all.position[row]);
+      EXPECT_EQ(part.normal[k], all.normal[row]);
+      EXPECT_EQ(part.blocked[k], all.blocked[row]);
+      EXPECT_EQ(part.share[k], all.share[row]);
+      EXPECT_EQ(part.wall[k], all.wall[row]);
+    }
+  }
+  EXPECT_LT(most, all.size() * 3 / 4) << "no share has most";
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    EXPECT_EQ(made[row], boundary.walls[all.wall[row]].moves() ? shares : 1) << all.position[row].transpose();
+  }
+}
+
+TEST(SharesOfSpace, HaveAllParticlesOfATankWithAPlateAndABodyIn2D) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 2.0}, {0.0, 0.0}, {1.3, 0.21}, {2.6, 0.0}, {3.0, 0.0}, {3.0, 2.0}})};
+  spec.walls.push_back(box_wall({1.03, 0.9}, {1.52, 1.2}, {}, FluidSide::outside));
+  spec.walls.push_back(box_wall({2.0, 1.0}, {2.2, 1.4}, {}, FluidSide::outside));
+  spec.walls.back().displacement = {"0.1*t", 0.0};
+  for (const int shares : {2, 5}) {
+    expect_shares_to_be_all(make_boundary<2>(spec), 0.05, true, shares);
+    WallTable plate = polyline({{0.5, 0.0}, {0.5, 1.7}});
+    plate.shape = WallShape::plate;
+    spec.walls.push_back(plate);
+    expect_shares_to_be_all(make_boundary<2>(spec), 0.05, false, shares);
+    spec.walls.pop_back();
+  }
+}
+
+TEST(SharesOfSpace, HaveAllParticlesOfBoxesThatTouchIn3D) {
+  CaseSpec spec = empty_case(0.05, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.6, 1.0, 0.8}, {"+z"}),
+                box_wall({0.41, 0.43, 0}, {0.93, 0.81, 0.42}, {"-z"}, FluidSide::outside)};
+  for (const int shares : {2, 5}) {
+    expect_shares_to_be_all(make_boundary<3>(spec), 0.05, false, shares);
+    expect_shares_to_be_all(make_boundary<3>(spec), 0.05, true, shares);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
