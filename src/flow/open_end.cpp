@@ -307,7 +307,9 @@ Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) c
   if (state.depth == 0.0) return Vec<Dim>::Zero();
   const double share = this->rise.dot(x - this->low) / state.depth;
   const double inside = -this->opening.beyond(x);
-  const double in = state.entry_speed * this->flow.profile_at(share) - inside * state.depth_rate / state.depth;
+  const double row = state.rows > 0 ? 1.0 / static_cast<double>(state.rows) : 1.0;
+  const double in =
+      state.entry_speed * this->flow.profile_of_row(share, row) - inside * state.depth_rate / state.depth;
   return -in * this->opening.normal + share * state.depth_rate * this->rise;
 }
 

@@ -56,7 +56,7 @@ double step_of_water(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   double speed = largest_speed(flow);
   for (const OpenEnd<Dim>& end : setup.open_ends) {
-    if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time));
+    if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time, setup.spacing));
   }
   double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
   if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);

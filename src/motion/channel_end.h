@@ -14,14 +14,17 @@ struct EndFlow {
   std::optional<TimeFunction> discharge;  ///< m^3/s, in 2D per metre of width; into the case
   std::optional<TimeFunction> velocity;   ///< m/s; mean over the section, into the case
   std::optional<TimeFunction> level;      ///< m; of the surface, along `up`
-  /// Velocity over its mean at heights that divide the depth into equal parts, from the bed to the surface; empty:
-  /// uniform.
+  /// Share of the discharge below heights that divide the depth into equal parts, from the bed to the surface; empty:
+  /// the velocity is uniform.
   std::vector<double> profile;
 
   bool feeds() const { return discharge || velocity; }
-  /// The velocity over its mean at a share of the depth, 0 to 1.
-  double profile_at(double share) const;
-  double largest_in_profile() const;
+  /// The velocity of a row of particles over that of all rows, `row` high at a share of the depth, both as shares from
+  /// 0 to 1: the mean of the profile over it, so that rows which fill the depth bring the discharge whatever the
+  /// profile.
+  double profile_of_row(double share, double row) const;
+  /// The largest of them for rows that divide the depth into equal parts.
+  double largest_in_profile(int rows) const;
 };
 
 template <int Dim>
@@ -43,6 +46,8 @@ struct ChannelEnd {
 
   /// Whether the case says more than that the channel goes on.
   bool is_driven() const { return flow.feeds() || flow.level; }
+  /// Whether a level is prescribed, and the velocity follows.
+  bool holds_level() const { return flow.level && !flow.feeds() && gravity > 0.0; }
   /// Height above the floor at which a level [m] stands, at most that of the opening; the whole opening without gravity
   /// along it, where there is no level.
   double depth_at_level(double level) const;
@@ -50,8 +55,8 @@ struct ChannelEnd {
   double discharge_per_width(double time, double depth) const;
   /// Depth [m] at which the prescribed flow is critical: no deeper flow is supercritical. 0 without gravity.
   double critical_depth(double time) const;
-  /// The largest speed [m/s] with which water enters where nothing resists.
-  double largest_speed(double time) const;
+  /// The largest speed [m/s] with which particles of a spacing [m] enter where nothing resists.
+  double largest_speed(double time, double spacing) const;
   /// The largest depth [m], up to a time, that follows from what is prescribed alone.
   double largest_depth(double end_time) const;
 };
