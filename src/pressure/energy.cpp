@@ -35,8 +35,9 @@ double work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) 
   const OpenEnd<Dim>& end = flow.setup.open_ends[flow.end_of[i]];
   const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
     if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
-    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
-                    flow.here.pair_vectors.at(pairs, i, k));
+    const Vec<Dim> pair = flow.setup.uses_pair_vectors() ? flow.here.pair_vectors.at(pairs, i, k)
+                                                         : Vec<Dim>(pairs.slope(i, k) * pairs.e(i, k));
+    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) * pair);
   });
   const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
