@@ -26,6 +26,15 @@ struct Passed {
   Passed& operator-=(const Passed& other);
 };
 
+/// How well a prescribed level is held.
+struct LevelMiss {
+  double mean = 0.0;    ///< m; of the water before the end stretch, above what the level asks for
+  double lasts = 0.0;   ///< s; for which that has been more than a spacing
+  double since = -1.0;  ///< s; when it began, the first time that it lasted long; below 0: it never did
+  double total = 0.0;   ///< s; of all times that lasted long
+  double most = 0.0;    ///< m; the largest mean in them
+};
+
 /// The flow before the end stretch, and what is assumed or prescribed beyond.
 struct OpenEndState {
   bool is_wet = false;
@@ -39,7 +48,10 @@ struct OpenEndState {
   double depth_at_gauge = 0.0;  ///< m; where a level is prescribed
   double depth_rate = 0.0;      ///< m/s; of `depth`; where a discharge or a velocity is prescribed
   double entry_speed = 0.0;     ///< m/s; mean over the opening, into the case
-  std::int64_t rows = 0;        ///< of the lattice on which particles enter
+  double gain = 0.0;            ///< m/s; from the gauge to the border of the end stretch; where a level is prescribed
+  LevelMiss miss;
+  double asked = 0.0;     ///< m^Dim; what should have come in less what should have left; where that is prescribed
+  std::int64_t rows = 0;  ///< of the lattice on which particles enter
   Passed departed;
   Passed arrived;
   std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate

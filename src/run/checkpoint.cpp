@@ -83,9 +83,18 @@ nlohmann::json json_of(const Passed& passed) {
 
 Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), json.at("volume"), json.at("energy")}; }
 
+nlohmann::json json_of(const LevelMiss& miss) {
+  const auto& [mean, lasts, since, total, most] = miss;
+  return {{"mean", mean}, {"lasts", lasts}, {"since", since}, {"total", total}, {"most", most}};
+}
+
+LevelMiss miss_of(const nlohmann::json& json) {
+  return {json.at("mean"), json.at("lasts"), json.at("since"), json.at("total"), json.at("most")};
+}
+
 nlohmann::json json_of(const OpenEndState& end) {
   const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
-               entry_speed, rows, departed, arrived, short_steps] = end;
+               entry_speed, gain, miss, asked, rows, departed, arrived, short_steps] = end;
   return {{"is_wet", is_wet},
           {"wet_time", wet_time},
           {"speed", speed},
@@ -96,6 +105,9 @@ nlohmann::json json_of(const OpenEndState& end) {
           {"depth_at_gauge", depth_at_gauge},
           {"depth_rate", depth_rate},
           {"entry_speed", entry_speed},
+          {"gain", gain},
+          {"miss", json_of(miss)},
+          {"asked", asked},
           {"rows", rows},
           {"departed", json_of(departed)},
           {"arrived", json_of(arrived)},
@@ -113,6 +125,9 @@ OpenEndState open_end_of(const nlohmann::json& json) {
           json.at("depth_at_gauge"),
           json.at("depth_rate"),
           json.at("entry_speed"),
+          json.at("gain"),
+          miss_of(json.at("miss")),
+          json.at("asked"),
           json.at("rows"),
           passed_of(json.at("departed")),
           passed_of(json.at("arrived")),

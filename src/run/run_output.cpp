@@ -132,7 +132,8 @@ nlohmann::json RunOutput<Dim>::saved() const {
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
           {"warnings", warnings()},
           {"limits", limits_.saved()},
-          {"warned_outside", warned_outside_}};
+          {"warned_outside", warned_outside_},
+          {"end_watch", end_watch_.saved()}};
 }
 
 template <int Dim>
@@ -153,6 +154,7 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
+  end_watch_.restore(kept.at("end_watch"));
   const nlohmann::json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
   cpu_seconds_before_ = cost.at("cpu_seconds");
@@ -244,6 +246,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   const FlowMeasures measures = measure(flow);
   const auto outside = static_cast<std::size_t>(water_outside(flow).particles);
   warn_if_outside(flow, outside);
+  end_watch_.look(flow);
   statistics_.add(report, measures, outside);
   do_on_root(ranks_, [&] {
     require_folder_in_place();

@@ -15,6 +15,7 @@
 #include "io/pvd_series.h"
 #include "io/run_folder.h"
 #include "probes/probe_set.h"
+#include "run/end_watch.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
 #include "run/result_limits.h"
@@ -98,6 +99,7 @@ class RunOutput {
   double next_fields_ = 0.0;  ///< s
   double last_fields_time_ = -1.0;
   bool warned_outside_ = false;
+  EndWatch end_watch_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_look_at_folder_;
   double cpu_start_;

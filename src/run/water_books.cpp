@@ -17,6 +17,12 @@ nlohmann::ordered_json json_of(const Water& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
+/// By how much, since when and for how long a prescribed level was missed; null: it was held.
+nlohmann::ordered_json json_of(const LevelMiss& miss) {
+  if (miss.since < 0.0) return nullptr;
+  return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
+}
+
 /// The height of x above the wall that a body falling from it meets first, m: positive if it meets the front. None if
 /// it meets no wall on the way to `lowest`.
 template <int Dim>
@@ -152,6 +158,8 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     json["back"] = json_of_passed(is_inlet ? end.departed : end.arrived);
     const int circuit = flow.setup.open_ends[e].circuit;
     if (circuit >= 0 && is_inlet) json["steps_short_of_water"] = end.short_steps;
+    if (flow.setup.open_ends[e].flow.feeds()) json["asked_for_m3"] = end.asked;
+    if (flow.setup.open_ends[e].holds_level()) json["level_missed"] = json_of(end.miss);
     if (circuit == static_cast<int>(e)) {
       const Passed sump = sump_of(flow, circuit);
       json["waiting"] = json_of(Water{sump.particles, sump.volume}, density);

@@ -7,13 +7,13 @@
 #include <optional>
 #include <set>
 
-#include "schemes/cases.h"
+#include "schemes/open_ends.h"
 #include "support/dimensions.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double dx = 0.05;
+constexpr double dx = end_spacing;
 
 template <class D>
 class OpenEndTest : public testing::Test {};
@@ -23,21 +23,6 @@ TYPED_TEST_SUITE(OpenEndTest, Dimensions);
 /// a divergence is there dx^2 |W'| = 1.6e-5/dx, and a plug that glides past feels such particles come and go to that
 /// degree. Steps of 0.25 or 0.5 dx pass no wall particle at such a distance.
 constexpr double unfelt = 1.6e-5;
-
-/// The tank of tank_case with its end at high x open.
-template <int Dim>
-CaseSpec open_tank(double width, double depth) {
-  CaseSpec spec = tank_case<Dim>(dx, width, depth);
-  spec.walls[0].open.emplace_back("+x");
-  OutletTable end;
-  end.from = Coordinates(Dim, 0.0);
-  end.from[0] = width;
-  end.to = spec.walls[0].max;
-  end.direction = Coordinates(Dim, 0.0);
-  end.direction[0] = 1.0;
-  spec.outlets = {end};
-  return spec;
-}
 
 template <int Dim>
 std::multiset<std::int64_t> fluid_ids(const Particles<Dim>& particles) {
@@ -167,34 +152,6 @@ TEST(Outlet, HoleInTheFloor) {
   EXPECT_EQ(
       fluid_ids(flow.state.particles).size() + static_cast<std::size_t>(flow.state.open_ends[0].departed.particles),
       at_start);
-}
-
-/// The tank of tank_case with both ends in x open: an inlet at low x, an outlet at high x.
-template <int Dim>
-CaseSpec channel(double width, double depth) {
-  CaseSpec spec = open_tank<Dim>(width, depth);
-  spec.walls[0].open.emplace_back("-x");
-  InletTable start;
-  start.from = Coordinates(Dim, 0.0);
-  start.to = spec.walls[0].max;
-  start.to[0] = 0.0;
-  start.direction = spec.outlets[0].direction;
-  spec.inlets = {start};
-  return spec;
-}
-
-/// Lets water out and in, and takes a step, as a run does.
-template <int Dim>
-void pass_and_step(Flow<Dim>& flow) {
-  if (flow.state.step % 5 == 0) share_out(flow);
-  let_go(flow);
-  let_in(flow);
-  advance(flow, next_time_step(flow));
-}
-
-template <int Dim>
-Passed arrived_at(const Flow<Dim>& flow, std::size_t end) {
-  return flow.state.open_ends[end].arrived;
 }
 
 /// Without gravity nothing acts on water that comes in at one speed: it stands on the lattice of its entrance, to

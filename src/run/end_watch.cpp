@@ -1,0 +1,59 @@
+#include "run/end_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/messages.h"
+
+namespace tailwater {
+namespace {
+
+/// An inlet is short of water when more than this share of what is asked for is missing, and more than so many columns
+/// of particles: some always wait for room.
+constexpr double most_missing = 0.02;
+constexpr double columns_that_wait = 3.0;
+
+}  // namespace
+
+bool EndWatch::is_first(const std::string& what) {
+  if (std::ranges::find(told_, what) != told_.end()) return false;
+  told_.push_back(what);
+  return true;
+}
+
+template <int Dim>
+void EndWatch::look(const Flow<Dim>& flow) {
+  const double spacing = flow.setup.spacing;
+  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
+    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
+    const OpenEndState& state = flow.state.open_ends[e];
+    const std::string label = end.opening.label();
+    if (state.miss.since >= 0.0 && is_first(label + ": level")) {
+      warn(fmt::format(
+          "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more "
+          "than the spacing of {:.3g} m; water_balance in summary.json tells how long. Remedy: a wider or "
+          "deeper opening, or levels and discharges that change more slowly",
+          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing));
+    }
+    const double missing = state.asked - (state.arrived.volume - state.departed.volume);
+    const double columns = columns_that_wait * spacing * state.depth * end.width;
+    if (end.circuit < 0 && missing > most_missing * std::abs(state.asked) + columns &&
+        is_first(label + ": discharge")) {
+      warn(
+          fmt::format("{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of "
+                      "room; water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller "
+                      "spacing",
+                      label, flow.state.time, missing, state.asked));
+    }
+  }
+}
+
+nlohmann::json EndWatch::saved() const { return told_; }
+
+void EndWatch::restore(const nlohmann::json& saved) { saved.get_to(told_); }
+
+template void EndWatch::look(const Flow<2>&);
+template void EndWatch::look(const Flow<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,30 @@
+// Watches whether the open ends of a run do what the case asks of them, and warns once of each that does not.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "flow/flow.h"
+
+namespace tailwater {
+
+class EndWatch {
+ public:
+  /// Warns of levels that are not held (LevelMiss) and of inlets that bring less than they should. Call after each
+  /// step; only the root's warnings are seen.
+  template <int Dim>
+  void look(const Flow<Dim>& flow);
+
+  /// What has been warned of, for a checkpoint, and from one.
+  nlohmann::json saved() const;
+  void restore(const nlohmann::json& saved);
+
+ private:
+  /// Whether nothing of this kind was told of this end yet; from now on it was.
+  bool is_first(const std::string& what);
+
+  std::vector<std::string> told_;
+};
+
+}  // namespace tailwater

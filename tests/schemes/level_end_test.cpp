@@ -1,0 +1,161 @@
+// Open ends that hold a level, and what the flow through them is.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "case/formulation.h"
+#include "schemes/open_ends.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double dx = end_spacing;
+
+/// Mean depth [m] of the water in a 2D channel or tank that is so long.
+double mean_depth(const Flow<2>& flow, double length) {
+  const Particles<2>& particles = flow.state.particles;
+  double volume = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.is_fluid(i)) volume += particles.volume[i];
+  }
+  return volume / length;
+}
+
+/// The tank of open_tank<2>, 1 m wide, with a level beyond its open end.
+CaseSpec tank_with_level(double depth, const Varying& level) {
+  CaseSpec spec = open_tank<2>(1.0, depth);
+  spec.walls[0].max[1] = 1.2;
+  spec.outlets[0].to = {1.0, 1.2};
+  spec.outlets[0].level = level;
+  return spec;
+}
+
+/// An end at which nothing flows holds its level from both sides: a tank fills or empties to it, however far off it
+/// begins, and stays there.
+TEST(OpenEnd, ATankComesToTheLevelBeyond) {
+  for (const double level : {0.25, 0.8}) {
+    Flow<2> flow(tank_with_level(0.5, level));
+    start(flow);
+    while (flow.state.time < 7.0) {
+      pass_and_step(flow);
+      if (flow.state.time > 5.0) {
+        ASSERT_NEAR(mean_depth(flow, 1.0), level, dx) << "t = " << flow.state.time;
+      }
+    }
+    EXPECT_LT(flow.state.open_ends[0].miss.since, 0.0) << "not missed for long";
+  }
+}
+
+/// A level that rises takes the water along: it lags by no more than what lets the mean flow in (u/sqrt(g h) of the
+/// depth), and is there when the level has come to rest.
+TEST(OpenEnd, ATankFollowsARisingLevel) {
+  Flow<2> flow(tank_with_level(0.4, Varying("0.4 + 0.3*min(1, t/3)")));
+  start(flow);
+  while (flow.state.time < 7.0) {
+    pass_and_step(flow);
+    const double level = 0.4 + 0.3 * std::min(1.0, flow.state.time / 3.0);
+    ASSERT_NEAR(mean_depth(flow, 1.0), level, 2.0 * dx) << "t = " << flow.state.time;
+  }
+  EXPECT_NEAR(mean_depth(flow, 1.0), 0.7, dx);
+}
+
+/// A channel whose discharge ends keeps its tailwater. While the water slows down, u L/T tilts its surface by u L/(g
+/// T), half of it in the mean, and what is set free by the end of that swings as far beyond: so the mean depth is never
+/// off by more than that and a spacing.
+TEST(OpenEnd, AChannelWhoseDischargeEndsKeepsItsTailwater) {
+  const double length = 2.0;
+  const double depth = 0.3;
+  const double speed = 0.5;
+  const double duration = 3.0;
+  CaseSpec spec = channel<2>(length, depth);
+  spec.fluid[0].velocity = {speed, 0.0};
+  spec.inlets[0].discharge = Varying(fmt::format("{}*max(0, 1 - t/{})", speed * depth, duration));
+  spec.outlets[0].level = depth;
+  Flow<2> flow(spec);
+  start(flow);
+  double mean = 0.0;
+  int count = 0;
+  while (flow.state.time < 12.0) {
+    pass_and_step(flow);
+    const double now = mean_depth(flow, length);
+    ASSERT_NEAR(now, depth, speed * length / (g * duration) + dx) << "t = " << flow.state.time;
+    if (flow.state.time < duration) continue;
+    mean += now;
+    ++count;
+  }
+  EXPECT_NEAR(mean / count, depth, 0.5 * dx);
+}
+
+/// Potential flow from water at rest over a free brink is critical: two thirds of the head deep, q = (2/3)^1.5 sqrt(g)
+/// H^1.5.
+TEST(OpenEnd, AReservoirGivesTheDischargeOfPotentialFlow) {
+  const double head = 0.4;
+  CaseSpec spec = channel<2>(1.5, head);
+  spec.fluid.clear();
+  spec.inlets[0].level = head;
+  Flow<2> flow(spec);
+  start(flow);
+  while (flow.state.time < 2.0) pass_and_step(flow);
+  const double at_start = arrived_at(flow, 0).volume;
+  while (flow.state.time < 4.0) pass_and_step(flow);
+  const double discharge = 0.5 * (arrived_at(flow, 0).volume - at_start);
+  EXPECT_NEAR(discharge / (std::pow(2.0 / 3.0 * head, 1.5) * std::sqrt(g)), 1.0, 0.05) << "a column is 4 %";
+}
+
+/// A shooting flow passes below a tailwater that is too low to hold it up: the level is missed, and that is told.
+TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
+  const double depth = 0.2;
+  const double speed = 4.0;
+  CaseSpec spec = channel<2>(1.0, depth);
+  spec.walls[0].max[1] = spec.inlets[0].to[1] = spec.outlets[0].to[1] = 0.8;
+  spec.fluid[0].velocity = {speed, 0.0};
+  spec.inlets[0].discharge = speed * depth;
+  spec.inlets[0].level = depth;
+  spec.outlets[0].level = 0.4;  // the conjugate depth is 0.72 m
+  Flow<2> flow(spec);
+  start(flow);
+  while (flow.state.time < 6.0) pass_and_step(flow);
+  const LevelMiss& miss = flow.state.open_ends[1].miss;
+  EXPECT_GE(miss.since, 0.0);
+  EXPECT_NEAR(miss.most, depth - 0.4, dx);
+  EXPECT_GT(miss.total, 0.0);
+  EXPECT_LT(flow.state.open_ends[0].miss.since, 0.0);
+}
+
+/// Whatever the profile, the rows of the lattice bring the discharge.
+TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
+  const double depth = 0.4;
+  const double speed = 0.5;
+  CaseSpec spec = channel<2>(1.5, depth);
+  spec.fluid[0].velocity = {speed, 0.0};
+  spec.inlets[0].discharge = speed * depth;
+  spec.inlets[0].profile = "s^(-0.5)";
+  spec.outlets[0].level = depth;
+  Flow<2> flow(spec);
+  start(flow);
+  while (flow.state.time < 3.0) pass_and_step(flow);
+  const double asked = speed * depth * flow.state.time;
+  EXPECT_NEAR(flow.state.open_ends[0].asked, asked, 1e-9);
+  EXPECT_NEAR(arrived_at(flow, 0).volume, asked, 0.02 * asked + dx * depth);
+}
+
+/// The published formulations have open ends too: still water between them stays still, but for what gravity does in a
+/// step or two on columns whose pressure is not exact.
+TEST(OpenEnd, ThePublishedFormulationsHaveThem) {
+  for (const SchemeName name : {SchemeName::farzin2014, SchemeName::farmani2020}) {
+    CaseSpec spec = channel<2>(1.0, 0.4);
+    spec.scheme.name = name;
+    spec.scheme.formulation = Formulation::published;
+    apply_formulation(spec.scheme);
+    spec.inlets[0].discharge = 0.0;
+    spec.outlets[0].level = 0.4;
+    Flow<2> flow(spec);
+    start(flow);
+    for (int n = 0; n < 10; ++n) pass_and_step(flow);
+    EXPECT_LT(measure(flow).largest_speed, 0.1 * std::sqrt(g * 0.4));
+  }
+}
+
+}  // namespace
+}  // namespace tailwater

@@ -1,0 +1,54 @@
+// Tanks and channels with open ends, and how a run goes on with them.
+#pragma once
+
+#include "schemes/cases.h"
+
+namespace tailwater {
+
+/// m; the spacing of these cases.
+constexpr double end_spacing = 0.05;
+
+/// The tank of tank_case with its end at high x open.
+template <int Dim>
+CaseSpec open_tank(double width, double depth) {
+  CaseSpec spec = tank_case<Dim>(end_spacing, width, depth);
+  spec.walls[0].open.emplace_back("+x");
+  OutletTable end;
+  end.from = Coordinates(Dim, 0.0);
+  end.from[0] = width;
+  end.to = spec.walls[0].max;
+  end.direction = Coordinates(Dim, 0.0);
+  end.direction[0] = 1.0;
+  spec.outlets = {end};
+  return spec;
+}
+
+/// The tank of tank_case with both ends in x open: an inlet at low x, an outlet at high x.
+template <int Dim>
+CaseSpec channel(double width, double depth) {
+  CaseSpec spec = open_tank<Dim>(width, depth);
+  spec.walls[0].open.emplace_back("-x");
+  InletTable start;
+  start.from = Coordinates(Dim, 0.0);
+  start.to = spec.walls[0].max;
+  start.to[0] = 0.0;
+  start.direction = spec.outlets[0].direction;
+  spec.inlets = {start};
+  return spec;
+}
+
+/// Lets water out and in, and takes a step, as a run does.
+template <int Dim>
+void pass_and_step(Flow<Dim>& flow) {
+  if (flow.state.step % 5 == 0) share_out(flow);
+  let_go(flow);
+  let_in(flow);
+  advance(flow, next_time_step(flow));
+}
+
+template <int Dim>
+Passed arrived_at(const Flow<Dim>& flow, std::size_t end) {
+  return flow.state.open_ends[end].arrived;
+}
+
+}  // namespace tailwater
