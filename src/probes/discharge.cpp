@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/for_each.h"
+#include "geometry/from_spec.h"
 #include "geometry/opening.h"
 
 namespace tailwater {
@@ -12,6 +13,9 @@ namespace {
 
 /// [dx]; with two columns on each side the tent counts a lattice exactly wherever it stands.
 constexpr double half_width_over_spacing = 2.0;
+/// What has passed is smoothed over the time in which a long wave in water as deep as the section is high goes so many
+/// spacings. Single particles vanish in such a mean, and what changes in such water does not.
+constexpr double smoothing_over_spacing = 20.0;
 
 /// Which of the discharge probes it is.
 std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec) {
@@ -23,31 +27,83 @@ std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec)
   return number;
 }
 
+/// s; without gravity a mean over all time since the start.
+template <int Dim>
+double smoothing_time(const Opening<Dim>& section, const CaseSpec& spec) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  double upright = 0.0;  // m^2/s^2; gravity times the height
+  double widest = 0.0;
+  for (const Vec<Dim>& edge : section.edges) {
+    upright = std::max(upright, std::abs(edge.dot(gravity)));
+    widest = std::max(widest, edge.norm() * gravity.norm());
+  }
+  const bool lies_flat = upright < 1e-3 * widest;
+  const double celerity = std::sqrt(lies_flat ? widest : upright);
+  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : spec.time.end;
+}
+
+/// The flux [m^Dim/s] of the water within two spacings of the section, at one moment.
+template <int Dim>
+double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
+  const Particles<Dim>& particles = context.particles;
+  const double half = half_width_over_spacing * context.spacing;
+  const double flux = sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    const Vec<Dim>& x = particles.position[i];
+    const double off = std::abs(section.beyond(x));
+    if (off >= half || !section.spans(x)) return 0.0;
+    return (1.0 - off / half) * particles.volume[i] * section.normal.dot(particles.velocity[i]);
+  });
+  return context.ranks.sum(flux) / half;
+}
+
+/// What a probe remembers from reading to reading, in the numbers that checkpoints keep.
+struct Memory {
+  explicit Memory(std::vector<double>& numbers)
+      : largest(numbers[0]), time_of_largest(numbers[1]), time(numbers[2]), volume(numbers[3]), discharge(numbers[4]) {}
+
+  static std::vector<double> at_start() { return {0.0, 0.0, -1.0, 0.0, 0.0}; }
+  bool is_new() const { return time < 0.0; }
+
+  double& largest;
+  double& time_of_largest;
+  double& time;    ///< of the last reading; below 0: there was none
+  double& volume;  ///< then
+  double& discharge;
+};
+
 }  // namespace
 
 template <int Dim>
 Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const Opening<Dim> section = make_section<Dim>(probe, spec.particles.spacing);
   const std::size_t number = number_among_sections(probe, spec);
+  const double smoothing = smoothing_time(section, spec);
   Reading<Dim> reading;
   reading.columns = {"discharge_m3_per_s", "volume_m3"};
-  reading.memory = std::make_shared<std::vector<double>>(2, 0.0);  // the largest discharge, and when it was
-  reading.take = [section, number, memory = reading.memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
-    const Particles<Dim>& particles = context.particles;
-    const double half = half_width_over_spacing * context.spacing;
-    const double flux = sum_over(particles.owned, 0.0, [&](std::size_t i) {
-      if (!particles.is_fluid(i)) return 0.0;
-      const Vec<Dim>& x = particles.position[i];
-      const double off = std::abs(section.beyond(x));
-      if (off >= half || !section.spans(x)) return 0.0;
-      return (1.0 - off / half) * particles.volume[i] * section.normal.dot(particles.velocity[i]);
-    });
-    const double discharge = context.ranks.sum(flux) / half;
-    if (discharge > memory->front()) *memory = {discharge, context.time};
-    return {{discharge, context.totals.section_volumes.at(number)}};
+  reading.memory = std::make_shared<std::vector<double>>(Memory::at_start());
+  reading.take = [=, numbers = reading.memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
+    Memory memory(*numbers);
+    const double volume = context.totals.section_volumes.at(number);
+    if (memory.is_new()) {
+      memory.discharge = flux_near(section, context);
+    } else if (const double since = context.time - memory.time; since > 0.0) {
+      const double share = 1.0 - std::exp(-since / smoothing);
+      memory.discharge += share * ((volume - memory.volume) / since - memory.discharge);
+    }
+    memory.time = context.time;
+    memory.volume = volume;
+    if (memory.discharge > memory.largest) {
+      memory.largest = memory.discharge;
+      memory.time_of_largest = context.time;
+    }
+    return {{memory.discharge, volume}};
   };
-  reading.summary = [memory = reading.memory]() -> std::vector<std::pair<std::string, double>> {
-    return {{"largest_m3_per_s", memory->front()}, {"time_of_largest_s", memory->back()}};
+  reading.summary = [=, numbers = reading.memory]() -> std::vector<std::pair<std::string, double>> {
+    const Memory memory(*numbers);
+    return {{"largest_m3_per_s", memory.largest},
+            {"time_of_largest_s", memory.time_of_largest},
+            {"smoothed_over_s", smoothing}};
   };
   return reading;
 }

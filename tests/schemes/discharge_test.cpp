@@ -1,0 +1,72 @@
+// The discharge probe: what it reads has the mean of what is counted, also where the flow bends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "probes/discharge.h"
+#include "schemes/open_ends.h"
+
+namespace tailwater {
+namespace {
+
+/// A shooting flow falls over the end of its bed, a spacing behind which it is below the section.
+TEST(Discharge, HasTheRightMeanOverABrink) {
+  const double depth = 0.2;
+  const double speed = 2.0;
+  CaseSpec spec = channel<2>(0.6, depth);
+  WallTable bed;
+  bed.points = {{0.0, 0.0}, {0.6, 0.0}};
+  spec.walls = {bed};
+  spec.outlets.clear();
+  spec.inlets[0].to = {0.0, 0.4};
+  spec.inlets[0].discharge = speed * depth;
+  spec.inlets[0].level = depth;
+  spec.fluid[0].velocity = {speed, 0.0};
+  ProbeTable section;
+  section.name = "brink";
+  section.type = ProbeType::discharge;
+  section.from = {0.6, 0.0};
+  section.to = {0.6, 0.4};
+  section.direction = {1.0, 0.0};
+  spec.probes = {section};
+  Flow<2> flow(spec);
+  const Reading<2> reading = discharge_reading<2>(section, spec);
+  const auto read = [&] {
+    return reading
+        .take({.particles = flow.state.particles,
+               .grid = flow.neighbourhood.grid(),
+               .kernel = flow.setup.kernel,
+               .boundary = flow.walls.boundary,
+               .density = flow.setup.density,
+               .gravity = flow.setup.gravity,
+               .spacing = flow.setup.spacing,
+               .time = flow.state.time,
+               .totals = {.section_volumes = flow.state.section_volumes},
+               .domain = flow.setup.domain})
+        .at(0);
+  };
+  start(flow);
+  EXPECT_GE(read()[0], 0.0);
+  double sum = 0.0;
+  double first_time = 0.0;
+  double first_volume = 0.0;
+  while (flow.state.time < 2.0) {
+    const double before = flow.state.time;
+    pass_and_step(flow);
+    const Row row = read();
+    if (before < 0.5) {
+      first_time = flow.state.time;
+      first_volume = row[1];
+      continue;
+    }
+    sum += (flow.state.time - before) * row[0];
+    EXPECT_NEAR(row[0], speed * depth, 0.2 * speed * depth) << "a column in 20 dx/sqrt(g H) = 0.5 s is 5 %";
+  }
+  const double mean = sum / (flow.state.time - first_time);
+  const double counted = (flow.state.section_volumes[0] - first_volume) / (flow.state.time - first_time);
+  EXPECT_NEAR(counted, speed * depth, 0.02 * speed * depth);
+  EXPECT_NEAR(mean, counted, 0.02 * counted);
+}
+
+}  // namespace
+}  // namespace tailwater
