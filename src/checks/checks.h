@@ -29,6 +29,10 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 /// other walls; a body longer than twice all these.
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
 
+/// Error: a wave maker whose depth is not that of the water in front of it. Collective.
+template <int Dim>
+Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
 /// Error: a wall that is no mesh and thinner than its layers of wall particles, with water or another wall on its other
 /// side. Looks straight through each face from points dx apart; at most 50 points per edge.
 template <int Dim>

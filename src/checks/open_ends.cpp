@@ -12,6 +12,7 @@ namespace {
 
 constexpr double rim_tolerance = 0.1;    // dx, between an opening's rim and the walls
 constexpr double wall_clearance = 0.25;  // dx, between walls and the path of the water
+constexpr double least_downward = 0.9;   // cosine between gravity and the way out through a floor
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
 template <int Dim>
@@ -109,6 +110,25 @@ void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Op
   }
 }
 
+/// The end stretch of a hole in the floor stands between walls, or water comes into it from the sides, where it presses
+/// on nothing.
+template <int Dim>
+void check_pit(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.norm() == 0.0 || end.normal.dot(gravity) < least_downward * gravity.norm()) return;
+  const double dx = spec.particles.spacing;
+  const double depth = (spec.scheme.support + 1.0) * dx;
+  for (const Vec<Dim>& x : closed_rim(end, gravity, dx)) {
+    const NearestWall<Dim> wall = boundary.nearest(x - depth * end.normal, std::numeric_limits<double>::infinity());
+    if (wall.face >= 0 && std::abs(wall.signed_distance) <= 0.5 * depth) continue;
+    findings.push_back(Finding::error(
+        "{} is a hole in the floor without walls above its edge at {}: water that comes to it from the sides would be "
+        "crushed; draw a pit below the hole, with upright walls {:.3g} m deep or more, and put the {} on its floor",
+        end.label(), place(x), depth, end.kind == OpeningKind::inlet ? "inlet" : "outlet"));
+    return;
+  }
+}
+
 /// Returns whether it is sound.
 template <int Dim>
 bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
@@ -159,6 +179,7 @@ Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, co
     check_direction(spec, end, findings);
     check_rim(spec, boundary, end, findings);
     check_way_out(spec, boundary, end, findings);
+    check_pit(spec, boundary, end, findings);
     if (check_fluid_beyond(spec, end, fluid, findings)) check_facing(spec, boundary, end, findings);
   }
   return findings;

@@ -1,0 +1,114 @@
+// What `check` says of holes in the floor, of profiles of inlets, and of the depth of wave makers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "checks/check.h"
+#include "geometry/cases.h"
+#include "motion/channel_end.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+/// The messages of all errors, one after the other.
+std::string errors_of(const CaseSpec& spec) {
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  std::string text;
+  for (const Finding& finding : check_geometry<2>(spec, boundary, make_fluid_particles<2>(spec, boundary))) {
+    if (finding.severity == Severity::error) text += finding.message + "\n";
+  }
+  return text;
+}
+
+/// A tank 1 m wide with a slot in its floor, and walls of that height below the slot's edges.
+CaseSpec tank_over_slot(double pit) {
+  CaseSpec spec = empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {0.4, 0.0}}), polyline({{0.6, 0.0}, {1.0, 0.0}, {1.0, 0.8}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {1.0, 0.4})};
+  if (pit > 0.0) {
+    spec.walls[0].points.push_back({0.4, -pit});
+    spec.walls[1].points.insert(spec.walls[1].points.begin(), {0.6, -pit});
+  }
+  spec.outlets = {outlet({0.4, -pit}, {0.6, -pit})};
+  spec.outlets[0].direction = {0.0, -1.0};
+  return spec;
+}
+
+TEST(EndChecks, AHoleInTheFloorNeedsAPit) {
+  const std::string refused = errors_of(tank_over_slot(0.0));
+  EXPECT_NE(refused.find("outlet 'outlet1' is a hole in the floor without walls above its edge at (0.4, 0)"),
+            std::string::npos)
+      << refused;
+  EXPECT_NE(refused.find("draw a pit below the hole"), std::string::npos) << refused;
+  EXPECT_EQ(errors_of(tank_over_slot(0.2)), "");
+}
+
+std::string refusal_of_profile(const std::string& profile) {
+  CaseSpec spec = open_channel();
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, 0.1)};
+  spec.inlets[0].profile = profile;
+  try {
+    make_channel_ends<2>(spec);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(EndChecks, AProfileWithoutAMeanIsRefused) {
+  for (const char* profile : {"1/s", "s^(-1.5)"}) {
+    EXPECT_NE(refusal_of_profile(profile).find("grows without bound towards s = 0, the bed"), std::string::npos)
+        << profile;
+  }
+  EXPECT_NE(refusal_of_profile("1/(1 - s)").find("towards s = 1, the surface"), std::string::npos);
+  for (const char* profile : {"s^(-0.5)", "s^(1/7)", "3*s", "min(10, 1/s)"}) {
+    EXPECT_EQ(refusal_of_profile(profile), "accepted") << profile;
+  }
+}
+
+/// Rows that fill the depth bring the whole discharge, however many there are and however steep the profile is.
+TEST(EndChecks, RowsBringTheWholeProfile) {
+  CaseSpec spec = open_channel();
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, 0.1)};
+  spec.inlets[0].profile = "s^(-0.5)";
+  const EndFlow flow = make_channel_ends<2>(spec)[0].flow;
+  for (const int rows : {1, 3, 8, 50}) {
+    double sum = 0.0;
+    for (int k = 0; k < rows; ++k) sum += flow.profile_of_row((k + 0.5) / rows, 1.0 / rows);
+    EXPECT_NEAR(sum / rows, 1.0, 1e-12) << rows;
+    // The share sqrt(s) of the discharge is below s. The table misses 0.6/sqrt(n) of it in its lowest n parts.
+    if (rows <= 8) {
+      EXPECT_NEAR(flow.largest_in_profile(rows) / std::sqrt(rows), 1.0, 0.02) << rows;
+    }
+  }
+}
+
+TEST(EndChecks, AWaveMakerWantsTheDepthOfItsWater) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{-1.0, 1.0}, {-1.0, 0.0}, {8.0, 0.0}, {8.0, 1.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {8.0, 0.5})};
+  WaveMakerTable maker;
+  maker.name = "piston";
+  maker.from = {0.0, 0.0};
+  maker.to = {0.0, 1.0};
+  maker.height = 0.02;
+  maker.period = 1.5;
+  spec.wave_makers = {maker};
+  for (const double depth : {0.1, 0.7}) {
+    spec.wave_makers[0].depth = depth;
+    const std::string refused = errors_of(spec);
+    EXPECT_NE(refused.find("wave_maker 'piston': depth = "), std::string::npos) << refused;
+    EXPECT_NE(refused.find("is 0.5 m deep at the start"), std::string::npos) << refused;
+  }
+  for (const double depth : {0.48, 0.5, 0.52}) {
+    spec.wave_makers[0].depth = depth;
+    EXPECT_EQ(errors_of(spec).find("wave_maker 'piston': depth = "), std::string::npos) << errors_of(spec);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
