@@ -80,6 +80,9 @@ TEST_F(BedFile, IsRefusedWithPlaceAndRemedy) {
            Bad{"x [inch], z [m]\n0,1\n", "bed.csv:1", {"unknown unit \"inch\"", "m, mm, cm, km or ft"}},
            Bad{std::string("0,1\n\0\1\2,1\n", 10), "bed.csv:2", {"not a text file"}},
            Bad{"0,1\n", "case.toml:8", {"too few points", "at least 2"}},
+           Bad{"x,z\n0,5,1,25\n", "bed.csv:2", {"has 4 columns, and the first line has 2", "decimals", "point"}},
+           Bad{"x;z\n0;5;1\n", "bed.csv:2", {"has 3 columns", "name all columns"}},
+           Bad{"x z\n0 secret:$6$a\n", "bed.csv:2", {"what is in column 2 is not a number"}},
        }) {
     const std::string message = this->message(bad.text);
     EXPECT_NE(message.find("case.toml:8:15: wall[0].points_file = \"bed.csv\": "), std::string::npos) << message;
@@ -200,6 +203,7 @@ TEST_F(MotionFile, IsRefusedWithPlaceAndRemedy) {
            Bad{"t,x\n0,0\n0,1\n", "roll.csv:3", {"keep one of two with the same time"}},
            Bad{"t,x\n0.5,0\n2,0\n", "roll.csv:2", {"begins at t = 0.5 s", "add a line for t = 0"}},
            Bad{"t,x\n0,0\n0.9,0\n", "roll.csv:3", {"t = 0.9 s", "the run ends at 1 s", "the last values again"}},
+           Bad{"t,x\n0,0,11\n1,0,12\n", "roll.csv:2", {"has 3 columns, and the first line has 2", "decimals"}},
            Bad{"t,z\n0,0\n2,0\n", "roll.csv", {"column z", "case.dimension = 2"}},
        }) {
     const std::string message = this->message(bad.text);
@@ -210,6 +214,20 @@ TEST_F(MotionFile, IsRefusedWithPlaceAndRemedy) {
   }
   std::filesystem::remove(linked_);
   EXPECT_THROW(read_case(file_.path()), InputError);
+}
+
+TEST_F(MotionFile, MayHaveEmptyColumnsAtItsEnd) {
+  write("t,x,,\n0,0,,\n1,0.5,\n");
+  EXPECT_EQ(read_case(file_.path()).walls[0].series.columns[0], (std::vector<double>{0.0, 0.5}));
+}
+
+/// Whoever may name files in a case need not be allowed to read them.
+TEST_F(MotionFile, IsNotQuotedUnlessItIsOne) {
+  for (const char* text : {"root:x:0:0:root:/root:/bin/bash\n", "user,password\nroot,secret\n", "secret [l]\n1\n"}) {
+    const std::string message = this->message(text);
+    EXPECT_NE(message.find("does not name the column t"), std::string::npos) << message;
+    for (const char* word : {"root", "password", "secret"}) EXPECT_EQ(message.find(word), std::string::npos) << message;
+  }
 }
 
 TEST_F(MotionFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
@@ -259,6 +277,7 @@ TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
            Bad{head + "0, 1\n2, 1\n1, 1\n", "hydrograph.csv:4", {"is not after that of line 3", "order of time"}},
            Bad{head + "0, 1\n0, 2\n", "hydrograph.csv:3", {"is not after that of line 2", "keep one of two"}},
            Bad{head + "0, nan\n1, 2\n", "hydrograph.csv:2", {"nan is no finite value"}},
+           Bad{head + "0,0,11\n1,0,12\n", "hydrograph.csv:2", {"has 3 columns", "decimals", "with a point"}},
            Bad{head + "0, 1\n1\n", "hydrograph.csv:3", {"complete the line"}},
        }) {
     const std::string message = this->message(bad.text);

@@ -1,0 +1,79 @@
+// A text file of columns, line by line: separators, headings with units, numbers, and the place of what is wrong. What
+// stands in it is quoted only where it looks like a number or a heading: a case may name any file of its reader.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <istream>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+struct Unit {
+  std::string_view name;
+  double factor;  ///< in SI units
+};
+inline constexpr std::array<Unit, 5> length_units{
+    {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}}};
+
+/// The fields of a line, without blanks and quotes around them; with a blank as separator any number of blanks is one.
+/// Empty ones at the end, which spreadsheets leave, do not count.
+std::vector<std::string_view> fields_of(std::string_view line, char separator);
+
+/// The first of ; tab , that is in the line; else a blank.
+char separator_of(std::string_view line);
+
+/// The number that a field is, if it is one.
+std::optional<double> number_in_field(std::string_view field);
+
+/// What the header says about a column: "Station [mm]" is "station" in "mm".
+struct Heading {
+  std::string name;
+  std::string unit;
+  bool has_brackets = false;  ///< otherwise what follows an underscore may be part of the name
+
+  explicit Heading(std::string_view field);
+};
+
+std::string lower_case_of(std::string_view text);
+
+class ColumnFile {
+ public:
+  explicit ColumnFile(const std::filesystem::path& path) : path_(path.string()) {}
+
+ protected:
+  /// Calls take(line) for each line that is neither empty nor a comment.
+  template <class Take>
+  void for_each_line(std::istream& file, Take&& take) {
+    std::string text;
+    while (std::getline(file, text)) {
+      if (const std::string_view line = next_line(text); !line.empty()) take(line);
+    }
+  }
+
+  [[noreturn]] void wrong(const std::string& message) const;
+
+  /// The fields of a line of numbers, of which there are no more than columns: a decimal comma would make two of one.
+  std::vector<std::string_view> numbers_of(std::string_view line) const;
+
+  double number_at(const std::vector<std::string_view>& fields, std::size_t column, std::string_view quantity) const;
+
+  /// The unit of a heading in SI units; nothing if it names none.
+  std::optional<double> unit_of(const Heading& heading, std::string_view field, std::span<const Unit> units) const;
+
+  std::string path_;
+  std::size_t line_ = 0;
+  char separator_ = '\0';  ///< not known yet
+  std::size_t width_ = 0;  ///< columns of the first line that counts
+
+ private:
+  /// The next line without blanks around it; empty if it does not count.
+  std::string_view next_line(std::string_view text);
+};
+
+}  // namespace tailwater

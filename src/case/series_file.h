@@ -1,0 +1,15 @@
+// A CSV file of quantities over time, as linked_files.h describes it.
+#pragma once
+
+#include <filesystem>
+#include <istream>
+#include <span>
+
+#include "case/time_series.h"
+
+namespace tailwater {
+
+/// The columns of `file`, whose name messages tell, in SI units. Throws InputError with file, line and remedy.
+TimeSeries parse_series(const std::filesystem::path& path, std::istream& file, std::span<const SeriesColumn> columns);
+
+}  // namespace tailwater
