@@ -33,7 +33,12 @@ struct RunArguments {
 
 ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
-    if (ranks.is_root()) fmt::print("{}", arguments.help_case == "markdown" ? case_reference_markdown() : case_help());
+    if (ranks.is_root()) {
+      const std::string& format = arguments.help_case;
+      fmt::print("{}", format == "markdown" ? case_reference_markdown()
+                       : format == "json"   ? case_reference_json()
+                                            : case_help());
+    }
     return ExitCode::done;
   }
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
@@ -90,10 +95,10 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
   add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
-  command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text or markdown)")
+  command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text, markdown or json)")
       ->expected(0, 1)
       ->default_str("text")
-      ->check(CLI::IsMember({"text", "markdown"}))
+      ->check(CLI::IsMember({"text", "markdown", "json"}))
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"

@@ -19,11 +19,6 @@ std::string array_text(const std::vector<double>& values) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-std::string_view names_of(Variables variables) {
-  if (variables == Variables::height) return height_name[0];
-  return variables == Variables::time ? time_name[0] : "x, y, z";
-}
-
 std::string varying_text(const Varying& value) {
   const auto* number = std::get_if<double>(&value);
   return number != nullptr ? toml_float(*number) : toml_string(std::get<std::string>(value));
@@ -44,6 +39,11 @@ struct TableCollector {
 };
 
 }  // namespace
+
+std::string_view names_of(Variables variables) {
+  if (variables == Variables::height) return height_name[0];
+  return variables == Variables::time ? time_name[0] : "x, y, z";
+}
 
 std::string range_text(const Range& range) {
   const bool has_low = std::isfinite(range.low);
@@ -67,12 +67,12 @@ void KeyCollector::text(std::string_view key, const std::string& value, std::str
 
 void KeyCollector::integer(std::string_view key, int value, std::string_view unit, const Range& range,
                            std::string_view doc, Presence presence) {
-  rows_.push_back({key, "whole number", fmt::format("{}", value), unit, range_text(range), doc, presence});
+  rows_.push_back({key, "whole number", fmt::format("{}", value), unit, range_text(range), doc, presence, range});
 }
 
 void KeyCollector::number(std::string_view key, double value, std::string_view unit, const Range& range,
                           std::string_view doc, Presence presence) {
-  rows_.push_back({key, "number", toml_float(value), unit, range_text(range), doc, presence});
+  rows_.push_back({key, "number", toml_float(value), unit, range_text(range), doc, presence, range});
 }
 
 void KeyCollector::coordinates(std::string_view key, const Coordinates& value, std::string_view unit,
@@ -83,7 +83,7 @@ void KeyCollector::coordinates(std::string_view key, const Coordinates& value, s
 void KeyCollector::varying(std::string_view key, const Varying& value, Variables variables, std::string_view unit,
                            std::string_view doc) {
   const std::string type = fmt::format("number or expression of {}", names_of(variables));
-  rows_.push_back({key, type, varying_text(value), unit, "", doc, Presence::optional});
+  rows_.push_back({key, type, varying_text(value), unit, "", doc, Presence::optional, {}, {}, variables});
 }
 
 void KeyCollector::varying(std::string_view key, const std::optional<Varying>& value, Variables variables,
@@ -98,7 +98,8 @@ void KeyCollector::field(std::string_view key, const VectorField& value, Variabl
   for (const Varying& component : value) {
     texts.push_back(varying_text(component));
   }
-  rows_.push_back({key, type, fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional});
+  rows_.push_back(
+      {key, type, fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional, {}, {}, variables});
 }
 
 void KeyCollector::points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit,
@@ -121,13 +122,20 @@ void KeyCollector::texts(std::string_view key, const std::vector<std::string>& v
   for (const std::string& text : value) {
     texts.push_back(toml_string(text));
   }
-  rows_.push_back(
-      {key, "texts", fmt::format("[{}]", fmt::join(texts, ", ")), "", quoted_list(allowed), doc, Presence::optional});
+  rows_.push_back({key,
+                   "texts",
+                   fmt::format("[{}]", fmt::join(texts, ", ")),
+                   "",
+                   quoted_list(allowed),
+                   doc,
+                   Presence::optional,
+                   {},
+                   allowed});
 }
 
 void KeyCollector::add_choice(std::string_view key, std::string_view value, std::span<const std::string_view> names,
                               std::string_view doc, Presence presence) {
-  rows_.push_back({key, "choice", toml_string(value), "", quoted_list(names), doc, presence});
+  rows_.push_back({key, "choice", toml_string(value), "", quoted_list(names), doc, presence, {}, names});
 }
 
 std::string TableInfo::heading() const { return is_list ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name); }

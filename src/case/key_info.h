@@ -2,6 +2,7 @@
 // or misspelt keys are made from them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,7 +24,13 @@ struct KeyInfo {
   std::string allowed;    ///< the range of a number, the names of a choice; empty: anything of that type
   std::string_view doc;   ///< one line
   Presence presence = Presence::optional;
+  Range range = {};                                ///< of a number
+  std::span<const std::string_view> choices = {};  ///< of a choice, and of texts that are names from a list
+  std::optional<Variables> variables = {};         ///< what an expression may depend on besides the named numbers
 };
+
+/// What an expression may depend on, as the help tells it: "t", "s", or "x, y, z".
+std::string_view names_of(Variables variables);
 
 /// The range in words, such as "above 0" or "2 to 5"; empty if all numbers are allowed.
 std::string range_text(const Range& range);
