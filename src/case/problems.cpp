@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/text.h"
 #include "case/overrides.h"
 #include "case/toml_text.h"
 
@@ -42,7 +43,10 @@ std::string full_value_text(const toml::node& node) {
 
 std::string value_text(const toml::node& node) {
   const std::string text = full_value_text(node);
-  return text.size() <= longest ? text : fmt::format("{}...", text.substr(0, longest));
+  std::size_t end = std::min(text.size(), longest);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    --end;  // whole letters
+  return end == text.size() ? text : fmt::format("{}...", text.substr(0, end));
 }
 
 std::string place_text(const std::string& file, const toml::source_region* source) {
@@ -52,7 +56,7 @@ std::string place_text(const std::string& file, const toml::source_region* sourc
 }
 
 void Problems::add(const toml::source_region* source, const std::string& message) {
-  const std::string line = fmt::format("{}: {}", place_text(file_, source), message);
+  const std::string line = printable(fmt::format("{}: {}", place_text(file_, source), message));
   if (source == nullptr || !source->begin) {
     lines_.push_back({std::numeric_limits<unsigned>::max(), line});
   } else if (source->path && source->path->starts_with(override_prefix)) {
@@ -62,7 +66,7 @@ void Problems::add(const toml::source_region* source, const std::string& message
   }
 }
 
-void Problems::add_override(const std::string& line) { lines_.push_back({0, line}); }
+void Problems::add_override(const std::string& line) { lines_.push_back({0, printable(line)}); }
 
 std::string Problems::text() const {
   std::vector<Line> sorted = lines_;

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "case/nearest_name.h"
 
 namespace tailwater {
@@ -42,7 +45,10 @@ std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::for
 
 void TableReader::text(std::string_view key, std::string& value, std::string_view doc, Presence presence) {
   if (const toml::node* node = find(key, doc, "", "", presence)) {
-    if (const auto* given = node->as_string()) {
+    if (const auto* given = node->as_string(); given != nullptr && !is_printable(given->get())) {
+      wrong(key, *node,
+            "has a control character or an end of a line; write it on one line, of letters that can be seen");
+    } else if (given != nullptr) {
       value = given->get();
     } else {
       wrong(key, *node, "give a text in quotes");
@@ -185,6 +191,8 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
     const auto* name = element.as_string();
     if (name == nullptr) {
       wrong(key, element, fmt::format("give {}", choice), place);
+    } else if (!is_printable(name->get())) {
+      wrong(key, element, "has a control character; write letters that can be seen", place);
     } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
       wrong(key, element, fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
     } else if (std::find(given.begin(), given.end(), name->get()) != given.end()) {
@@ -194,6 +202,19 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
     }
   }
   value = std::move(given);
+}
+
+std::filesystem::path TableReader::linked(const std::string& file) const {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::absolute(context_.folder / file, error);
+  if (error) throw InputError(fmt::format("cannot tell which file that is: {}", error.message()));
+  if (!is_printable(path.string())) {
+    throw InputError(fmt::format(
+        "the name of its folder, {}, has letters that are not UTF-8, or that cannot be shown; move the case "
+        "into another folder",
+        path.string()));
+  }
+  return path.lexically_normal();
 }
 
 void TableReader::wrong(std::string_view key, const toml::node& node, const std::string& message,

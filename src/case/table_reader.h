@@ -86,10 +86,9 @@ class TableReader {
   /// 2 or 3; 0 if the file gives an invalid one.
   int dimension() const { return context_.dimension; }
 
-  /// The file that the case names, relative to its own folder.
-  std::filesystem::path linked(const std::string& file) const {
-    return std::filesystem::absolute(context_.folder / file).lexically_normal();
-  }
+  /// The file that the case names, relative to its own folder. Throws InputError where that is not a name that the case
+  /// a run leaves can have.
+  std::filesystem::path linked(const std::string& file) const;
 
   /// Reports a problem with the value of `key`, or with the part of it at `place`.
   void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");

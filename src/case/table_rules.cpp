@@ -643,6 +643,8 @@ void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, Table
     const toml::node* node = reader.given(info.key);
     if (need == KeyNeed::needed && node == nullptr) {
       reader.missing(info.key, fmt::format("{} needs it: {}{}", choice, info.doc, in_unit(info.unit)));
+    } else if (need == KeyNeed::needed && node->is_string() && node->as_string()->get().empty()) {
+      reader.wrong(info.key, *node, fmt::format("is empty, and {} needs it: {}", choice, info.doc));
     } else if (need == KeyNeed::unused && node != nullptr) {
       reader.wrong(
           info.key, *node,

@@ -1,5 +1,9 @@
 #include "checks/check.h"
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "checks/checks.h"
 
 namespace tailwater {
@@ -25,6 +29,9 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_wave_makers(spec, fluid));
   append(findings, check_leaks(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
+  // Both faces of a plate, for one, say the same.
+  std::set<std::string> told;
+  std::erase_if(findings, [&](const Finding& finding) { return !told.insert(finding.message).second; });
   return findings;
 }
 

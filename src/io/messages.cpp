@@ -10,13 +10,21 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <set>
 #include <utility>
+
+#include "base/text.h"
 
 namespace tailwater {
 namespace {
 
 /// How long a message waits for a terminal or pipe that takes nothing; once one has waited in vain, the next do not.
 constexpr int patience = 1000;  // ms
+
+/// bytes; far more than a message needs that names a place, a value and a remedy
+constexpr std::size_t longest_line = 2000;
+
+std::string shown_as(std::string_view line) { return shortened(printable(line), longest_line); }
 
 struct Messages {
   Voice voice = Voice::aloud;
@@ -73,6 +81,7 @@ std::size_t terminal_columns() {
 
 void survive_lost_terminal() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
     [[maybe_unused]] const int lowest_free = open("/dev/null", O_RDWR);
@@ -83,7 +92,7 @@ void set_voice(Voice voice) { messages().voice = voice; }
 
 void tell(std::string_view line) {
   const Voice voice = messages().voice;
-  const std::string text = fmt::format("{}\n", line);
+  const std::string text = shown_as(line) + "\n";
   if (voice == Voice::aloud) show(text);
   if (voice != Voice::silent) keep(text);
 }
@@ -95,9 +104,11 @@ void warn(const std::string& line) {
 
 void tell_error(std::string_view message, std::string_view prefix) {
   std::string text;
+  std::set<std::string_view> told;
   for (std::size_t start = 0; start < message.size();) {
     const std::size_t end = std::min(message.find('\n', start), message.size());
-    text += fmt::format("error: {}{}\n", prefix, message.substr(start, end - start));
+    const std::string_view line = message.substr(start, end - start);
+    if (told.insert(line).second) text += shown_as(fmt::format("error: {}{}", prefix, line)) + "\n";
     start = end + 1;
   }
   if (text.empty()) return;
@@ -106,7 +117,7 @@ void tell_error(std::string_view message, std::string_view prefix) {
 }
 
 void log_line(std::string_view line) {
-  if (messages().voice != Voice::silent) keep(fmt::format("{}\n", line));
+  if (messages().voice != Voice::silent) keep(shown_as(line) + "\n");
 }
 
 bool is_on_terminal() { return isatty(STDERR_FILENO) == 1; }
@@ -115,6 +126,7 @@ void show_live(std::string line) {
   Messages& all = messages();
   if (all.voice != Voice::aloud) return;
   // A line that wraps cannot be rewritten in place.
+  line = printable(line);
   line.resize(std::min(line.size(), terminal_columns() - 1));
   all.live_line_is_open = write_what_is_taken(STDERR_FILENO, fmt::format("\r\033[K{}", line), 0);
 }
@@ -122,7 +134,7 @@ void show_live(std::string line) {
 void open_log(const std::filesystem::path& path) {
   Messages& all = messages();
   if (all.log >= 0) close(all.log);
-  all.log = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  all.log = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (all.log >= 0) write_what_is_taken(all.log, all.told, patience);
   all.told.clear();
 }

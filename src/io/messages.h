@@ -12,7 +12,7 @@ namespace tailwater {
 
 /// Call before any file is opened. Standard streams that are closed become /dev/null, since a file of results would
 /// otherwise take their place and receive the messages. Writing to a pipe that nobody reads is an error from now on,
-/// not a signal.
+/// not a signal, and so is a file that grows beyond the limit of a batch system, as one on a full disk.
 void survive_lost_terminal();
 
 enum class Voice {
@@ -22,11 +22,14 @@ enum class Voice {
 };
 void set_voice(Voice voice);
 
+/// Lines are shown as `printable` (base/text.h) makes them, and with their middle left out if they are very long.
+
 /// A line for the user.
 void tell(std::string_view line);
 /// "warning: LINE"; kept for `warnings`.
 void warn(const std::string& line);
-/// "error: PREFIX LINE" for each line of the message: a case may have several problems.
+/// "error: PREFIX LINE" for each line of the message: a case may have several problems. A line that is there twice is
+/// told once.
 void tell_error(std::string_view message, std::string_view prefix = "");
 /// A line for the log alone.
 void log_line(std::string_view line);

@@ -23,10 +23,12 @@ void expect_round_trip(const std::string& text) {
 
 TEST(EffectiveCase, OfTheShortestCaseReadsBack) { expect_round_trip(required_keys + water); }
 
+TEST(TomlString, EscapesWhatCannotBeSeen) { EXPECT_EQ(toml_string("a\x01\n\x7f"), "\"a\\u0001\\u000A\\u007F\""); }
+
 TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
   expect_round_trip(
       "[parameters]\nH = \"0.1 + 0.2\"\nT = \"1/3\"\n"
-      "[case]\ntitle = \"a \\\"quoted\\\" \\\\ title\\twith tab, \\u0001 and \u00e4\"\n"
+      "[case]\ntitle = \"a \\\"quoted\\\" \\\\ title\\twith tab and \u00e4\"\n"
       "[physics]\ngravity = [\"-0.0\", \"-9.81/3\"]\nviscosity = 1e-15\n"
       "[particles]\nspacing = \"H/7\"\njitter = 0.1\n[domain]\nperiodic_x = [\"-1/3\", \"1e15\"]\n"
       "[time]\nend = \"T\"\n[scheme]\nformulation = \"published\"\nintegrator = \"implicit\"\n"

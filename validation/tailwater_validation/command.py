@@ -2,6 +2,7 @@
 
 import argparse
 import difflib
+import math
 import signal
 import sys
 from pathlib import Path
@@ -9,6 +10,14 @@ from pathlib import Path
 from .checks import runs_of
 from .curves import DataError
 from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
+
+
+def number(text):
+    """A finite number, for an option."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text}: not a finite number")
+    return value
 
 
 class PlainParser(argparse.ArgumentParser):

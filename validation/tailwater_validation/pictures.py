@@ -5,7 +5,6 @@ for each field file; those that are there already are not made again. Needs only
 still go on.
 """
 
-import os
 import sys
 from pathlib import Path
 
@@ -16,11 +15,12 @@ from matplotlib.colors import Normalize
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from . import plots, scene
-from .command import PlainParser
+from .command import PlainParser, number
 from .curves import DataError
 from .particles import list_frames, read_frame, read_polydata
 from .run_folder import RunFolder
 from .surface import water_surface
+from .whole_file import write_whole
 
 COUNT = 6
 DPI = 100
@@ -36,13 +36,6 @@ def choose_frames(frames, times, count):
     else:
         chosen = set(np.linspace(0, len(frames) - 1, min(count, len(frames))).round().astype(int))
     return [frame for frame in numbered if frame[0] in chosen]
-
-
-def write_whole(path, write):
-    """A killed program leaves no half file."""
-    part = path.with_name(path.name + ".part")
-    write(part)
-    os.replace(part, path)
 
 
 def write_polydata(path, data):
@@ -172,8 +165,8 @@ def main(arguments):
     parser = PlainParser("tailwater pictures", __doc__.split("\n\n", maxsplit=1)[0], ".")
     parser.add_argument("run", type=Path, metavar="DIR", help="folder of a run")
     parser.add_argument("--count", type=int, default=COUNT, metavar="N", help=f"pictures, at equal times ({COUNT})")
-    parser.add_argument("--times", type=float, nargs="+", metavar="S", help="or of the field files nearest to these times, s")
-    parser.add_argument("--from", type=float, nargs=3, dest="look_from", default=scene.FROM, metavar=("X", "Y", "Z"),
+    parser.add_argument("--times", type=number, nargs="+", metavar="S", help="or of the field files nearest to these times, s")
+    parser.add_argument("--from", type=number, nargs=3, dest="look_from", default=scene.FROM, metavar=("X", "Y", "Z"),
                         help="3D: direction, from the middle of the walls, that the pictures look from "
                              f"({' '.join(f'{value:g}' for value in scene.FROM)})")
     options = parser.parse_args(arguments)

@@ -9,8 +9,9 @@ import matplotlib
 from . import plots, scene
 from .curves import DataError
 from .particles import read_polydata, to_frame
-from .pictures import DPI, bounds_of, plain, show_image, write_whole
+from .pictures import DPI, bounds_of, plain, show_image
 from .surface import water_surface
+from .whole_file import write_whole
 
 
 def point(text):
@@ -36,7 +37,7 @@ def main(arguments):
         image = scene.Scene(bounds).draw(surface, walls, options.mark)
         with matplotlib.rc_context(plots.STYLE):
             figure, _ = show_image(image, plain(options.title))
-            write_whole(options.image, lambda part: figure.savefig(part, dpi=DPI, format="png"))
+            write_whole(options.image, lambda part: figure.savefig(part, dpi=DPI, format="png", metadata={"Software": "tailwater preview"}))
     except (DataError, OSError) as error:
         print(error, file=sys.stderr)
         return 4

@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .command import PlainParser
+from .command import PlainParser, number
 from .curves import DataError
 from .run_folder import RunFolder
+from .whole_file import write_whole
 
 # Frequencies between these multiples of the peak's count as waves in a separation of waves and reflected waves.
 BAND = (0.5, 1.8)
@@ -224,22 +225,28 @@ def report(numbers):
     return "\n".join(lines)
 
 
+def write_text(path, text):
+    write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
+
+
 def write_spectra(path, spectra):
     names = list(spectra)
     lines = [",".join(names)]
     lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*spectra.values())]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def main(arguments):
     parser = PlainParser("tailwater waves", __doc__.split("\n\n", maxsplit=1)[0], ".")
     parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
     parser.add_argument("gauges", nargs="*", metavar="GAUGE", help="depth probes, in order along the waves (all)")
-    parser.add_argument("--from", type=float, dest="start", metavar="S", help="begin of the window, s (the run's)")
-    parser.add_argument("--to", type=float, dest="end", metavar="S", help="end of the window, s (the run's)")
-    parser.add_argument("--depth", type=float, metavar="M", help="still depth, m (the gauges' mean)")
+    parser.add_argument("--from", type=number, dest="start", metavar="S", help="begin of the window, s (the run's)")
+    parser.add_argument("--to", type=number, dest="end", metavar="S", help="end of the window, s (the run's)")
+    parser.add_argument("--depth", type=number, metavar="M", help="still depth, m (the gauges' mean)")
     parser.add_argument("--solitary", action="store_true", help="one wave: its height and speed")
     options = parser.parse_args(arguments)
+    if options.depth is not None and options.depth <= 0:
+        parser.error(f"--depth {options.depth:g}: a depth is above 0 m")
     try:
         run, spectra = RunFolder(options.run), None
         if options.solitary:
@@ -251,7 +258,7 @@ def main(arguments):
         return 2
     print(solitary_report(numbers) if options.solitary else report(numbers))
     try:
-        (options.run / "waves.json").write_text(json.dumps(numbers, indent=2) + "\n", encoding="utf-8")
+        write_text(options.run / "waves.json", json.dumps(numbers, indent=2) + "\n")
         if spectra:
             write_spectra(options.run / "waves_spectrum.csv", spectra)
     except OSError as error:
