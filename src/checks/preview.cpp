@@ -343,7 +343,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
 
   Svg svg;
   svg.add(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" )"
-          R"(font-family="DejaVu Sans, Arial, sans-serif">)",
+          R"(font-family="DejaVu Sans, Arial, sans-serif" aria-label="tailwater preview">)",
           width, height);
   svg.add(R"(<rect width="100%" height="100%" fill="white"/>)");
   svg.text(view.left, 28.0, "start", spec.general.title, 1.35 * font_size);

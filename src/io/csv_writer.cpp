@@ -1,5 +1,6 @@
 #include "io/csv_writer.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,10 +16,9 @@ namespace tailwater {
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
                      std::optional<std::int64_t> kept)
-    : path_(path), columns_(columns.size()), file_(std::fopen(path.c_str(), kept ? "r+b" : "wb")) {
-  if (!file_) {
-    throw_io_error("write", path_, errno);
-  }
+    : path_(path), columns_(columns.size()) {
+  file_.reset(fdopen(open_regular_file(path_, kept ? O_RDWR : O_WRONLY | O_CREAT | O_TRUNC), kept ? "r+b" : "wb"));
+  if (!file_) throw_io_error("write", path_, errno);
   const std::string first_line = fmt::format("{}\n", fmt::join(columns, ","));
   if (kept) {
     go_on(first_line, *kept);
@@ -66,6 +66,7 @@ void CsvWriter::require_in_place() const {
 }
 
 void cut_file(const std::filesystem::path& path, std::int64_t kept) {
+  require_regular_or_none(path);
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) throw_io_error("read", path, errno);
   if (found.st_size < kept) {

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <array>
+#include <new>
 #include <type_traits>
 
 #include "base/error.h"
@@ -70,6 +71,9 @@ hid_t type_of() {
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(std::size_t room) {
+  // HDF5 does not always look whether it got memory. Here its end is an exception.
+  constexpr std::size_t own_room = std::size_t{16} << 20;
+  ::operator delete(::operator new(room + own_room));
   begin_hdf5();
   file_ = own(H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, *in_memory(room)), H5Fclose,
               "make a file in memory");

@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 7> result_files{
 constexpr std::array<std::string_view, 2> failure_files{"last_good.vtp", "report.txt"};
 /// The series of field files that a run, or its pictures, may write: NAME.pvd and NAME_00000.vtp, ...
 constexpr std::array<std::string_view, 3> series_names{"fields", "walls", "surface"};
+constexpr std::array<std::string_view, 2> usual_folders{"probes", "fields"};
 /// Folders that are made only when there is something to put into them.
 constexpr std::array<std::string_view, 3> rare_folders{"failure", "checkpoints", "pictures"};
 constexpr std::string_view checkpoint_start = "step_";
@@ -161,6 +162,28 @@ bool is_free(const fs::path& folder) {
                      [](const fs::path& path) { return path.filename() == lock_file_name; });
 }
 
+/// A run writes through no link, and takes the place of no device or pipe. What it meets in a folder inside is found
+/// when it comes to that file.
+void require_no_links(const fs::path& run) {
+  const auto refuse_if = [](bool is_other, const fs::path& path) {
+    if (!is_other) return;
+    throw InputError(
+        fmt::format("'{}' is a link, a device or a pipe, which no run writes into: remove it, or name another folder",
+                    path.string()));
+  };
+  for (const std::string_view name : result_files) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(run / name, error);
+    refuse_if(fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status), run / name);
+  }
+  const auto refuse_linked_folder = [&](std::string_view name) {
+    std::error_code error;
+    refuse_if(fs::is_symlink(fs::symlink_status(run / name, error)), run / name);
+  };
+  for (const std::string_view name : usual_folders) refuse_linked_folder(name);
+  for (const std::string_view name : rare_folders) refuse_linked_folder(name);
+}
+
 FolderLock make_run_folder(const fs::path& path, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -177,10 +200,10 @@ FolderLock make_run_folder(const fs::path& path, bool force) {
                     "results in it",
                     path.string()));
   }
+  require_no_links(path);
   make_folder(path);
   FolderLock lock(path);  // also finds out whether files can be written: permission bits do not bind root
-  make_folder(path / "probes");
-  make_folder(path / "fields");
+  for (const std::string_view name : usual_folders) make_folder(path / name);
   remove_earlier_results(path);
   return lock;
 }
@@ -196,6 +219,7 @@ RunFolder RunFolder::create(const fs::path& path, bool force, const Communicator
 RunFolder RunFolder::open(const fs::path& path, const Communicator& ranks) {
   FolderLock lock;
   do_on_root(ranks, [&] {
+    require_no_links(path);
     lock = FolderLock(path);
     remove_traces_of_the_end(path);
   });

@@ -21,15 +21,16 @@ class RunFolder {
  public:
   /// Makes the folder with probes/ and fields/, and holds its lock while this object lives. Changes nothing unless it
   /// can do all of it.
-  /// InputError: `path` is a file, a folder that is not empty and `force` is not given, or the folder of a run that is
-  /// still going. IoError: it cannot be made, read or written. `force` removes the results of an earlier run and
-  /// requests to it; only the effective case stays, for the new run to replace. Files that no run has written stay,
-  /// wherever they are.
-  /// Collective: the root makes the folder; its error is thrown on all ranks.
+  /// InputError: `path` is a file, a folder that is not empty and `force` is not given, the folder of a run that is
+  /// still going, or one with links where results would be. IoError: it cannot be made, read or written. `force`
+  /// removes the results of an earlier run and requests to it; only the effective case stays, for the new run to
+  /// replace. Files that no run has written stay, wherever they are. Collective: the root makes the folder; its error
+  /// is thrown on all ranks.
   static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
 
   /// The folder of an earlier run, which is to go on; holds its lock, as above. Requests to that run and the report of
-  /// its failure are removed. Throws InputError if that run is still going, IoError if the folder cannot be written.
+  /// its failure are removed. Throws InputError if that run is still going or there are links in the place of
+  /// results, IoError if the folder cannot be written.
   /// Collective, as above.
   static RunFolder open(const std::filesystem::path& path, const Communicator& ranks = {});
 

@@ -21,12 +21,17 @@ namespace {
 /// Whether a file must outlive a power cut.
 enum class Lasting { as_the_system_likes, on_disk };
 
-/// 0, or the errno of the first call that failed.
+/// 0, or the errno of the first call that failed. The file is new: one that a killed run has left is removed first.
 int write_parts(const std::filesystem::path& path, std::span<const std::string_view> parts,
                 Lasting lasting = Lasting::as_the_system_likes) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
+  require_regular_or_none(path);
+  if (unlink(path.c_str()) != 0 && errno != ENOENT) return errno;
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return errno;
+  std::FILE* file = fdopen(descriptor, "wb");
   if (file == nullptr) {
-    return errno;
+    close(descriptor);
+    return ENOMEM;
   }
   int error_number = 0;
   for (const std::string_view part : parts) {
@@ -82,6 +87,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   std::int64_t size = 0;
   for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
   const std::int64_t offset = ranks.sum_before(size);
+  do_on_root(ranks, [&] { require_regular_or_none(path); });
   // Makes the file, or empties one that a killed run has left. The system calls give the reason if that fails.
   do_on_root(ranks, [&] {
     const int error_number = write_parts(temporary, {});
@@ -110,6 +116,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
 
 /// Writes beside `path` and renames.
 void replace_file(const std::filesystem::path& path, std::span<const std::string_view> parts, Lasting lasting) {
+  require_regular_or_none(path);
   std::filesystem::path temporary = path;
   temporary += temporary_ending;
   int error_number = write_parts(temporary, parts, lasting);
@@ -140,6 +147,24 @@ void throw_io_error(std::string_view what, const std::filesystem::path& path, in
   throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number)));
 }
 
+void require_regular_or_none(const std::filesystem::path& path) {
+  std::error_code error;  // what cannot be looked at cannot be opened either, which is told then
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  if (std::filesystem::is_directory(status)) throw_io_error("write", path, EISDIR);
+  throw IoError(
+      fmt::format("cannot write '{}': {} is in its place, and is neither followed nor replaced; remedy: remove "
+                  "it, or choose another name",
+                  path.string(), std::filesystem::is_symlink(status) ? "a link" : "a device or a pipe"));
+}
+
+int open_regular_file(const std::filesystem::path& path, int flags) {
+  require_regular_or_none(path);
+  const int file = open(path.c_str(), flags | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0) throw_io_error((flags & O_ACCMODE) == O_RDONLY ? "read" : "write", path, errno);
+  return file;
+}
+
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> parts, const Communicator& ranks) {
   if (!ranks.is_alone()) {
     write_file_together(path, parts, ranks);
@@ -154,7 +179,7 @@ void write_file_to_disk(const std::filesystem::path& path, std::span<const std::
 }
 
 bool overwrite_file(const std::filesystem::path& path, std::string_view text) {
-  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return false;
   const auto size = static_cast<ssize_t>(text.size());
   const bool is_written = write(file, text.data(), text.size()) == size && ftruncate(file, size) == 0;

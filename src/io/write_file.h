@@ -1,5 +1,6 @@
 // Writes whole files: first under a temporary name beside the target, then renamed over it. A run killed at any moment
-// leaves either the old file or the new one.
+// leaves either the old file or the new one. Nothing is written through a link, and no link, device or pipe is
+// replaced: what stands in the place of a file that we write may be someone else's.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +13,13 @@ namespace tailwater {
 
 /// Ending of the temporary name; a killed run may leave one such file.
 inline constexpr std::string_view temporary_ending = ".part";
+
+/// Opens a regular file, which may not be there yet, with these flags of open(2) and returns its descriptor. Throws
+/// IoError for a link, a device, a pipe or a folder, and where it cannot be opened.
+int open_regular_file(const std::filesystem::path& path, int flags);
+
+/// Throws IoError if a link, a device or a pipe has the place of the file `path`.
+void require_regular_or_none(const std::filesystem::path& path);
 
 /// Writes `parts` one after the other as the file `path`. Collective: the parts of all ranks, by rank, make one file;
 /// every rank writes its own parts (MPI-IO). Throws IoError with the path and the system's reason, on all ranks; an

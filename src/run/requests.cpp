@@ -107,7 +107,7 @@ RequestSender::~RequestSender() {
 
 bool RequestSender::make(const std::filesystem::path& file, bool& is_sent) const {
   if (last_start() == start_before_) return false;
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) return false;
   close(descriptor);
   is_sent = true;

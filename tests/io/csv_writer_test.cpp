@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/file_size_limit.h"
 #include "io/temporary_folder.h"
 
 namespace tailwater {
@@ -102,9 +103,24 @@ TEST(CsvWriter, ReportsAFolderThatDoesNotExist) {
 }
 
 TEST(CsvWriter, ReportsAFullDisk) {
-  const std::string message = message_of<IoError>([] { CsvWriter("/dev/full", {"time_s"}); });
-  EXPECT_NE(message.find("/dev/full"), std::string::npos) << message;
-  EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "table.csv";
+  const FileSizeLimit limit(3);
+  const std::string message = message_of<IoError>([&] { CsvWriter(path, {"time_s"}); });
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+}
+
+TEST(CsvWriter, WritesNeitherThroughALinkNorIntoADevice) {
+  const TemporaryFolder folder;
+  const auto precious = folder.path() / "precious";
+  const auto path = folder.path() / "table.csv";
+  std::ofstream(precious) << "precious";
+  std::filesystem::create_symlink(precious, path);
+  EXPECT_THROW(CsvWriter(path, {"a"}), IoError);
+  EXPECT_THROW(cut_file(path, 2), IoError);
+  EXPECT_EQ(text_of(precious), "precious");
+  EXPECT_NE(message_of<IoError>([] { CsvWriter("/dev/full", {"time_s"}); }).find("a device"), std::string::npos);
 }
 
 }  // namespace

@@ -106,8 +106,13 @@ TEST(RunFolder, ForceDoesNotFollowLinks) {
   const TemporaryFolder folder;
   fs::create_directory_symlink(elsewhere.path(), folder.path() / "probes");
   fs::create_symlink(elsewhere.path() / "measured.csv", folder.path() / "steps.csv");
-  RunFolder::create(folder.path(), true);
+  const auto refused = [&] { return message_of<InputError>([&] { RunFolder::create(folder.path(), true); }); };
+  EXPECT_NE(refused().find("steps.csv' is a link"), std::string::npos);
+  fs::remove(folder.path() / "steps.csv");
+  EXPECT_NE(refused().find("probes' is a link"), std::string::npos);
+  EXPECT_THROW(RunFolder::open(folder.path()), InputError);
   EXPECT_EQ(text_of(elsewhere.path() / "measured.csv"), "foreign");
+  EXPECT_EQ(tree(elsewhere.path()), (Names{"measured.csv"}));
 }
 
 TEST(RunFolder, AFileInItsPlaceIsBadInput) {

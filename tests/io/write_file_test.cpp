@@ -1,6 +1,8 @@
 #include "io/write_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
 #include <vector>
 
 #include "base/error.h"
@@ -57,6 +59,29 @@ TEST(WriteFile, DoesNotReplaceAFolder) {
   std::filesystem::create_directory(folder.path() / "note.txt");
   EXPECT_THROW(write_text_file(folder.path() / "note.txt", "text"), IoError);
   EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(WriteFile, NeitherFollowsNorReplacesWhatIsNoFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "note.txt";
+  const auto part = folder.path() / "note.txt.part";
+  write_text_file(folder.path() / "precious", "precious");
+  for (const auto& place : {path, part}) {
+    std::filesystem::create_symlink(folder.path() / "precious", place);
+    EXPECT_NE(message_of<IoError>([&] { write_text_file(path, "text"); }).find("a link is in its place"),
+              std::string::npos);
+    EXPECT_EQ(text_of(folder.path() / "precious"), "precious");
+    EXPECT_TRUE(std::filesystem::is_symlink(place));
+    std::filesystem::remove(place);
+    ASSERT_EQ(mkfifo(place.c_str(), 0600), 0);
+    EXPECT_NE(message_of<IoError>([&] { write_text_file(path, "text"); }).find("a device or a pipe is in its place"),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_fifo(place));
+    std::filesystem::remove(place);
+  }
+  write_text_file(part, "what a killed run has left");
+  write_text_file(path, "text");
+  EXPECT_EQ(count_entries(folder.path()), 2u);
 }
 
 }  // namespace
