@@ -17,6 +17,7 @@
 
 #include "app/processes.h"
 #include "io/messages.h"
+#include "parallel/process_limits.h"
 #include "run/requests.h"
 
 namespace tailwater {
@@ -103,6 +104,7 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
   if (!is_in_batch_job() && count > usable_cores()) {
     warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
+  require_room_for_mpi(count);
   const std::vector<std::string> command = mpirun_command(count, arguments);
   RequestSender requests(out);
   const AwaitedSignals signals;

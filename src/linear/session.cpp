@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/fp_traps.h"
 #include "linear/petsc.h"
+#include "parallel/process_limits.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
@@ -57,6 +58,7 @@ void check_petsc(PetscErrorCode code) {
 }
 
 LinearSession::LinearSession() {
+  require_room_for_mpi();
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
   // Open MPI's hwloc looks for graphics cards by asking every X server of this machine, also where DISPLAY is not set.
