@@ -19,8 +19,6 @@ import pathlib
 import subprocess
 import tempfile
 
-from make_pier_stl import text_of_stl
-
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DENSITY, GRAVITY = 1000.0, 9.81
 SIZE = 1.0  # m; diameter of a round body, edge of the others
@@ -31,6 +29,15 @@ OFF = (0.31, 0.12, 0.22)  # dx; off the lattice along x, y and z
 
 TILT_2D = 0.4  # rad
 TILTS_3D = (0.5, 0.3)  # rad; about z, then about x
+
+
+def text_of_stl(triangles):
+    lines = ["solid body"]
+    for triangle in triangles:
+        lines += ["facet normal 0 0 0", " outer loop"]
+        lines += [f"  vertex {x:.6f} {y:.6f} {z:.6f}" for x, y, z in triangle]
+        lines += [" endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid body", ""])
 
 
 def circle():

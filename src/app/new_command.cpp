@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
-#include <regex>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/commands.h"
+#include "app/files_of_others.h"
 #include "io/write_file.h"
 #include "templates.h"
 
@@ -33,32 +37,48 @@ const std::map<std::string, const char*> templates_by_name{
     {"floating-box", templates::floating_box},
 };
 
+/// What a template reads, written beside it: name and content.
+const std::map<std::string, std::pair<std::string, const char*>> files_read_by_template{
+    {"pier", {"pier.obj", templates::pier_obj}},
+    {"river-reach", {"bed.csv", templates::bed_csv}},
+};
+
 struct NewOptions {
   std::string kind;
   std::filesystem::path file;
   bool force = false;
 };
 
-/// The file that a case reads, which its template does not bring; empty if there is none.
-std::string file_read_by(const std::string& text) {
-  static const std::regex key(R"re((?:^|\n)(?:points_)?file = "([^"]+)")re");
-  std::smatch found;
-  return std::regex_search(text, found, key) ? found[1].str() : std::string();
+/// Refuses to take the place of what is there, unless it is a file of this user and that is asked for.
+void require_place(const std::filesystem::path& file, bool force) {
+  const std::filesystem::file_status status = std::filesystem::symlink_status(file);
+  if (!std::filesystem::exists(status)) return;
+  require_own_regular_file(file);
+  if (force) return;
+  throw InputError(fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", file.string()));
+}
+
+bool holds(const std::filesystem::path& file, std::string_view text) {
+  std::ifstream stream(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {}) == text;
 }
 
 void write_new_case(const NewOptions& options) {
-  if (std::filesystem::exists(options.file) && !options.force) {
-    throw InputError(
-        fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", options.file.string()));
+  require_place(options.file, options.force);
+  const auto read = files_read_by_template.find(options.kind);
+  std::string beside;
+  if (read != files_read_by_template.end()) {
+    const auto& [name, text] = read->second;
+    const std::filesystem::path file = options.file.parent_path() / name;
+    if (!holds(file, text)) {
+      require_place(file, options.force);
+      write_text_file(file, text);
+    }
+    beside = fmt::format(" and {}, which it reads", file.string());
   }
-  const std::string text = templates_by_name.at(options.kind);
-  write_text_file(options.file, text);
-  const std::string file = options.file.string();
-  const std::string read = file_read_by(text);
-  const std::string first =
-      read.empty() ? "" : fmt::format("Its first lines say how to make {}, which it reads. ", read);
-  fmt::print("Wrote {0}. {2}Next:\n  tailwater check {0}\n  tailwater run {0} --out {1}_run\n", file,
-             options.file.stem().string(), first);
+  write_text_file(options.file, templates_by_name.at(options.kind));
+  fmt::print("Wrote {0}{1}. Next:\n  tailwater check {0}\n  tailwater run {0} --out {2}_run\n", options.file.string(),
+             beside, options.file.stem().string());
 }
 
 }  // namespace
@@ -72,7 +92,7 @@ void add_new_command(CLI::App& app, ExitCode&) {
           "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
           "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, ogee, "
           "sluice-gate, hydraulic-jump and backwater (steady flow in a flume), circulation, run-up, pier (3D, a dam "
-          "breaks against a pier from an STL file), wave-flume (regular waves, gauges and a damping zone), "
+          "breaks against a pier from a mesh file), wave-flume (regular waves, gauges and a damping zone), "
           "solitary-wave, sloshing (a tank that rolls) or floating-box (a body on two lines)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))

@@ -1,11 +1,9 @@
 """new, check and info, and the command line itself."""
 
 import json
-import subprocess
-import sys
+import os
 import unittest
 import xml.etree.ElementTree
-from pathlib import Path
 
 from program import SMALL_CASE, ProgramTest
 
@@ -98,6 +96,26 @@ class CommandLine(ProgramTest):
             self.assertIn(f"\n| `{key}` |", markdown)
 
 
+    def test_help_case_as_json_tells_types_ranges_choices_and_uses(self):
+        reference = json.loads(self.call("run", "--help-case=json").stdout)
+        self.assertEqual(reference["format"], 1)
+        keys = {(table["name"], key["name"]): key for table in reference["tables"] for key in table["keys"]}
+        self.assertEqual(keys["particles", "spacing"],
+                         {"name": "spacing", "type": "number", "unit": "m", "required": True, "default": None,
+                          "minimum": 0.0, "minimum_is_excluded": True,
+                          "documentation": keys["particles", "spacing"]["documentation"]})
+        self.assertEqual((keys["case", "dimension"]["minimum"], keys["case", "dimension"]["maximum"]), (2.0, 3.0))
+        self.assertEqual(keys["scheme", "name"]["choices"], ["farzin2014", "farmani2020"])
+        self.assertEqual(keys["fluid", "level"]["goes_with"],
+                         {"key": "shape", "choices": ["fill"], "needed_by": ["fill"]})
+        self.assertEqual((keys["inlet", "discharge"]["type"], keys["inlet", "discharge"]["variables"]),
+                         ("varying number", "t"))
+        markdown = self.call("run", "--help-case=markdown").stdout
+        for (_, name), key in keys.items():
+            self.assertIn(f"\n| `{name}` |", markdown)
+            self.assertTrue(key["documentation"] and key["type"], name)
+
+
 class New(ProgramTest):
     def test_templates_can_be_checked_and_run(self):
         for template, spacing in TEMPLATES.items():
@@ -112,10 +130,8 @@ class New(ProgramTest):
                 self.assertEqual(self.summary(template)["status"], "done")
 
     def test_the_template_with_a_mesh_can_be_checked_and_run(self):
-        self.assertIn("how to make pier.stl, which it reads", self.call("new", "pier", "pier.toml").stdout)
-        self.assertIn("pier.stl", self.call("check", "pier.toml", expect=2).stderr)
-        script = Path(__file__).resolve().parents[2] / "scripts/make_pier_stl.py"
-        subprocess.run([sys.executable, script, self.folder / "pier.stl"], check=True)
+        self.assertEqual(self.call("new", "pier", "pier.toml").stdout.splitlines()[0],
+                         "Wrote pier.toml and pier.obj, which it reads. Next:")
         coarse = ("--set", "particles.spacing=0.06", "--set", "time.end=0.02")
         self.assertEqual(self.call("check", "pier.toml", *coarse).stderr, "")
         self.assertTrue((self.folder / "pier.preview.png").read_bytes().startswith(b"\x89PNG"))
@@ -126,9 +142,8 @@ class New(ProgramTest):
         self.call("run", "pier.toml", "--out", "pier", "--quiet", "--force", *coarse)
         self.assertFalse((self.folder / "pier/pictures").exists() or (self.folder / "pier/fields/surface.pvd").exists(),
                          "pictures of the earlier run")
-        with open(self.folder / "pier.stl", encoding="utf-8") as stl:
-            lines = stl.readlines()
-        (self.folder / "pier.stl").write_text("".join(lines[:-8] + lines[-1:]))
+        mesh = self.folder / "pier.obj"
+        mesh.write_text("".join(mesh.read_text().splitlines(keepends=True)[:-1]))
         self.assertIn("has changed", self.call("resume", "pier", "--set", "time.end=0.03", expect=2).stderr)
         for picture in (self.folder / "pier.preview.svg", self.folder / "pier.preview.png"):
             picture.unlink()
@@ -138,14 +153,32 @@ class New(ProgramTest):
         self.assertIn("<circle", (self.folder / "pier.preview.svg").read_text())
 
     def test_the_template_with_a_surveyed_bed_can_be_checked_and_run(self):
-        self.assertIn("how to make bed.csv, which it reads", self.call("new", "river-reach", "reach.toml").stdout)
-        self.assertIn("bed.csv", self.call("check", "reach.toml", expect=2).stderr)
-        script = Path(__file__).resolve().parents[2] / "scripts/make_river_bed.py"
-        subprocess.run([sys.executable, script, self.folder / "bed.csv"], check=True)
+        self.assertIn("reach.toml and bed.csv", self.call("new", "river-reach", "reach.toml").stdout)
         self.assertEqual(self.call("check", "reach.toml").stderr, "")
         self.call("run", "reach.toml", "--out", "reach", "--quiet", "--pictures", "1",
                   "--set", "particles.spacing=0.08", "--set", "time.end=0.05")
         self.assertEqual([path.name for path in (self.folder / "reach/pictures").iterdir()], ["picture_00000.png"])
+
+    def test_what_a_template_reads_is_not_overwritten_either(self):
+        (self.folder / "bed.csv").write_text("my survey")
+        self.assertIn("bed.csv' exists", self.call("new", "river-reach", "reach.toml", expect=2).stderr)
+        self.assertFalse((self.folder / "reach.toml").exists())
+        self.call("new", "river-reach", "reach.toml", "--force")
+        self.call("new", "river-reach", "other.toml")  # which reads the same
+        self.assertTrue((self.folder / "other.toml").exists())
+
+    def test_force_takes_no_place_of_links_devices_and_pipes(self):
+        os.mkfifo(self.folder / "pipe")
+        (self.folder / "link").symlink_to("small.toml")
+        for name, what in (("pipe", "a pipe"), ("link", "a link"), (".", "a folder")):
+            self.assertIn(what, self.call("new", "tank", name, "--force", expect=2).stderr)
+        self.assertEqual((self.folder / "small.toml").read_text(), SMALL_CASE)
+
+    @unittest.skipIf(os.geteuid() != 0, "only root can give a file to someone else")
+    def test_force_takes_no_place_of_what_others_have(self):
+        os.chown(self.folder / "small.toml", 12345, 12345)
+        self.assertIn("another user's file", self.call("new", "tank", "small.toml", "--force", expect=2).stderr)
+        self.assertEqual((self.folder / "small.toml").read_text(), SMALL_CASE)
 
     def test_refuses_to_overwrite(self):
         message = self.call("new", "tank", "small.toml", expect=2).stderr
@@ -197,6 +230,19 @@ class Check(ProgramTest):
     def test_the_preview_does_not_replace_the_case(self):
         self.assertIn("small.toml", self.call("check", "small.toml", "--preview", "./small.toml", expect=2).stderr)
         self.assertEqual((self.folder / "small.toml").read_text(), SMALL_CASE)
+
+    def test_the_preview_takes_the_place_of_previews_only(self):
+        os.mkfifo(self.folder / "pipe.svg")
+        (self.folder / "mine.svg").write_text("<svg>my drawing</svg>")
+        (self.folder / "link.svg").symlink_to("mine.svg")
+        for name, part in (("pipe.svg", "a device or a pipe"), ("link.svg", "a link"), ("mine.svg", "a file of yours")):
+            self.assertIn(part, self.call("check", "small.toml", "--preview", name, expect=2).stderr)
+        self.assertEqual((self.folder / "mine.svg").read_text(), "<svg>my drawing</svg>")
+        for _ in range(2):
+            self.call("check", "small.toml", "--preview", "new.svg")
+        (self.folder / "small.preview.svg.part").symlink_to("mine.svg")
+        self.assertIn("small.preview.svg.part", self.call("check", "small.toml", expect=4).stderr)
+        self.assertEqual((self.folder / "mine.svg").read_text(), "<svg>my drawing</svg>")
 
     def test_where_no_preview_can_be(self):
         self.assertIn("nowhere/p.svg", self.call("check", "small.toml", "--preview", "nowhere/p.svg", expect=4).stderr)
