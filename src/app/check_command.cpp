@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/files_of_others.h"
 #include "app/pictures.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
@@ -32,14 +33,31 @@ struct CheckOptions {
   bool draws_nothing = false;
 };
 
+/// Where the preview goes. Its own name is free for it; under a name that was asked for only another preview is
+/// replaced.
+std::filesystem::path preview_file(const CheckOptions& options) {
+  const bool is_asked_for = !options.preview.empty();
+  const std::filesystem::path preview =
+      is_asked_for ? options.preview : std::filesystem::path(options.case_file.stem().string() + ".preview.svg");
+  for (const char* ending : {".svg", ".png"}) {
+    const std::filesystem::path file =
+        std::string_view(ending) == ".svg" ? preview : std::filesystem::path(preview).replace_extension(ending);
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file))) continue;
+    require_own_regular_file(file);
+    if (is_asked_for && !is_preview(file)) {
+      throw InputError(fmt::format("--preview {}: '{}' is a file of yours and no preview; remedy: another name",
+                                   options.preview.string(), file.string()));
+    }
+  }
+  return preview;
+}
+
 /// Writes the previews, with the places that are wrong marked, and says where they are.
 template <int Dim>
 void write_previews(const CaseSpec& spec, const CheckOptions& options, const Boundary<Dim>& boundary,
                     const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
                     std::span<const Vec<Dim>> bad_places = {}) {
-  const std::filesystem::path preview = options.preview.empty()
-                                            ? std::filesystem::path(options.case_file.stem().string() + ".preview.svg")
-                                            : options.preview;
+  const std::filesystem::path preview = preview_file(options);
   write_text_file(preview, preview_svg(spec, boundary, fluid, walls, bad_places));
   fmt::print("preview:   {}\n", preview.string());
   if constexpr (Dim == 3) {
@@ -80,22 +98,28 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   Flow<Dim> flow(spec);
   make_probes<Dim>(spec, flow.walls.boundary);
   require_reachable_end(spec, flow.setup.time_step_rule);
-  fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
   const RunEstimate estimate = estimate_run(spec, flow);
+  fmt::print("{}: valid, \"{}\"\n", options.case_file.string(), spec.general.title);
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
              estimate.particles.wall, spec.particles.spacing);
+  if (estimate.largest_fluid > 1.1 * estimate.particles.fluid) {
+    fmt::print("           with what comes in about {:.2g} fluid at the most\n", estimate.largest_fluid);
+  }
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
   fmt::print(
       "time:      about {:.0f} steps, {} on this machine, from trial steps of {} (violent flow takes more and "
       "smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
-      estimate.is_from_tank ? "a tank of about 10000 particles, because the case is large: a first guess" : "the case");
+      !estimate.is_from_tank ? "the case"
+      : estimate.grows_much ? "a tank of about 10000 particles, because most of the water comes in later: a first guess"
+                            : "a tank of about 10000 particles, because the case is large: a first guess");
   if (options.draws_nothing) return;
   write_previews<Dim>(spec, options, flow.walls.boundary, make_fluid_particles(spec, flow.walls.boundary),
                       flow.walls.particles);
 }
 
 void check_case(const CheckOptions& options) {
+  if (!options.draws_nothing) preview_file(options);  // for its errors, before there is work
   const CaseSpec spec = read_case(options.case_file, options.overrides);
   std::error_code error;  // no preview yet: nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {

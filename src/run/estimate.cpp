@@ -13,6 +13,7 @@
 #include "base/for_each.h"
 #include "flow/verbs.h"
 #include "geometry/mesh_surface.h"
+#include "run/inflow_estimate.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -23,6 +24,9 @@ constexpr int trial_steps = 3;
 
 /// Particles in the tank whose steps stand for those of a case that is too large to try.
 constexpr double particles_in_tank = 1e4;
+
+/// Of the water that there is in the mean: with less than this at the start its steps tell nothing about the run's.
+constexpr double share_to_try = 0.5;
 
 /// At a millisecond per step, which is fast, this many take twelve days.
 constexpr double most_steps = 1e9;
@@ -157,19 +161,26 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   const std::size_t fluid =
       count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
   estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.walls.all)};
+  const double of_a_particle = power<Dim>(spec.particles.spacing);
+  const WaterEstimate water = estimate_water(spec, flow.walls.boundary, estimate.particles.fluid * of_a_particle);
+  estimate.largest_fluid = water.largest / of_a_particle;
   const double neighbours = neighbours_in_support<Dim>(spec.scheme.support);
-  estimate.memory = memory_estimate<Dim>(estimate.particles, neighbours);
-  const double particles = estimate.particles.fluid + estimate.particles.wall;
-  estimate.is_from_tank = particles * neighbours > most_pairs;
-  double per_step = 0.0;
+  estimate.memory = memory_estimate<Dim>({estimate.largest_fluid, estimate.particles.wall}, neighbours);
+  const double at_start = estimate.particles.fluid + estimate.particles.wall;
+  const double in_the_mean = water.mean / of_a_particle + estimate.particles.wall;
+  estimate.grows_much = estimate.particles.fluid < share_to_try * water.mean / of_a_particle;
+  estimate.is_from_tank = at_start * neighbours > most_pairs || estimate.grows_much;
+  double per_particle = 0.0;
   if (estimate.is_from_tank) {
     Flow<Dim> tank(tank_instead_of<Dim>(spec));
-    per_step = time_of_a_step(tank, spec.time.end) * particles / static_cast<double>(tank.state.particles.owned);
+    per_particle = time_of_a_step(tank, spec.time.end) / static_cast<double>(tank.state.particles.owned);
   } else {
-    per_step = time_of_a_step(flow, spec.time.end);
+    per_particle = time_of_a_step(flow, spec.time.end) / std::max(at_start, 1.0);
   }
-  estimate.steps = spec.time.end / std::min(next_time_step(flow), spec.time.end);
-  estimate.seconds = estimate.steps * per_step;
+  const double step =
+      std::min({next_time_step(flow), flow.setup.time_step_rule.largest(water.largest_speed, 0.0), spec.time.end});
+  estimate.steps = spec.time.end / step;
+  estimate.seconds = estimate.steps * per_particle * in_the_mean;
   return estimate;
 }
 

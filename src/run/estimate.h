@@ -25,11 +25,13 @@ template <int Dim>
 Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available);
 
 struct RunEstimate {
-  ParticleCount particles;
-  double memory = 0.0;        ///< bytes
-  double steps = 0.0;         ///< to the end, if speeds stay near those of free fall through the fluid's height
-  double seconds = 0.0;       ///< on this machine, from trial steps
-  bool is_from_tank = false;  ///< the steps were those of a smaller tank, and `seconds` is no more than a first guess
+  ParticleCount particles;     ///< at the start
+  double largest_fluid = 0.0;  ///< most fluid particles, with what comes in
+  double memory = 0.0;         ///< bytes
+  double steps = 0.0;          ///< to the end, if speeds stay near those of free fall through the fluid's height
+  double seconds = 0.0;        ///< on this machine, from trial steps
+  bool is_from_tank = false;   ///< the steps were those of a tank, and `seconds` is no more than a first guess
+  bool grows_much = false;     ///< because far more water comes in than there is at the start
 };
 
 /// Pairs of neighbours with which a step takes about a second: measured, a step of 190 000 particles in 2D, which is
@@ -39,8 +41,9 @@ inline constexpr double pairs_in_a_second = 4e6;
 /// Throws InputError if no run can reach the end time, however quiet its flow.
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule);
 
-/// Runs a few trial steps of `flow`, which was made from `spec`. If it has more than `most_pairs` pairs, those of a
-/// smaller tank by the same scheme are run instead, and their time taken times the particles.
+/// Runs a few trial steps of `flow`, which was made from `spec`. If it has more than `most_pairs` pairs, or few of
+/// those that it will have (inflow_estimate.h), those of a tank by the same scheme are run instead, and their time
+/// taken times the particles. The mean number of particles over the run counts.
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs = pairs_in_a_second);
 

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "case/reader.h"
 #include "geometry/cases.h"
+#include "run/inflow_estimate.h"
 #include "run/pond.h"
 
 namespace tailwater {
@@ -97,6 +99,46 @@ TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
   EXPECT_NEAR(estimate.steps, from_case.steps, 1e-9 * estimate.steps);
   EXPECT_GT(estimate.seconds, 0.0);
   EXPECT_EQ(flow.state.step, 0);
+}
+
+/// A basin 2 m wide with one open end at its left side.
+WaterEstimate water_of(const std::string& open_end, double start) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 10\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 2]]\n[[fluid]]\nmin = [0, 0]\n"
+      "max = [2, 0.1]\n" +
+          open_end + "from = [0, 0]\nto = [0, 2]\n",
+      "case.toml");
+  return estimate_water(spec, make_boundary<2>(spec), start);
+}
+
+TEST(EstimateWater, FollowsWhatComesInAndLeaves) {
+  // 0.1 m^2/s for 10 s.
+  const WaterEstimate filled = water_of("[[inlet]]\ndischarge = 0.1\n", 0.2);
+  EXPECT_NEAR(filled.largest, 1.2, 1e-3);
+  EXPECT_NEAR(filled.mean, 0.7, 1e-3);
+  // Up to its level of 0.5 m, in a basin 2 m wide, and not beyond.
+  const WaterEstimate level = water_of("[[inlet]]\nlevel = 0.5\n", 0.2);
+  EXPECT_NEAR(level.largest, 1.0, 1e-9);
+  EXPECT_GT(level.mean, 0.2);
+  EXPECT_LT(level.mean, 1.0);
+  // Down to it, from 0.9 m.
+  const WaterEstimate drained = water_of("[[outlet]]\ndirection = [-1, 0]\nlevel = 0.5\n", 1.8);
+  EXPECT_EQ(drained.largest, 1.8);
+  EXPECT_GT(drained.mean, 1.0);
+  EXPECT_LT(drained.mean, 1.8);
+}
+
+TEST(EstimateRun, CountsWhatComesIn) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 10\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 2]]\n[[inlet]]\nfrom = [0, 0]\n"
+      "to = [0, 2]\ndischarge = 0.1\n",
+      "case.toml");
+  Flow<2> flow(spec);
+  const RunEstimate estimate = estimate_run(spec, flow);
+  EXPECT_EQ(estimate.particles.fluid, 0.0);
+  EXPECT_NEAR(estimate.largest_fluid, 100.0, 0.2);
+  EXPECT_TRUE(estimate.grows_much);
+  EXPECT_TRUE(estimate.is_from_tank);
 }
 
 }  // namespace
