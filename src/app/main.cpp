@@ -16,10 +16,12 @@
 #include "app/commands.h"
 #include "app/ranks.h"
 #include "base/fp_traps.h"
+#include "base/text.h"
 #include "case/nearest_name.h"
 #include "io/messages.h"
 #include "linear/session.h"
 #include "run/provenance.h"
+#include "run/run_case.h"
 
 namespace tailwater {
 namespace {
@@ -37,6 +39,17 @@ std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   std::vector<std::string_view> names;
   for (const CLI::App* valid : app.get_subcommands(nullptr)) names.push_back(valid->get_name());
   return fmt::format("unknown command \"{}\"; {}", rest.front(), unknown_name_hint(rest.front(), names));
+}
+
+/// What is not text could be shown by no message, and stand in no file of results.
+void require_printable(int argc, char** argv) {
+  for (int k = 1; k < argc; ++k) {
+    if (is_printable(argv[k])) continue;
+    throw InputError(
+        fmt::format("word {} of the command line, \"{}\", has control characters or bytes that are not UTF-8; remedy: "
+                    "write it, or name the file, in letters that can be seen",
+                    k, shortened(printable(argv[k]), 200)));
+  }
 }
 
 /// MPI for the whole program where several ranks were started, so that they can end together.
@@ -104,6 +117,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_help_commands(app);
 
   try {
+    require_printable(argc, argv);
     if (argc == 1) {
       if (ranks.is_root()) tell(app.help());
       return {ExitCode::bad_input, ""};
@@ -125,7 +139,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   } catch (const UserError& error) {
     return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
-    return {ExitCode::solver_failed, "out of memory; remedy: a larger particles.spacing (see: tailwater check)"};
+    return {ExitCode::solver_failed, std::string("out of memory; ") + remedy_for_memory};
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return output_failure(error.code().value());
     return {ExitCode::io_failed, error.what()};

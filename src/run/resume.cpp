@@ -16,6 +16,7 @@
 #include "run/checkpoint.h"
 #include "run/provenance.h"
 #include "run/run_case.h"
+#include "run/summary_file.h"
 
 namespace tailwater {
 namespace {
@@ -139,6 +140,8 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
     return run_case(spec, options, ranks, &*checkpoint);
   }
   tell("there is no checkpoint yet: starting again");
+  const fs::path named = case_named_in(options.out / summary_name);
+  if (!named.empty()) options.case_file = named;
   options.force = true;
   return run_case(spec, options, ranks);
 }

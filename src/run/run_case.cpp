@@ -1,10 +1,12 @@
 #include "run/run_case.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <csignal>
+#include <exception>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "run/requests.h"
 #include "run/run_output.h"
 #include "run/step_guard.h"
+#include "run/summary_file.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -169,7 +172,18 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
                       checkpoint->path.string(), error.what()));
     }
   };
-  return make_run()->execute();
+  std::unique_ptr<Run<Dim>> run = make_run();
+  try {
+    return run->execute();
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    const std::string message = is_memory ? std::string("out of memory; ") + remedy_for_memory : error.what();
+    run.reset();  // the summary needs some of its memory
+    mark_as_failed(options.out / summary_name, ExitCode::solver_failed, message);
+    throw SolverError(message);
+  }
 }
 
 template <int Dim>
@@ -179,15 +193,21 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
   std::vector<Finding> findings = check_memory(spec, boundary, ranks.least(available));
   if (findings.empty()) findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary, ranks));
-  std::string errors;
+  constexpr std::size_t most_shown = 50;
+  std::vector<std::string> errors;
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
-      errors += (errors.empty() ? "" : "\n") + finding.message;
+      errors.push_back(finding.message);
     } else if (warns) {
       warn(spec.sources.placed(finding.message));
     }
   }
-  if (!errors.empty()) throw InputError(errors);
+  if (errors.empty()) return;
+  if (errors.size() > most_shown) {
+    errors[most_shown] = fmt::format("and {} more problems", errors.size() - most_shown);
+    errors.resize(most_shown + 1);
+  }
+  throw InputError(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
 }  // namespace
@@ -202,8 +222,6 @@ void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks, boo
 
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
                   const SealedFile* checkpoint) {
-  // A file that grows beyond the limit of a batch system is an error of the write, as on a full disk, and no signal.
-  std::signal(SIGXFSZ, SIG_IGN);
   return with_places(spec, [&] {
     require_sound_geometry(spec, ranks, checkpoint == nullptr);
     return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)

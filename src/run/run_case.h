@@ -9,6 +9,9 @@
 
 namespace tailwater {
 
+/// Of a case that needs more memory than there is.
+inline constexpr const char* remedy_for_memory = "remedy: a larger particles.spacing (see: tailwater check)";
+
 /// Does `work`; an InputError about the case that leaves it tells the place in the case file.
 template <class Work>
 auto with_places(const CaseSpec& spec, const Work& work) {
@@ -25,8 +28,8 @@ void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks = {}
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
-/// and failure/ holds the last good fields. Throws a later IoError on all ranks; the summary says so if it can be
-/// written. With a `checkpoint`, which counts on the root, goes on from it.
+/// and failure/ holds the last good fields; likewise, without these fields, when memory ends. Throws a later IoError on
+/// all ranks; the summary says so if it can be written. With a `checkpoint`, which counts on the root, goes on from it.
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {},
                   const SealedFile* checkpoint = nullptr);
 
