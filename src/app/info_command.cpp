@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/sweep_plan.h"
 #include "app/sweep_table.h"
+#include "base/text.h"
 #include "io/run_folder.h"
 #include "run/progress.h"
 #include "run/provenance.h"
@@ -41,13 +42,19 @@ Json read_summary(const std::filesystem::path& run) {
 /// What an engineer wants to know before the numbers of a run are used.
 void show_digest(const Json& summary) {
   const auto number = [](const Json& block, const char* key) { return block.at(key).get<double>(); };
-  const auto text = [](const Json& block, const char* key) { return block.at(key).get<std::string>(); };
+  const auto text = [](const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); };
   fmt::print("{}\nstatus:    {}\n", text(summary, "title"), text(summary, "status"));
   if (!text(summary, "message").empty()) fmt::print("message:   {}\n", text(summary, "message"));
   const Json& warnings = summary.at("warnings");
   fmt::print("warnings:  {}\n", warnings.empty() ? "none" : fmt::format("{}", warnings.size()));
-  for (const Json& warning : warnings) fmt::print("  {}\n", warning.get<std::string>());
+  for (const Json& warning : warnings) fmt::print("  {}\n", printable(warning.get<std::string>()));
 
+  // Runs of earlier versions have none.
+  if (const auto results = summary.find("results"); results != summary.end()) {
+    for (const auto& [probe, result] : results->items()) {
+      fmt::print("{:<10} {}\n", printable(probe) + ":", text(result, "words"));
+    }
+  }
   const Json& time = summary.at("time_s");
   const Json& steps = summary.at("steps");
   fmt::print("time:      {:.6g} of {:.6g} s, {:.0f} steps of {:.3g} s ({:.3g} to {:.3g})\n", number(time, "reached"),

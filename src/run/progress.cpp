@@ -28,9 +28,10 @@ std::string progress_line(double time, double end_time, double elapsed, std::int
   const double share = std::min(time / end_time, 1.0);
   return fmt::format(
       "{:5.1f} %  t = {:.4f} s  ETA {}  step {}  dt {:.2e} s  passes {}  iterations {}  residual {:.1e}  density error "
-      "{:.2f} %",
+      "{:.2f} % rms, {:.2f} % mean",
       100.0 * share, time, share > 0.0 ? readable_duration(elapsed * (1.0 - share) / share) : "?", step, report.dt,
-      report.passes, report.iterations, report.residual, 100.0 * measures.density_error_largest);
+      report.passes, report.iterations, report.residual, 100.0 * measures.density_error_rms,
+      100.0 * measures.density_error_mean);
 }
 
 Progress::Progress(double end_time, double elapsed)

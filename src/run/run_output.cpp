@@ -13,7 +13,9 @@
 #include "parallel/together.h"
 #include "run/estimate.h"
 #include "run/field_output.h"
+#include "run/probe_results.h"
 #include "run/provenance.h"
+#include "run/summary_file.h"
 #include "walls/hidden_pairs.h"
 
 namespace tailwater {
@@ -67,15 +69,6 @@ nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
                           {"mean_m3_per_s", time > 0.0 ? volume / time : 0.0}});
   }
   return discharges;
-}
-
-/// Replaces the file as a whole, as always; where the disk is so full that this cannot be, writes over its bytes.
-void write_last_file(const std::filesystem::path& path, const std::string& text) {
-  try {
-    write_text_file(path, text);
-  } catch (const IoError&) {
-    if (!overwrite_file(path, text)) throw;
-  }
 }
 
 }  // namespace
@@ -288,6 +281,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
+  tell_results();
 }
 
 template <int Dim>
@@ -329,6 +323,16 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   for (const auto& [probe, lines] : probes_.summaries()) {
     for (const auto& [name, value] : lines) summary["probes"][probe][name] = value;
   }
+  if (code) {
+    do_on_root(ranks_, [&] {
+      try {
+        results_ = probe_results(spec_, folder_, flow.state.time);
+      } catch (const IoError&) {
+        if (message.empty()) throw;  // of a run that has failed the summary counts more than its results
+      }
+      summary["results"] = json_of(results_);
+    });
+  }
   summary.update(provenance());
   if (code) summary["exit_code"] = static_cast<int>(*code);
   std::string text = summary.dump(2) + "\n";
@@ -344,6 +348,17 @@ void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   tell(fmt::format("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
                    came.particles > 0 ? came.text() + " in, " : "", water_inside(flow).text(), outside.text(),
                    water_out(flow).text()));
+}
+
+template <int Dim>
+void RunOutput<Dim>::tell_results() const {
+  constexpr std::size_t most_told = 20;
+  for (std::size_t k = 0; k < std::min(results_.size(), most_told); ++k) {
+    tell(fmt::format("{}: {}", results_[k].probe, results_[k].words()));
+  }
+  if (results_.size() > most_told) {
+    tell(fmt::format("and {} more probes: tailwater info {}", results_.size() - most_told, folder_.path().string()));
+  }
 }
 
 template class RunOutput<2>;

@@ -16,6 +16,7 @@
 #include "io/run_folder.h"
 #include "probes/probe_set.h"
 #include "run/end_watch.h"
+#include "run/probe_results.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
 #include "run/result_limits.h"
@@ -79,6 +80,7 @@ class RunOutput {
   void write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,
                      const std::string& message);
   void tell_water(const Flow<Dim>& flow) const;
+  void tell_results() const;
 
   const CaseSpec& spec_;
   const RunOptions& options_;
@@ -94,6 +96,7 @@ class RunOutput {
   Progress progress_;
   RunStatistics statistics_;
   ResultLimits limits_;
+  std::vector<ProbeResult> results_;  ///< at the end, on the root
   Water water_at_start_;
   double fields_interval_;    ///< s
   double next_fields_ = 0.0;  ///< s

@@ -1,0 +1,41 @@
+// What the probes of a run have found, in a few numbers and in words, as an engineer asks for it: "upstream: 0.2890 m
+// (mean of the second half)". They are made from the tables that the probes have written, so a run that goes on after a
+// stop tells the same as one that was never stopped.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/spec.h"
+#include "io/run_folder.h"
+
+namespace tailwater {
+
+struct Quantity {
+  std::string name;   ///< "depth", "force x"
+  std::string label;  ///< what stands before the number in words; empty for what the probe is about
+  double value = 0.0;
+  std::optional<double> to = {};  ///< the upper end, if it is a range
+  std::string unit;
+  std::string what;  ///< "mean of the second half"
+};
+
+struct ProbeResult {
+  std::string probe;
+  std::string type;
+  std::vector<Quantity> quantities;
+
+  /// "0.2890 m (mean of the second half), highest 0.3012 m (at 2.1 s)".
+  std::string words() const;
+};
+
+/// Of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws IoError if a
+/// table cannot be read.
+std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time);
+
+/// The block "results" of the summary: by probe its type, quantities and words.
+nlohmann::ordered_json json_of(const std::vector<ProbeResult>& results);
+
+}  // namespace tailwater

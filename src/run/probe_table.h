@@ -1,0 +1,48 @@
+// The table that a probe has written, in a few numbers per column. Read once from the begin to the end, in little
+// memory.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tailwater {
+
+/// A column that is added to tables with components of a force: their magnitude.
+inline constexpr const char* magnitude_of_force = "force_magnitude_";
+
+struct ColumnDigest {
+  std::size_t count = 0;  ///< of numbers; "nan" is none
+  double least = 0.0;
+  double largest = 0.0;
+  double time_of_largest = 0.0;  ///< s
+  double last = 0.0;
+  double last_time = 0.0;        ///< s
+  double least_of_last = 0.0;    ///< among the lines of the last time
+  double largest_of_last = 0.0;  ///< likewise
+
+  void add(double time, double value, double half);
+
+  /// Over time, linear between readings; the last reading where there is only one.
+  double mean_of_second_half() const;
+  /// By which it has grown per second.
+  double rate_in_second_half() const;
+
+ private:
+  bool has_begun_half_ = false;
+  double half_begin_ = 0.0;  ///< s
+  double value_at_half_ = 0.0;
+  double integral_ = 0.0;
+};
+
+struct TableDigest {
+  std::vector<std::string> names;  ///< without that of the time
+  std::vector<ColumnDigest> columns;
+  double last_time = 0.0;  ///< s
+};
+
+/// `half` [s] is where the second half begins. Throws IoError if the file cannot be read.
+TableDigest digest_probe_table(const std::filesystem::path& path, double half);
+
+}  // namespace tailwater
