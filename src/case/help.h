@@ -13,8 +13,9 @@ std::string case_reference_markdown();
 
 /// For `tailwater run --help-case=json`: the same for programs, such as an editor or a maker of cases: {format: 1,
 /// functions, tables: [{name, is_list, has_free_keys, documentation, keys: [{name, type, unit, required, default,
-/// documentation}]}]}. A key may also have minimum, minimum_is_excluded, maximum, maximum_is_excluded, choices, variables
-/// (of which its expressions may be) and goes_with {key, choices, needed_by}: the choices of another key of its table.
+/// documentation}]}]}. A key may also have minimum, minimum_is_excluded, maximum, maximum_is_excluded, choices,
+/// variables (of which its expressions may be) and goes_with {key, choices, needed_by}: the choices of another key of
+/// its table.
 std::string case_reference_json();
 
 }  // namespace tailwater

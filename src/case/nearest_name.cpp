@@ -66,6 +66,7 @@ std::string quoted_list(std::span<const std::string_view> names) {
 }
 
 std::string unknown_name_hint(std::string_view given, std::span<const std::string_view> valid) {
+  if (valid.empty()) return "there is none that could be named: add one, or remove this";
   const auto nearest = nearest_name(given, valid);
   return fmt::format("{}valid: {}", nearest ? fmt::format("did you mean \"{}\"? ", *nearest) : "", quoted_list(valid));
 }
