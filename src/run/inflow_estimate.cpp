@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/channel_end.h"
+#include "motion/channel_end.h"
 
 namespace tailwater {
 namespace {

@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 import unittest
 import xml.etree.ElementTree
 

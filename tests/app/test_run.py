@@ -128,7 +128,7 @@ class Outlet(ProgramTest):
                 for key in ("start", "inside", "out"):
                     self.assertAlmostEqual(balance[key]["volume_m3"], 0.01 * balance[key]["particles"])
                 self.assertEqual([(o["name"], o["particles"]) for o in balance["outlets"]], [("end", out)])
-                *_, water, _ = result.stderr.splitlines()
+                water = next(line for line in result.stderr.splitlines() if line.startswith("water: "))
                 self.assertRegex(water, rf"^water: 50 particles .* at the start, {inside} .* inside, 0 .* outside the "
                                         rf"walls, {out} .* out$")
 
@@ -286,8 +286,12 @@ class Messages(ProgramTest):
     def test_progress_goes_to_standard_error_in_plain_lines(self):
         result = self.call("run", "small.toml", "--out", "run")
         self.assertEqual(result.stdout, "")
-        *progress, last = result.stderr.splitlines()
+        *progress, depth, pressure, energy, last = result.stderr.splitlines()
         self.assertEqual(last, "done: results in run")
+        self.assertRegex(depth, r"^depth: 0\.\d+ m \(mean of the second half\), highest 0\.\d+ m \(at [\d.]+ s\)$")
+        self.assertRegex(pressure, r"^wall_pressure: \d+ Pa \(mean of the second half\), largest \d+ Pa \(at ")
+        self.assertRegex(energy, r"^energy: \d+ J per m \(at 0\.1\d* s\)$")
+        self.assertEqual(self.summary("run")["results"]["depth"]["words"], depth.removeprefix("depth: "))
         self.assertRegex(progress[0], r"^ +\d+\.\d %  t = 0\.0\d+ s  ETA ")
         self.assertRegex(progress[-1], r"^100\.0 %")
         self.assertNotIn("\r", result.stderr)
