@@ -78,8 +78,9 @@ class Fill {
       const Vec<Dim> hit = meet(face, from, to);
       if ((closest_point(face, hit) - hit).norm() <= tolerance_) return false;
     }
-    // A place less than a spacing behind a mesh cannot be missed on the way through it.
-    const auto is_behind = [&](const WallMesh& mesh) { return boundary_.height_above(mesh, to, dx_) < 0.0; };
+    // A way that begins in front of a mesh ends no farther behind it than it is long.
+    const double length = (to - from).norm();
+    const auto is_behind = [&](const WallMesh& mesh) { return boundary_.height_above(mesh, to, length) < 0.0; };
     return std::ranges::none_of(boundary_.meshes, is_behind);
   }
 

@@ -92,6 +92,34 @@ TEST(Fill, RunsAroundCornersAndOverASheet) {
   EXPECT_NEAR(volume_at(0.9), 0.9 - 0.4, bound);
 }
 
+// Where dx does not divide the depth, cells are taller than dx: 0.25 m of a terrain of 0.25 m for dx of 0.245 m.
+TEST(Fill, StaysAboveATerrainWhateverTheSpacing) {
+  const MeshFolder folder;
+  TriangleMesh slope;
+  for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {5.0, -1.0}, {5.0, 2.0}, {-1.0, 2.0}}) {
+    slope.points.emplace_back(x, y, -0.0078125 + 0.0625 * (x + 1.0));
+  }
+  slope.triangles = {{0, 1, 2}, {0, 2, 3}};
+  FluidTable fill;
+  fill.shape = BlockShape::fill;
+  fill.seed = {0.5, 0.5, 0.8};
+  fill.level = 1.0;
+  const double exact = 4.0 * (1.0 - (-0.0078125 + 0.0625 * 3.0));
+  for (const double dx : {0.25, 0.245, 0.24, 0.2, 0.17, 0.15, 0.13}) {
+    CaseSpec spec = empty_case(dx, 3);
+    spec.walls = {folder.wall(slope, FluidSide::above), box_wall({0.0, 0.0, -1.0}, {4.0, 1.0, 1.5}, {"+z", "-z"})};
+    spec.fluid = {fill};
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    const FluidParticles<3> fluid = make_fluid_particles(spec, boundary);
+    double volume = 0.0;
+    for (const double v : fluid.volume) volume += v;
+    // A third of a cell that two walls cut counts as cut by the nearer: less than half of its section is wrong along
+    // the 10 m on which the terrain meets the sides.
+    EXPECT_NEAR(volume, exact, 10.0 * 0.5 * std::pow(1.5 * dx / 3.0, 2)) << dx;
+    for (const Vec<3>& x : fluid.position) EXPECT_GT(boundary.nearest(x, infinite).signed_distance, 0.0) << dx;
+  }
+}
+
 TEST(Fill, OverASlopeHasTheVolumeOfTheWater) {
   CaseSpec spec = empty_case(0.025, 2);
   WallTable tank;
