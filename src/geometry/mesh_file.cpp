@@ -204,6 +204,18 @@ std::int64_t index_of(double number) {
   return std::isfinite(number) && std::abs(number) < 1e9 ? static_cast<std::int64_t>(number) : -1;
 }
 
+/// Throws InputError unless points have each of their three coordinates once.
+void require_coordinates(const Source& source, const PlyElement& points) {
+  for (const std::string axis : {"x", "y", "z"}) {
+    const auto count = std::ranges::count(points.properties, axis, &PlyProperty::name);
+    if (count == 1) continue;
+    std::vector<std::string> names;
+    for (const PlyProperty& property : points.properties) names.push_back(property.name);
+    source.refuse("has {} property \"{}\" of its points, which have {}: name their coordinates x, y and z",
+                  count == 0 ? "no" : "more than one", axis, fmt::join(names, ", "));
+  }
+}
+
 TriangleMesh read_ply(Source& source) {
   std::vector<PlyElement> elements;
   bool is_text = false;
@@ -231,6 +243,7 @@ TriangleMesh read_ply(Source& source) {
       source.refuse("has {} of element \"{}\" in its header and {} bytes left: it is cut off; export the mesh again",
                     element.count, element.name, source.rest().size());
     }
+    if (element.name == "vertex") require_coordinates(source, element);
     for (std::int64_t k = 0; k < element.count; ++k) {
       std::vector<std::string_view> words;
       if (is_text && (words = source.words()).empty()) source.refuse_line("the file ends too early");

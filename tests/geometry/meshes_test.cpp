@@ -132,6 +132,12 @@ TEST(MeshFile, ThatIsDamagedIsRefused) {
         fmt::format("ply\nformat {} 1.0\nelement vertex 9000000000000000000\nend_header\n1 2 3\n", format);
     expect_words(refusal("endless.ply", endless), {"endless.ply", "9000000000000000000", "6 bytes left", "cut off"});
   }
+  std::string heights = ply(unit_box());
+  heights.replace(heights.find("float z"), 7, "float height");
+  expect_words(refusal("heights.ply", heights), {"heights.ply", "no property \"z\"", "x, y, height", "name their"});
+  std::string doubled = ply(unit_box());
+  doubled.replace(doubled.find("float y"), 7, "float x");
+  expect_words(refusal("doubled.ply", doubled), {"doubled.ply", "more than one property \"x\""});
   TriangleMesh broken = unit_box();
   broken.points[7][1] = std::numeric_limits<double>::quiet_NaN();
   expect_words(refusal("nan.stl", binary_stl(broken)), {"nan.stl", "triangle 3 has a corner that is not a number"});
