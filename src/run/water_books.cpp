@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <vector>
 
 #include "base/for_each.h"
 #include "geometry/mesh_surface.h"
@@ -23,32 +24,52 @@ nlohmann::ordered_json json_of(const LevelMiss& miss) {
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }
 
-/// The height of x above the wall that a body falling from it meets first, m: positive if it meets the front. None if
-/// it meets no wall on the way to `lowest`.
+/// A wall that a body falling from a place meets first.
+struct Landing {
+  double share = std::numeric_limits<double>::infinity();  ///< of the way to where it meets the wall
+  double height = -1.0;                                    ///< m; of the place above it: positive if it meets the front
+};
+
 template <int Dim>
-std::optional<double> height_above_wall_below(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& lowest,
-                                              double tolerance) {
-  double least_share = std::numeric_limits<double>::infinity();  // of the way to where it meets a wall
-  std::optional<double> height;
+Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& way, double tolerance) {
+  const Vec<Dim> lowest = x + way;
+  Landing first;
   const auto meets = [&](const WallFace<Dim>& face) {
     // Of the two faces of a plate the one that looks at x counts.
     if (face.height(x) <= 0.0 && boundary.walls[face.wall].is_plate) return;
     const double share = face.height(x) / (face.height(x) - face.height(lowest));
-    if (share >= least_share) return;
-    least_share = share;
-    height = face.height(x);
+    if (share < first.share) first = {share, face.height(x)};
   };
   boundary.visit_plain_faces([&](int f) {
     if (crosses(boundary.faces[f], x, lowest, tolerance)) meets(boundary.faces[f]);
   });
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {
-      const Vec<3> way = boundary.way_of(mesh);
-      const int triangle = mesh.surface->first_crossed(x - way, lowest - way, tolerance);
+      const Vec<3> drawn = boundary.way_of(mesh);
+      const int triangle = mesh.surface->first_crossed(x - drawn, lowest - drawn, tolerance);
       if (triangle >= 0) meets(boundary.faces[mesh.first_face + triangle]);
     }
   }
-  return height;
+  return first;
+}
+
+/// The place and those of its images from which `way` may lead through the domain: what leaves a periodic domain on one
+/// side goes on at the other.
+template <int Dim>
+std::vector<Vec<Dim>> images_on_the_way(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& way) {
+  std::vector<Vec<Dim>> images{x};
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (!domain[axis]) continue;
+    const double period = domain[axis]->second - domain[axis]->first;
+    const int count = 1 + static_cast<int>(std::ceil(std::abs(way[axis]) / period));
+    const std::vector<Vec<Dim>> before = images;
+    for (const Vec<Dim>& image : before) {
+      for (int k = 1; k <= count; ++k) {
+        for (const int shift : {-k, k}) images.push_back(image + shift * period * Vec<Dim>::Unit(axis));
+      }
+    }
+  }
+  return images;
 }
 
 template <int Dim>
@@ -62,10 +83,15 @@ template <int Dim>
 bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x) {
   const Vec<Dim>& gravity = flow.setup.gravity;
   if (gravity.norm() == 0.0) return false;
-  const double way = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
-  const std::optional<double> height = height_above_wall_below<Dim>(
-      flow.walls.boundary, x, x + way * gravity.normalized(), corner_tolerance * flow.setup.spacing);
-  return height.value_or(-1.0) > 0.0;
+  const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
+  const Vec<Dim> way = length * gravity.normalized();
+  Landing first;
+  for (const Vec<Dim>& place : images_on_the_way<Dim>(flow.setup.domain, x, way)) {
+    const Landing landing =
+        landing_of<Dim>(flow.walls.boundary, place, way, corner_tolerance * flow.setup.spacing);
+    if (landing.share < first.share) first = landing;
+  }
+  return first.height > 0.0;
 }
 
 template <int Dim>

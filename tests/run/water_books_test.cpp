@@ -1,0 +1,60 @@
+// Which water counts as lost.
+#include "run/water_books.h"
+
+#include <gtest/gtest.h>
+
+namespace tailwater {
+namespace {
+
+/// Water 0.4 m deep over a bed from x = 0 to `end` in a domain that repeats after 1 m.
+template <int Dim>
+CaseSpec periodic_channel(double end, double slope) {
+  CaseSpec spec;
+  spec.general.dimension = Dim;
+  spec.particles.spacing = 0.04;
+  spec.physics.gravity.assign(Dim, 0.0);
+  spec.physics.gravity.front() = slope * 9.81;
+  spec.physics.gravity.back() = -9.81;
+  spec.domain.periodic_x = {0.0, 1.0};
+  spec.time.end = 1.0;
+  FluidTable water;
+  water.min.assign(Dim, 0.0);
+  water.max.assign(Dim, 0.4);
+  water.max[0] = 1.0;
+  water.velocity.assign(Dim, 0.0);
+  spec.fluid.push_back(water);
+  WallTable bed;
+  bed.displacement.assign(Dim, 0.0);
+  if (Dim == 2) {
+    bed.points = {{0.0, 0.0}, {end, 0.0}};
+  } else {
+    bed.shape = WallShape::box;
+    bed.min = {0.0, 0.0, 0.0};
+    bed.max = {end, 0.4, 1.0};
+    bed.open = {"-x", "+x", "+z"};
+  }
+  spec.walls.push_back(bed);
+  return spec;
+}
+
+template <int Dim>
+std::int64_t particles_outside(double end, double slope) {
+  return water_outside(Flow<Dim>(periodic_channel<Dim>(end, slope))).particles;
+}
+
+TEST(WaterOutside, WhatFallsThroughTheSeamOfAPeriodicDomainComesBack) {
+  for (const double slope : {0.0, 0.1, -0.1, 3.0}) {
+    EXPECT_EQ(particles_outside<2>(1.0, slope), 0) << slope;
+    EXPECT_EQ(particles_outside<3>(1.0, slope), 0) << slope;
+  }
+}
+
+// Of the 25 columns of 10 particles those beyond the end of the bed, or that gravity takes there, are lost.
+TEST(WaterOutside, WhatMissesABedThatEndsIsLost) {
+  EXPECT_EQ(particles_outside<2>(0.6, 0.0), 10 * 10);
+  EXPECT_EQ(particles_outside<2>(0.6, 0.5), 10 * 10);
+  EXPECT_EQ(particles_outside<2>(0.6, -0.5), 10 * 10);
+}
+
+}  // namespace
+}  // namespace tailwater
