@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
@@ -7,8 +8,9 @@
 namespace tailwater {
 namespace {
 
-/// [s]; even where neither water nor gravity limits the step, a wall must not move out and back within it.
-constexpr double longest_step_of_walls = 0.01;
+/// [s]; a wall must not move out and back within a step unseen, so a longer one is looked at as often as this. Without
+/// gravity nothing may limit the step, and it is no longer.
+constexpr double time_between_looks = 0.01;
 
 /// [dx]; how much nearer two particles may come in a step. Those that would meet at one place gain energy
 /// (docs/theory/robustness.md).
@@ -20,6 +22,19 @@ double largest_layer_diffusivity(const Flow<Dim>& flow) {
   const double largest =
       largest_over(particles.owned, 0.0, [&](std::size_t i) { return particles.layer_viscosity[i]; });
   return spalart_allmaras::diffusivity(flow.setup.ranks.largest(largest));
+}
+
+/// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
+template <int Dim>
+double farthest_way_within(const Flow<Dim>& flow, double dt) {
+  const double time = flow.state.time;
+  const int looks = std::max(1, static_cast<int>(std::ceil(dt / time_between_looks)));
+  double farthest = 0.0;
+  for (int k = 1; k <= looks; ++k) {
+    const double to = k == looks ? time + dt : time + k * dt / looks;
+    farthest = std::max(farthest, flow.setup.wall_motion.farthest_way(time, to, flow.state.motion));
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -73,11 +88,9 @@ double next_time_step(const Flow<Dim>& flow) {
   if (setup.wall_motion.moving().empty()) return dt;
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
   // gate may start within the step.
-  dt = std::min(dt, longest_step_of_walls);
+  if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   const double longest_way = setup.time_step_rule.courant * setup.spacing;
-  const double time = flow.state.time;
-  const MotionState<Dim>& motion = flow.state.motion;
-  for (double way = 0.0; (way = setup.wall_motion.farthest_way(time, time + dt, motion)) > longest_way;) {
+  for (double way = 0.0; (way = farthest_way_within(flow, dt)) > longest_way;) {
     dt *= std::max(0.1, 0.99 * longest_way / way);
   }
   return dt;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "case/driven_walls.h"
@@ -265,6 +266,39 @@ TEST(MovingWallStep, NoWallMovesMoreThanTheCourantNumberInAStep) {
     EXPECT_LE(50.0 * (std::max(0.0, flow.state.time - 0.001) - std::max(0.0, before - 0.001)),
               spec.scheme.courant * 0.05);
   }
+}
+
+/// A ship's tank: steps of 0.55 dx/sqrt(2 g L) = 72 ms.
+Flow<3> ships_tank(const VectorField& displacement) {
+  CaseSpec spec;
+  spec.general.dimension = 3;
+  spec.particles.spacing = 2.0;
+  spec.physics.gravity = {0.0, 0.0, -g};
+  spec.fluid = {water_box({-10.0, -20.0, 0.0}, {10.0, 20.0, 12.0})};
+  spec.fluid[0].velocity.assign(3, 0.0);
+  WallTable tank;
+  tank.shape = WallShape::box;
+  tank.min = {-10.0, -20.0, 0.0};
+  tank.max = {10.0, 20.0, 30.0};
+  tank.fluid_side = FluidSide::inside;
+  tank.displacement = displacement;
+  spec.walls = {tank};
+  spec.time.end = 12.0;
+  return Flow<3>(spec);
+}
+
+TEST(MovingWallStep, ASlowWallLeavesTheStepAsLongAsTheWaterAllows) {
+  const Flow<3> flow = ships_tank({"0.01*t", 0.0, 0.0});
+  EXPECT_NEAR(next_time_step(flow), 0.55 * 2.0 / std::sqrt(2.0 * g * 12.0), 1e-12);
+}
+
+TEST(MovingWallStep, AWallThatGoesOutAndBackWithinAStepIsSeen) {
+  const double step_of_water = 0.55 * 2.0 / std::sqrt(2.0 * g * 12.0);
+  // After a whole step of the water it would be back.
+  const Flow<3> flow = ships_tank({fmt::format("3*sin(pi*t/{:.17g})", step_of_water), 0.0, 0.0});
+  const double dt = next_time_step(flow);
+  EXPECT_LE(3.0 * std::sin(std::numbers::pi * dt / step_of_water), 0.55 * 2.0 + 1e-9);
+  EXPECT_LT(dt, 0.5 * step_of_water);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, MovingWall,
