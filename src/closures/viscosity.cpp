@@ -95,7 +95,7 @@ struct PairLanes {
 
 double ViscosityLaw::side_wall_rate(double speed) const {
   if (channel_width == 0.0) return 0.0;
-  const double laminar = 12.0 * molecular / (channel_width * channel_width);
+  const double laminar = 12.0 * molecular / channel_width / channel_width;
   if (speed == 0.0) return laminar;
   const WallLaw law{molecular, channel_roughness};
   const double u_tau = law.turbulent_friction_velocity_of_mean(speed, 0.5 * channel_width);
@@ -147,15 +147,6 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
                                                      pairs.slope(i, k), eta_squared);
       return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
     });
-  });
-}
-
-template <int Dim>
-void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
-                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
-  if (law.channel_width == 0.0) return;
-  for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) acceleration[i] -= law.side_wall_rate(velocity[i].norm()) * velocity[i];
   });
 }
 
@@ -212,8 +203,6 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
                                            std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
   template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
                                          std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
-  template void add_side_wall_friction<Dim>(const Particles<Dim>&, const ViscosityLaw&, std::span<const Vec<Dim>>,    \
-                                            std::span<Vec<Dim>>);                                                     \
   template void add_consistent_viscosity<Dim>(                                                                        \
       const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
       double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);

@@ -58,11 +58,6 @@ void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& partic
                            std::span<const double> density, std::span<const double> viscosity,
                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
 
-/// Friction of a 2D channel's side walls on fluid particles. It only slows them.
-template <int Dim>
-void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
-                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
-
 /// Dissipates noise only: a two-point viscous force between fluid particles. It acts on the part of their velocity
 /// difference that a linear field does not explain,
 ///

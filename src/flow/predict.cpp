@@ -75,15 +75,16 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   }
 }
 
-/// Takes velocity out of the water in damping zones: with the rate s the step ends with (u + dt a)/(1 + s dt), which is
-/// stable for any s.
+/// Slows the water between a 2D channel's side walls and in damping zones: with the rate s the step ends with
+/// (u + dt a)/(1 + s dt), which is stable for any s.
 template <int Dim>
 void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& acceleration) {
-  if (flow.setup.damping.empty()) return;
+  const ViscosityLaw& law = flow.setup.viscosity_law;
+  if (flow.setup.damping.empty() && law.channel_width == 0.0) return;
   const Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    double rate = 0.0;
+    double rate = law.side_wall_rate(start.velocity[i].norm());
     for (const DampingZone<Dim>& zone : flow.setup.damping) rate += zone.rate_at(start.position[i]);
     if (rate > 0.0) acceleration[i] = (acceleration[i] - rate * start.velocity[i]) / (1.0 + rate * dt);
   });
@@ -129,7 +130,6 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
   add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
   add_friction(flow, dt, predicted);
-  add_side_wall_friction<Dim>(particles, setup.viscosity_law, particles.velocity, acceleration);
   if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
 
   damp(flow, start, dt, acceleration);

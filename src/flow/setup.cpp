@@ -73,6 +73,18 @@ double depth_scale(const CaseSpec& spec, double fluid_height) {
   return depth;
 }
 
+/// Throws InputError where the side walls are so near to each other that water comes to rest within a step.
+void require_wide_channel(const ViscosityLaw& law, const TimeStepRule& rule) {
+  if (law.channel_width == 0.0 || rule.reference_speed == 0.0) return;
+  const double step = rule.largest(0.0, 0.0);
+  const double least = std::sqrt(12.0 * law.molecular * step);  // 12 nu/b^2 dt = 1
+  if (law.channel_width >= least) return;
+  throw InputError(fmt::format(
+      "[physics]: channel_width = {:.6g} m: between side walls so near to each other water comes to rest within a time "
+      "step of {:.3g} s: give at least {:.3g} m, or 0 for none",
+      law.channel_width, step, least));
+}
+
 template <int Dim>
 std::vector<Opening<Dim>> make_sections(const CaseSpec& spec) {
   std::vector<Opening<Dim>> sections;
@@ -161,6 +173,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
   if (scheme.source == SourceKind::density && reference_speed > 0.0) {
     time_step_rule.fastest = fastest_counted_over_reference * reference_speed;
   }
+  require_wide_channel(viscosity_law, time_step_rule);
 }
 
 template <int Dim>

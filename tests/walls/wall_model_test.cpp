@@ -314,18 +314,5 @@ TEST(SideWalls, StressIsTheMeanOfTheLogarithmicLawOverHalfTheWidth) {
   EXPECT_EQ((ViscosityLaw{.molecular = nu}.side_wall_rate(3.0)), 0.0);
 }
 
-TYPED_TEST(WallTest, SideWallsSlowFluidAgainstItsVelocityOnly) {
-  constexpr int Dim = TypeParam::value;
-  const WettedWall<Dim> wall(flat<Dim>(), 0.0, WallTreatment::dummies);
-  const std::vector<Vec<Dim>> velocity(wall.set.size(), some_velocity<Dim>());
-  const ViscosityLaw law{.molecular = 1e-6, .channel_width = 0.3};
-  std::vector<Vec<Dim>> acceleration(wall.set.size(), Vec<Dim>::Zero());
-  add_side_wall_friction<Dim>(wall.set.particles, law, velocity, acceleration);
-  const Vec<Dim> expected = -law.side_wall_rate(some_velocity<Dim>().norm()) * some_velocity<Dim>();
-  for (std::size_t i = 0; i < wall.set.size(); ++i) {
-    EXPECT_EQ(acceleration[i], wall.set.particles.is_fluid(i) ? expected : Vec<Dim>(Vec<Dim>::Zero()));
-  }
-}
-
 }  // namespace
 }  // namespace tailwater
