@@ -25,7 +25,7 @@ struct LevelMap {
   Vec<Dim> up;
   std::array<double, Dim - 1> piece;  ///< m; in x (and y)
   std::vector<Vec<Dim>> places;
-  std::vector<UprightLine<Dim>> lines;
+  std::vector<UprightGauge<Dim>> lines;
   std::shared_ptr<std::vector<double>> memory;
 
   LevelMap(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
@@ -56,7 +56,7 @@ struct LevelMap {
         place[0] += (i + 0.5) * piece[0];
         if (Dim == 3) place[1] += (j + 0.5) * piece.back();
         places.push_back(place);
-        lines.emplace_back(probe, place, up, boundary, spec.particles.spacing);
+        lines.emplace_back(probe, place, spec, boundary);
       }
     }
     memory = std::make_shared<std::vector<double>>(values_before_lines + values_per_line * lines.size(), 0.0);
@@ -72,10 +72,7 @@ struct LevelMap {
   }
   double mean(std::size_t k) const { return duration() > 0.0 ? of(k, integral) / duration() : of(k, last); }
 
-  /// The highest bed on the line.
-  double bed(std::size_t k) const {
-    return std::ranges::find_if(lines[k].crossings, [&](const auto& c) { return c.normal.dot(up) > 0.0; })->height;
-  }
+  double bed(std::size_t k) const { return lines[k].highest_bed(); }
 
   template <class Of>
   double mean_over_places(Of&& level) const {
@@ -83,12 +80,12 @@ struct LevelMap {
   }
 
   Row read(const ProbeContext<Dim>& context) const {
-    const double top = top_of_water(context, up);
+    const WaterColumns<Dim> columns(context);
     const double since_last = context.time - time_of_last_reading();
     time_of_last_reading() = context.time;
     duration() += since_last;
     for_each(lines.size(), [&](std::size_t k) {
-      const WaterColumn column = read_column(context, lines[k], top);
+      const WaterColumn column = columns.on(lines[k].now(context));
       const double level = column.bed + column.connected;
       of(k, last) = level;
       of(k, integral) += since_last * level;
@@ -157,13 +154,6 @@ struct LevelMap {
     summary.emplace_back("last_mean_m", mean_over_places([&](std::size_t k) { return of(k, last); }));
     return summary;
   }
-
-  /// Around all places.
-  Region<Dim> region() const {
-    Region<Dim> region{places.front(), places.back(), up};
-    for (const Vec<Dim>& place : places) region.margin = std::max(region.margin, region.distance(place));
-    return region;
-  }
 };
 
 }  // namespace
@@ -174,7 +164,7 @@ Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, co
   Reading<Dim> reading;
   reading.columns = {"highest_m", "mean_m"};
   reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
-  reading.region = [region = map->region()](double) { return region; };
+  reading.region = [map](double time) { return region_of(map->lines, time); };
   reading.memory = map->memory;
   reading.summary = [map] { return map->summary(); };
   reading.write_map = [map, compression = spec.output.compression](const std::filesystem::path& path, double time) {

@@ -16,9 +16,10 @@ enum ProfileSum { time_of_last_reading, duration, depth_integral, velocity_integ
 constexpr std::array velocity_names{"u_m_s", "v_m_s", "w_m_s"};
 
 template <int Dim>
-std::vector<Row> read_profile(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double step,
+std::vector<Row> read_profile(const ProbeContext<Dim>& context, const UprightGauge<Dim>& gauge, double step,
                               std::vector<double>& memory) {
-  const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
+  const UprightLine<Dim> line = gauge.now(context);
+  const WaterColumn column = WaterColumns<Dim>(context).on(line);
   Vec<Dim> flux = Vec<Dim>::Zero();
   std::vector<Row> rows;
   const int pieces = column.connected > 0.0 ? pieces_of_at_most(step, column.connected) : 0;
@@ -50,7 +51,7 @@ std::vector<Row> read_profile(const ProbeContext<Dim>& context, const UprightLin
 template <int Dim>
 Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  const UprightLine<Dim> line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
+  const UprightGauge<Dim> gauge(probe, at, spec, boundary);
   const double step = step_of(probe, spec.particles.spacing);
   const auto memory = std::make_shared<std::vector<double>>(velocity_integral + Dim, 0.0);
   Reading<Dim> reading;
@@ -58,10 +59,10 @@ Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& s
   for (int d = 0; d < Dim; ++d) reading.columns.emplace_back(velocity_names[d]);
   reading.columns.emplace_back("depth_m");
   for (int d = 0; d < Dim; ++d) reading.columns.push_back(fmt::format("mean_{}", velocity_names[d]));
-  reading.take = [line, step, memory](const ProbeContext<Dim>& context) {
-    return read_profile(context, line, step, *memory);
+  reading.take = [gauge, step, memory](const ProbeContext<Dim>& context) {
+    return read_profile(context, gauge, step, *memory);
   };
-  reading.region = [region = Region<Dim>{line.foot, line.foot, line.up}](double) { return region; };
+  reading.region = [gauge](double time) { return gauge.region(time); };
   reading.memory = memory;
   reading.summary = [memory] {
     const std::vector<double>& sums = *memory;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include "base/for_each.h"
@@ -13,21 +15,36 @@
 namespace tailwater {
 namespace {
 
-/// The faces that the line through `place` along `up` meets, highest first.
-template <int Dim>
-std::vector<Crossing<Dim>> find_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, const Vec<Dim>& up,
-                                          double spacing) {
-  std::vector<Crossing<Dim>> crossings;
+/// Adds the faces of walls that count which the line through `place` meets.
+template <int Dim, class Counts>
+void add_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, double spacing, Counts&& counts,
+                   UprightLine<Dim>& line) {
   for (const WallFace<Dim>& face : boundary.faces) {
-    const double slope = face.normal.dot(up);
+    if (!counts(face.wall)) continue;
+    const double slope = face.normal.dot(line.up);
     if (std::abs(slope) < 1e-6) continue;  // the line is parallel to the face
-    const Vec<Dim> hit = place - face.height(place) / slope * up;
+    const Vec<Dim> hit = place - face.height(place) / slope * line.up;
     if ((closest_point(face, hit) - hit).norm() <= corner_tolerance * spacing) {
-      crossings.push_back({hit.dot(up), face.normal});
+      line.crossings.push_back({(hit - line.foot).dot(line.up), face.normal, face.wall});
     }
   }
-  std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.height > b.height; });
-  return crossings;
+  std::ranges::sort(line.crossings, std::ranges::greater(), &Crossing<Dim>::height);
+}
+
+/// The path of the wall that is the bed of a gauge; null if it rests. Throws InputError if no path is known.
+template <int Dim>
+std::shared_ptr<const WallPath<Dim>> path_of_bed(const ProbeTable& probe, const CaseSpec& spec,
+                                                 const Boundary<Dim>& boundary, int wall) {
+  if (!boundary.walls[wall].moves()) return nullptr;
+  const Drive& drive = spec.walls[wall].drive;
+  const bool gives_way =
+      drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active;
+  if (gives_way || drive.by == Drive::By::body) {
+    throw InputError(fmt::format(
+        "{}: its bed is {}, which moves as the water makes it, and a probe cannot follow it: move the probe",
+        label(probe), wall_label(boundary, wall)));
+  }
+  return std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall));
 }
 
 /// dx; a level that trembles by less about its mean has no waves.
@@ -81,7 +98,26 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
 }  // namespace
 
 template <int Dim>
-WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double top) {
+WaterColumns<Dim>::WaterColumns(const ProbeContext<Dim>& context) : context_(context) {
+  const Particles<Dim>& particles = context.particles;
+  const auto farthest = [&](int axis, double side) {
+    return side * largest_over(particles.size(), -largest_number, [&](std::size_t i) {
+             return particles.is_fluid(i) ? side * particles.position[i][axis] : -largest_number;
+           });
+  };
+  for (int axis = 0; axis < Dim; ++axis) {
+    low_[axis] = farthest(axis, -1.0);
+    high_[axis] = farthest(axis, 1.0);
+  }
+}
+
+template <int Dim>
+WaterColumn WaterColumns<Dim>::on(const UprightLine<Dim>& line) const {
+  // Above the highest corner of the box there is no water.
+  const bool is_dry = low_[0] > high_[0];
+  const double highest =
+      is_dry ? -largest_number : line.up.cwiseProduct(low_).cwiseMax(line.up.cwiseProduct(high_)).sum();
+  const double top = highest + kernel_radius(context_.kernel) - line.foot.dot(line.up);
   WaterColumn column;
   double ceiling = top;
   bool found_bed = false;
@@ -90,22 +126,13 @@ WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>
       ceiling = std::min(top, crossing.height);
       continue;
     }
-    const WaterColumn candidate = column_on(context, line, crossing, ceiling);
+    const WaterColumn candidate = column_on(context_, line, crossing, ceiling);
     // A dry line has depth 0 above its highest bed.
     if (!found_bed || candidate.highest > 0.0) column = candidate;
     found_bed = true;
     if (candidate.highest > 0.0) break;
   }
   return column;
-}
-
-template <int Dim>
-double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up) {
-  constexpr double nowhere = -std::numeric_limits<double>::max();
-  const double highest = largest_over(context.particles.size(), nowhere, [&](std::size_t i) {
-    return context.particles.is_fluid(i) ? context.particles.position[i].dot(up) : nowhere;
-  });
-  return highest + kernel_radius(context.kernel);
 }
 
 template <int Dim>
@@ -121,70 +148,95 @@ Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec) {
 }
 
 template <int Dim>
-UprightLine<Dim>::UprightLine(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& direction,
-                              const Boundary<Dim>& boundary, double spacing)
-    : foot(at - at.dot(direction) * direction), up(direction), crossings(find_crossings(boundary, at, up, spacing)) {
-  const bool has_bed = std::any_of(crossings.begin(), crossings.end(),
-                                   [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(up) > 0.0; });
-  if (!has_bed) {
+UprightGauge<Dim>::UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, const CaseSpec& spec,
+                                const Boundary<Dim>& boundary)
+    : at_(at), spacing_(spec.particles.spacing) {
+  drawn_.up = upwards<Dim>(probe, spec);
+  drawn_.foot = at - at.dot(drawn_.up) * drawn_.up;
+  add_crossings(
+      boundary, at, spacing_, [](int) { return true; }, drawn_);
+  const auto is_bed = [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(drawn_.up) > 0.0; };
+  const auto bed = std::find_if(drawn_.crossings.rbegin(), drawn_.crossings.rend(), is_bed);  // the lowest
+  if (bed == drawn_.crossings.rend()) {
     throw InputError(fmt::format("{}: the vertical line through {} meets no wall that looks up: move it over a bed",
                                  label(probe), place(at)));
   }
+  path_ = path_of_bed(probe, spec, boundary, bed->wall);
+  has_moving_walls_ = std::ranges::any_of(boundary.walls, &WallProperties::moves);
+  std::ranges::copy_if(drawn_.crossings, std::back_inserter(resting_),
+                       [&](const Crossing<Dim>& crossing) { return !boundary.walls[crossing.wall].moves(); });
+}
+
+template <int Dim>
+double UprightGauge<Dim>::highest_bed() const {
+  return std::ranges::find_if(drawn_.crossings, [&](const auto& c) { return c.normal.dot(drawn_.up) > 0.0; })->height;
+}
+
+template <int Dim>
+UprightLine<Dim> UprightGauge<Dim>::now(const ProbeContext<Dim>& context) const {
+  if (!has_moving_walls_) return drawn_;
+  const AffineMap<Dim> map = way(context.time);
+  UprightLine<Dim> line{map(drawn_.foot), map.linear * drawn_.up, {}};
+  if (!path_) line.crossings = resting_;
+  const auto counts = [&](int wall) { return path_ || context.boundary.walls[wall].moves(); };
+  add_crossings(context.boundary, map(at_), spacing_, counts, line);
+  return line;
+}
+
+template <int Dim>
+Region<Dim> UprightGauge<Dim>::region(double time) const {
+  const AffineMap<Dim> map = way(time);
+  const Vec<Dim> foot = map(drawn_.foot);
+  return {foot, foot, map.linear * drawn_.up};
 }
 
 template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  const UprightLine<Dim> line(probe, at, upwards<Dim>(probe, spec), boundary, spec.particles.spacing);
+  const UprightGauge<Dim> gauge(probe, at, spec, boundary);
   Reading<Dim> reading;
   const auto waves = std::make_shared<WaveRecord>(wave_band * spec.particles.spacing);
   reading.memory = waves->memory();
   reading.memory_grows = true;
   reading.columns = {"connected_m", "highest_m", "wet_m"};
-  reading.take = [line, waves](const ProbeContext<Dim>& context) -> std::vector<Row> {
-    const WaterColumn column = read_column(context, line, top_of_water(context, line.up));
+  reading.take = [gauge, waves](const ProbeContext<Dim>& context) -> std::vector<Row> {
+    const WaterColumn column = WaterColumns<Dim>(context).on(gauge.now(context));
     waves->add(context.time, column.highest);
     return {{column.connected, column.highest, column.wet}};
   };
-  reading.region = [line](double) { return Region<Dim>{line.foot, line.foot, line.up}; };
+  reading.region = [gauge](double time) { return gauge.region(time); };
   reading.summary = [waves] { return waves->summary(); };
   return reading;
 }
 
 template <int Dim>
 Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const Vec<Dim> up = upwards<Dim>(probe, spec);
-  std::vector<Vec<Dim>> places;
-  std::vector<UprightLine<Dim>> lines;
-  for (const Vec<Dim>& at : places_between<Dim>(probe, spec.particles.spacing)) {
-    places.push_back(at);
-    lines.emplace_back(probe, at, up, boundary, spec.particles.spacing);
-  }
+  const std::vector<Vec<Dim>> places = places_between<Dim>(probe, spec.particles.spacing);
+  std::vector<UprightGauge<Dim>> gauges;
+  for (const Vec<Dim>& at : places) gauges.emplace_back(probe, at, spec, boundary);
   std::vector<std::string> columns{"x_m", "bed_m", "connected_m", "highest_m"};
   if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
   return {columns,
-          [up, places, lines](const ProbeContext<Dim>& context) {
-            const double top = top_of_water(context, up);
+          [places, gauges](const ProbeContext<Dim>& context) {
+            const WaterColumns<Dim> columns(context);
             std::vector<Row> rows;
-            for (std::size_t k = 0; k < lines.size(); ++k) {
-              const WaterColumn column = read_column(context, lines[k], top);
+            for (std::size_t k = 0; k < gauges.size(); ++k) {
+              const WaterColumn column = columns.on(gauges[k].now(context));
               Row row(places[k].begin(), places[k].begin() + (Dim - 1));
               row.insert(row.end(), {column.bed, column.connected, column.highest});
               rows.push_back(std::move(row));
             }
             return rows;
           },
-          [region = Region<Dim>{places.front(), places.back(), up}](double) { return region; }};
+          [gauges](double time) { return region_of(gauges, time); }};
 }
 
-template struct UprightLine<2>;
-template struct UprightLine<3>;
+template class UprightGauge<2>;
+template class UprightGauge<3>;
+template class WaterColumns<2>;
+template class WaterColumns<3>;
 template Vec<2> upwards<2>(const ProbeTable&, const CaseSpec&);
 template Vec<3> upwards<3>(const ProbeTable&, const CaseSpec&);
-template double top_of_water<2>(const ProbeContext<2>&, const Vec<2>&);
-template double top_of_water<3>(const ProbeContext<3>&, const Vec<3>&);
-template WaterColumn read_column<2>(const ProbeContext<2>&, const UprightLine<2>&, double);
-template WaterColumn read_column<3>(const ProbeContext<3>&, const UprightLine<3>&, double);
 template Reading<2> depth_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
 template Reading<3> depth_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
 template Reading<2> profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);

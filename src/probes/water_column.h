@@ -7,9 +7,11 @@
 // lattice is on the surface, not dx/2 below it, and depths come out dx/2 too large.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "case/spec.h"
+#include "motion/wall_motion.h"
 #include "probes/context.h"
 
 namespace tailwater {
@@ -24,33 +26,70 @@ struct WaterColumn {
 /// A wall face that an upright line crosses.
 template <int Dim>
 struct Crossing {
-  double height;  ///< m above the origin
+  double height;  ///< m; along the line from its foot
   Vec<Dim> normal;
+  int wall;  ///< index into Boundary::walls
 };
 
-/// A line against gravity and the walls on it.
+/// A line and the walls on it at one moment.
 template <int Dim>
 struct UprightLine {
-  Vec<Dim> foot;  ///< its point at height 0
-  Vec<Dim> up;
+  Vec<Dim> foot;                         ///< its point at height 0
+  Vec<Dim> up;                           ///< unit vector along it
   std::vector<Crossing<Dim>> crossings;  ///< highest first
+};
 
-  /// Throws InputError, which names the probe, if there is no bed on the line.
-  UprightLine(const ProbeTable& probe, const Vec<Dim>& at, const Vec<Dim>& direction, const Boundary<Dim>& boundary,
-              double spacing);
+/// A line against gravity, as drawn. Where its bed is a wall that moves on a path, as in a tank that is shaken, it
+/// moves and turns with it, and heights are those in the tank. Other walls that move are found where they are.
+template <int Dim>
+class UprightGauge {
+ public:
+  /// Throws InputError, which names the probe, if there is no gravity, no bed on the line, or a bed that moves as the
+  /// water makes it.
+  UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+  const UprightLine<Dim>& drawn() const { return drawn_; }
+  double highest_bed() const;  ///< m; as drawn
+  UprightLine<Dim> now(const ProbeContext<Dim>& context) const;
+  Region<Dim> region(double time) const;
+
+ private:
+  AffineMap<Dim> way(double time) const { return path_ ? path_->at(time) : AffineMap<Dim>{}; }
+
+  Vec<Dim> at_;
+  double spacing_;
+  UprightLine<Dim> drawn_;
+  std::vector<Crossing<Dim>> resting_;  ///< of the crossings those of walls that rest
+  bool has_moving_walls_;
+  std::shared_ptr<const WallPath<Dim>> path_;  ///< of its bed; null: it rests
 };
 
 /// Against gravity. Throws InputError, which names the probe, if there is none.
 template <int Dim>
 Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec);
 
-/// A height [m] above all water in the context.
+/// The water of one moment, as upright lines measure it.
 template <int Dim>
-double top_of_water(const ProbeContext<Dim>& context, const Vec<Dim>& up);
+class WaterColumns {
+ public:
+  explicit WaterColumns(const ProbeContext<Dim>& context);
+  WaterColumn on(const UprightLine<Dim>& line) const;
 
-/// The water on the line; `top` [m] is a height above all water.
+ private:
+  const ProbeContext<Dim>& context_;
+  Vec<Dim> low_, high_;  ///< m; corners of the box around all water
+};
+
+/// Around all gauges.
 template <int Dim>
-WaterColumn read_column(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, double top);
+Region<Dim> region_of(const std::vector<UprightGauge<Dim>>& gauges, double time) {
+  Region<Dim> region = gauges.front().region(time);
+  region.to = gauges.back().region(time).to;
+  for (const UprightGauge<Dim>& gauge : gauges) {
+    region.margin = std::max(region.margin, region.distance(gauge.region(time).from));
+  }
+  return region;
+}
 
 /// A depth probe: columns connected_m, highest_m, wet_m. Throws InputError if there is no gravity or no bed below the
 /// place.

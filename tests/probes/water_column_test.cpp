@@ -153,6 +153,37 @@ TYPED_TEST(WaterColumnTest, NeedsGravityAndABed) {
   EXPECT_NE(message(T::at(0.5, 0.0)).find("gravity"), std::string::npos);
 }
 
+// A tank that has turned and moved, with all that is in it, and a gauge that is fastened to it.
+TYPED_TEST(WaterColumnTest, InATankThatMovesReadsAsInTheTank) {
+  constexpr int dim = TestFixture::dimension;
+  using T = typename TestFixture::TankOf;
+  T tank = T::filled(0.5);
+  WallTable& walls = tank.spec.walls[0];
+  walls.rotation = "0.3*t";
+  walls.displacement.assign(dim, 0.0);
+  walls.displacement[0] = "2*t";
+  if (dim == 3) walls.axis = {0.0, 1.0, 0.0};
+  tank.boundary = make_boundary<dim>(tank.spec);
+  const auto reading = depth_reading<dim>(probe_at(ProbeType::depth, T::at(0.3, 0.7)), tank.spec, tank.boundary);
+  const auto profile =
+      profile_reading<dim>(probe_along(ProbeType::profile, T::at(0.1, 0.0), T::at(0.9, 0.0)), tank.spec, tank.boundary);
+  const Row before = reading.take(tank.context()).at(0);
+  const std::vector<Row> rows_before = profile.take(tank.context());
+  const AffineMap<dim> map = WallPath<dim>(tank.spec, walls, "tank").at(1.0);
+  for (Vec<dim>& x : tank.particles.position) x = map(x);
+  for (WallFace<dim>& face : tank.boundary.faces) face = moved(map, face);
+  tank.locate();
+  const Row after = reading.take(tank.context(1.0)).at(0);
+  for (int column = 0; column < 3; ++column) EXPECT_NEAR(after[column], before[column], 1e-9) << column;
+  EXPECT_NEAR(after[0], 0.5, TestFixture::bound);
+  EXPECT_LT(reading.region(1.0).distance(map(Vec<dim>::Map(T::at(0.3, 0.4).data()))), 1e-12);
+  const std::vector<Row> rows_after = profile.take(tank.context(1.0));
+  ASSERT_EQ(rows_after.size(), rows_before.size());
+  for (std::size_t k = 0; k < rows_after.size(); ++k) {
+    for (std::size_t c = 0; c < rows_after[k].size(); ++c) EXPECT_NEAR(rows_after[k][c], rows_before[k][c], 1e-9);
+  }
+}
+
 TEST(WaterColumn, FindsTheHumpThatCoversTheFloorAndTheWaterUnderADeck) {
   using T = Tank<2>;
   T tank = T::filled(0.8);
