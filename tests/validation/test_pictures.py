@@ -130,6 +130,27 @@ class Pictures(PicturesTest):
         self.assertEqual((code, "remedy: install xvfb" in err), (2, True), err)
 
 
+class Bounds(unittest.TestCase):
+    class Walls:
+        """Of a box from -1 to 1 that stands at `x`; without x, no walls."""
+        def __init__(self, x=None):
+            self.x = x
+
+        def GetNumberOfPoints(self):
+            return 0 if self.x is None else 8
+
+        def GetBounds(self):
+            return (self.x - 1, self.x + 1, -1, 1, -1, 1)
+
+    def test_hold_walls_that_move_at_all_times_shown(self):
+        found = pictures.bounds_of([], [self.Walls(0.0), self.Walls(-2.5), None, self.Walls(7.0), self.Walls()])
+        self.assertEqual(found, (-3.5, 8, -1, 1, -1, 1))
+
+    def test_hold_the_water_where_there_are_no_walls(self):
+        frames = [Frame(0.0, np.array([[0.0, 1.0, 2.0]]), {}), Frame(1.0, np.array([[5.0, 0.0, 2.5]]), {})]
+        self.assertEqual(pictures.bounds_of(frames, [None, self.Walls()]), (0, 5, 0, 1, 2, 2.5))
+
+
 class Scene(PicturesTest):
     def test_shows_water_faces_that_look_here_and_marks_on_top(self):
         folder = self.run_of(3, frames=1)

@@ -27,7 +27,7 @@ def draw_page(run, frames):
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=row == rows - 1, labelleft=column == 0)
         axes.set_xlabel("x (m)" if row == rows - 1 else "", labelpad=1)
-        axes.set_ylabel("z (m)" if column == 0 else "")
+        axes.set_ylabel("y (m)" if column == 0 else "")
         if k == 0:
             axes.legend(loc="lower right", bbox_to_anchor=(1, 1), frameon=False)
     page.pressure_bar(dots, LEFT + 2 * COLUMN + COLUMN_GAP + BAR_GAP, HEAD, pictures)

@@ -66,7 +66,7 @@ def draw_page(run, frames):
                               f"$T$ = {frame.time / scale:.1f}   ($t$ = {frame.time:.3f} s)")
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=k == len(frames) - 1)
-        axes.set_ylabel("z (m)")
+        axes.set_ylabel("y (m)")
     axes.set_xlabel("x (m)", labelpad=1)
     page.pressure_bar(dots, LEFT + PICTURE + 0.14, HEAD, pictures)
     top = HEAD + pictures + CURVE_HEAD

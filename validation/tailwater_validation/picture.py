@@ -165,7 +165,7 @@ def draw_page(run, frames):
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=row == 1, labelleft=column == 0)
         axes.set_xlabel("x (m)" if row == 1 else "", labelpad=1)
-        axes.set_ylabel("z (m)" if column == 0 else "")
+        axes.set_ylabel("y (m)" if column == 0 else "")
         if k == 0:
             mark_gauges(axes, view[1][1])
     page.pressure_bar(dots, LEFT + both_columns + BAR_GAP, HEAD, particles)

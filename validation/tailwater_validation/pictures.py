@@ -82,9 +82,11 @@ def highest_speed(frames):
 
 
 def bounds_of(frames, walls):
-    """Of what the pictures show: the walls, and without any the water."""
-    if walls is not None and walls.GetNumberOfPoints():
-        return walls.GetBounds()
+    """Of what the pictures show: the walls wherever they are at the times of the frames, and without any the water."""
+    boxes = [faces.GetBounds() for faces in walls if faces is not None and faces.GetNumberOfPoints()]
+    if boxes:
+        boxes = np.array(boxes)
+        return tuple(np.stack([boxes[:, 0::2].min(0), boxes[:, 1::2].max(0)], axis=1).ravel())
     low = np.min([frame.position.min(0) for frame in frames], axis=0)
     high = np.max([frame.position.max(0) for frame in frames], axis=0)
     return tuple(np.stack([low, high], axis=1).ravel())
@@ -118,7 +120,7 @@ def draw_3d(run, chosen, folder, look_from):
     frames = [read_frame(time, path) for _, time, path in chosen]
     speed = highest_speed(frames)
     mappable = ScalarMappable(Normalize(0, speed), COLOURS) if speed > 0 else None
-    window = scene.Scene(bounds_of(frames, walls_at(run, chosen[0][1])), look_from)
+    window = scene.Scene(bounds_of(frames, [walls_at(run, time) for _, time, _ in chosen]), look_from)
     for (number, time, _), frame in zip(chosen, frames):
         water = read_polydata(run.path / "fields" / f"surface_{number:05}.vtp")
         image = window.draw(water, walls_at(run, time), colours=mappable and matplotlib.colormaps[COLOURS],
@@ -140,7 +142,7 @@ def draw_2d(run, chosen, folder):
         plots.draw_walls(axes, run)
         view.apply(axes)
         axes.set_xlabel("x (m)")
-        axes.set_ylabel("z (m)" if view.exaggeration == 1 else f"z (m), {view.exaggeration} times higher")
+        axes.set_ylabel(view.label_of_heights())
         finish(figure, axes, run, time, dots if speed > 0 else None, folder / f"picture_{number:05}.png")
 
 

@@ -79,6 +79,9 @@ class View:
         """Height over width, as drawn."""
         return self.exaggeration * (self.y[1] - self.y[0]) / (self.x[1] - self.x[0])
 
+    def label_of_heights(self):
+        return "y (m)" if self.exaggeration == 1 else f"y (m), {self.exaggeration} times higher"
+
     def apply(self, axes):
         axes.set(xlim=self.x, ylim=self.y, aspect=self.exaggeration)
         axes.spines[["left", "bottom"]].set_visible(False)
@@ -139,7 +142,7 @@ def draw_moments(run, times, time_scale=None):
     for axes in every[-1]:
         axes.set_xlabel("x (m)")
     for axes in every[:, 0]:
-        axes.set_ylabel("z (m)" if view.exaggeration == 1 else f"z (m), {view.exaggeration} times higher")
+        axes.set_ylabel(view.label_of_heights())
     bar = figure.colorbar(dots, ax=every, extend="both" if low < 0 else "max", fraction=0.03, pad=0.01, aspect=12 * rows)
     bar.set_label("pressure (kPa)")
     return figure
@@ -181,7 +184,7 @@ def draw_start(run):
         axes.quiver(*frame.position[some, :2].T, *velocity[some, :2].T, color=DARK, width=0.003, zorder=4)
     view.apply(axes)
     axes.set_xlabel("x (m)")
-    axes.set_ylabel("z (m)" if view.exaggeration == 1 else f"z (m), {view.exaggeration} times higher")
+    axes.set_ylabel(view.label_of_heights())
     return figure
 
 

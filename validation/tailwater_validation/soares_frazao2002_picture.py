@@ -26,7 +26,7 @@ def draw_page(run, frames):
                               f"$t$ = {frame.time:.1f} s", exaggeration)
         axes.spines[["left", "bottom"]].set_visible(False)
         axes.tick_params(length=2.5, labelbottom=k == len(frames) - 1)
-        axes.set_ylabel("z (m)")
+        axes.set_ylabel("y (m)")
     axes.set_xlabel("x (m)", labelpad=1)
     page.pressure_bar(dots, LEFT + PICTURE + BAR_GAP, HEAD, pictures)
 
