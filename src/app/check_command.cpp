@@ -114,8 +114,8 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       : estimate.grows_much ? "a tank of about 10000 particles, because most of the water comes in later: a first guess"
                             : "a tank of about 10000 particles, because the case is large: a first guess");
   if (options.draws_nothing) return;
-  write_previews<Dim>(spec, options, flow.walls.boundary, make_fluid_particles(spec, flow.walls.boundary),
-                      flow.walls.particles);
+  const auto fluid = make_fluid_particles(spec, flow.walls.boundary, {}, 0, StartVelocities::left_out);
+  write_previews<Dim>(spec, options, flow.walls.boundary, fluid, flow.walls.particles);
 }
 
 void check_case(const CheckOptions& options) {

@@ -61,7 +61,7 @@ BrokenCase<Dim> draw_broken_case(const CaseSpec& spec) {
     return {draw_walls_one_by_one<Dim>(spec), {}};
   }
   try {
-    drawing.fluid = make_fluid_particles(spec, drawing.boundary);
+    drawing.fluid = make_fluid_particles(spec, drawing.boundary, {}, 0, StartVelocities::left_out);
   } catch (const InputError&) {
     // The walls alone show the place.
   }

@@ -90,14 +90,23 @@ struct Contacts {
   std::map<std::pair<int, int>, Approach<Dim>> by_face;  ///< and block
 };
 
+/// `far` [m]: what is farther in front of all walls does not matter.
 template <int Dim>
-Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double dx) {
+Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double far,
+                          double dx) {
   Contacts<Dim> contacts;
+  Vec<Dim> open = Vec<Dim>::Zero();  // a place in front of the walls, none of which is nearer than `clear` [m]
+  double clear = 0.0;
   std::vector<bool> is_sheet(boundary.walls.size(), false);
   for (const WallPlate& plate : boundary.plates) is_sheet[plate.wall] = plate.sheet != nullptr;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
+    if ((x - open).norm() < clear - far) continue;
     const NearestWall<Dim> near = boundary.nearest(x, infinite);
+    if (near.signed_distance > 0.0) {
+      open = x;
+      clear = near.signed_distance;
+    }
     const double height = boundary.faces[near.face].height(x);
     const int wall = boundary.faces[near.face].wall;
     Contact<Dim>& contact = contacts.by_wall[{wall, fluid.block[i]}];
@@ -132,7 +141,7 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
   if (boundary.faces.empty()) return {};
   const double dx = spec.particles.spacing;
   const auto [regular, least, gap_from, gap_to] = standing(spec);
-  const Contacts<Dim> contacts = contacts_of(boundary, fluid, least, dx);
+  const Contacts<Dim> contacts = contacts_of(boundary, fluid, least, gap_to, dx);
   std::vector<std::size_t> in_front(boundary.walls.size(), 0);
   for (const auto& [key, contact] : contacts.by_wall) in_front[key.first] += contact.in_front;
 

@@ -13,14 +13,52 @@
 namespace tailwater {
 namespace {
 
-/// m/s; a tenth of the speed of sound in water.
-constexpr double largest_wall_speed = 150.0;
-
 /// Least number of samples of a path, even where it does not seem to move.
 constexpr int least_samples = 2000;
 
-/// Pieces of the paths that are followed at most: 10 km at dx = 0.08 m, in less than a second.
-constexpr int most_pieces = 500'000;
+/// Work that is done at most on following the paths, in looks at the place of a wall: 10 km of one wall at
+/// dx = 0.004 m. It takes some seconds.
+constexpr double most_looks = 1e7;
+
+constexpr double looks_per_letter = 0.01;    ///< of an expression
+constexpr double looks_per_corner = 0.01;    ///< of a wall
+constexpr double looks_per_collision = 0.1;  ///< of two faces
+
+/// A wall that moves, as it is drawn.
+template <int Dim>
+struct Mover {
+  int wall;
+  WallPath<Dim> path;
+  std::vector<int> faces;         ///< indices into Boundary::faces
+  std::vector<Vec<Dim>> corners;  ///< of the faces, each once
+  double looks;                   ///< what a look at it costs
+  bool is_followed = true;        ///< no error of its own so far
+};
+
+template <int Dim>
+Mover<Dim> make_mover(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
+  const WallTable& table = spec.walls[wall];
+  Mover<Dim> mover{wall, WallPath<Dim>(spec, table, wall_label(drawn, wall)), {}, {}, 1.0};
+  const auto is_before = [](const Vec<Dim>& a, const Vec<Dim>& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::set<Vec<Dim>, decltype(is_before)> known(is_before);
+  for (int f = 0; f < static_cast<int>(drawn.faces.size()); ++f) {
+    if (drawn.faces[f].wall != wall) continue;
+    mover.faces.push_back(f);
+    for (const Vec<Dim>& corner : drawn.faces[f].corners) {
+      if (known.insert(corner).second) mover.corners.push_back(corner);
+    }
+  }
+  const auto letters = [](const Varying& value) {
+    const auto* text = std::get_if<std::string>(&value);
+    return text == nullptr ? 0.0 : static_cast<double>(text->size());
+  };
+  double length = letters(table.rotation);
+  for (const Varying& component : table.displacement) length += letters(component);
+  mover.looks += looks_per_letter * length + looks_per_corner * static_cast<double>(mover.corners.size());
+  return mover;
+}
 
 /// Follows the walls from the start to the end and checks them every dx/4 of their way.
 template <int Dim>
@@ -30,11 +68,14 @@ class PathWalk {
            const std::vector<int>& moving)
       : drawn_(drawn),
         dx_(spec.particles.spacing),
-        moving_(moving.begin(), moving.end()),
         faces_(drawn.faces),
-        faces_before_(drawn.faces) {
-    for (std::size_t w = 0; w < spec.walls.size(); ++w) {
-      paths_.emplace_back(spec, spec.walls[w], wall_label(drawn, static_cast<int>(w)));
+        faces_before_(drawn.faces),
+        faces_of_(drawn.walls.size()),
+        boxes_(drawn.walls.size()) {
+    for (const int wall : moving) movers_.push_back(make_mover(spec, drawn, wall));
+    for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
+      faces_of_[faces_[f].wall].push_back(f);
+      boxes_[faces_[f].wall].extend(faces_[f].box());
     }
     places_ = places_of_room_ = places_at(0.0);
     // The room is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
@@ -45,114 +86,146 @@ class PathWalk {
 
   Findings findings(double end) {
     look_for_collisions(0.0);
+    Places before = places_at(0.0);
     for (int k = 0; k < least_samples; ++k) {
-      if (pieces_ > most_pieces) {
+      if (looks_ > most_looks) {
         findings_.push_back(
             Finding::warning("the walls move so far that their paths were followed only to t = {:.6g} s: what they "
                              "meet later is not known",
                              end * k / least_samples));
         break;
       }
-      follow(end * k / least_samples, end * (k + 1) / least_samples);
-      if (room_) look_for_room(end * (k + 1) / least_samples);
+      const double to = end * (k + 1) / least_samples;
+      Places after = places_at(to);
+      follow(end * k / least_samples, before, to, after);
+      if (room_) look_for_room(to);
+      before = std::move(after);
     }
     return std::move(findings_);
   }
 
  private:
+  using Places = std::vector<AffineMap<Dim>>;  ///< of all movers
+
   std::string label(int wall) const { return wall_label(drawn_, wall); }
 
-  std::vector<AffineMap<Dim>> places_at(double time) const {
-    std::vector<AffineMap<Dim>> places(paths_.size());
-    for (const int wall : moving_) places[wall] = paths_[wall].at(time);
+  Places places_at(double time) {
+    Places places(movers_.size());
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      if (!movers_[m].is_followed) continue;
+      places[m] = movers_[m].path.at(time);
+      looks_ += movers_[m].looks;
+    }
     return places;
   }
 
   /// The corner of a wall that moves farthest between two places of the wall, and how far it moves.
-  std::pair<Vec<Dim>, double> farthest(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const {
+  std::pair<Vec<Dim>, double> farthest(const Mover<Dim>& mover, const AffineMap<Dim>& before,
+                                       const AffineMap<Dim>& after) const {
     std::pair<Vec<Dim>, double> result{Vec<Dim>::Zero(), 0.0};
-    for (const WallFace<Dim>& face : drawn_.faces) {
-      if (face.wall != wall) continue;
-      for (const Vec<Dim>& corner : face.corners) {
-        const double way = (after(corner) - before(corner)).norm();
-        if (!(way <= result.second)) result = {before(corner), way};  // also if it is not a number
-      }
+    for (const Vec<Dim>& corner : mover.corners) {
+      const double way = (after(corner) - before(corner)).norm();
+      if (!(way <= result.second)) result = {before(corner), way};  // also if it is not a number
     }
     return result;
   }
 
   /// Returns whether a wall may move by `length` (m) between two times. If not, adds an error and stops following the
   /// wall.
-  bool accepts_way(int wall, const Vec<Dim>& where, double length, double from, double to) {
+  bool accepts_way(Mover<Dim>& mover, const Vec<Dim>& where, double length, double from, double to) {
     if (!std::isfinite(length)) {
       findings_.push_back(Finding::error(
-          "{} is at no finite place at t = {:.6g} s: correct its displacement or rotation", label(wall), to));
-    } else if (length > 0.25 * dx_ && length > largest_wall_speed * (to - from)) {
+          "{} is at no finite place at t = {:.6g} s: correct its displacement or rotation", label(mover.wall), to));
+    } else if (length > 0.25 * dx_ && length > largest_speed_of_case * (to - from)) {
       findings_.push_back(Finding::error(
           "{} is too fast: its point {} moves {:.3g} m in the {:.3g} s after t = {:.6g} s, but water is treated as "
           "incompressible, which limits walls to {:.0f} m/s; correct its displacement or rotation",
-          label(wall), place(where), length, to - from, from, largest_wall_speed));
+          label(mover.wall), place(where), length, to - from, from, largest_speed_of_case));
     } else {
       return true;
     }
-    moving_.erase(wall);
+    mover.is_followed = false;
     return false;
   }
 
-  void follow(double from, double to) {
-    if (++pieces_ > most_pieces) return;
-    const std::vector<AffineMap<Dim>> start = places_at(from);
-    const std::vector<AffineMap<Dim>> end = places_at(to);
+  void follow(double from, const Places& start, double to, const Places& end) {
+    if (looks_ > most_looks) return;
     double longest = 0.0;
     bool is_far = false;
-    for (const int wall : std::vector<int>(moving_.begin(), moving_.end())) {
-      const auto [where, way] = farthest(wall, start[wall], end[wall]);
-      if (!accepts_way(wall, where, way, from, to)) continue;
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      if (!movers_[m].is_followed) continue;
+      const auto [where, way] = farthest(movers_[m], start[m], end[m]);
+      if (!accepts_way(movers_[m], where, way, from, to)) continue;
       longest = std::max(longest, way);
-      is_far = is_far || farthest(wall, places_[wall], end[wall]).second > 0.25 * dx_;
+      is_far = is_far || farthest(movers_[m], places_[m], end[m]).second > 0.25 * dx_;
     }
     if (longest > 0.25 * dx_) {
-      follow(from, 0.5 * (from + to));
-      follow(0.5 * (from + to), to);
+      const double middle = 0.5 * (from + to);
+      const Places half = places_at(middle);
+      follow(from, start, middle, half);
+      follow(middle, half, to, end);
     } else if (is_far) {
-      places_ = end;
-      faces_before_ = faces_;
-      for (std::size_t f = 0; f < drawn_.faces.size(); ++f) {
-        faces_[f] = moved(places_[drawn_.faces[f].wall], drawn_.faces[f]);
-      }
+      move_to(end);
       look_for_collisions(to);
     }
   }
 
+  void move_to(const Places& places) {
+    places_ = places;
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      Eigen::AlignedBox<double, Dim>& box = boxes_[movers_[m].wall];
+      box.setEmpty();
+      for (const int f : movers_[m].faces) {
+        faces_before_[f] = faces_[f];
+        // A wall that is no longer followed counts where it is drawn.
+        faces_[f] = movers_[m].is_followed ? moved(places_[m], drawn_.faces[f]) : drawn_.faces[f];
+        box.extend(faces_[f].box());
+      }
+    }
+  }
+
   void look_for_collisions(double time) {
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      const int wall = faces_[f].wall;
-      if (!moving_.contains(wall)) continue;
-      for (std::size_t other = 0; other < faces_.size(); ++other) {
-        const int other_wall = faces_[other].wall;
-        const std::pair<int, int> walls = std::minmax(wall, other_wall);
-        if (drawn_.walls[wall].body == drawn_.walls[other_wall].body || collided_.contains(walls)) continue;
-        const auto found = collision(faces_[f], faces_[other], faces_before_[f], faces_before_[other], dx_);
+    for (const Mover<Dim>& mover : movers_) {
+      if (!mover.is_followed) continue;
+      const int wall = mover.wall;
+      for (int other = 0; other < static_cast<int>(boxes_.size()); ++other) {
+        if (drawn_.walls[wall].body == drawn_.walls[other].body) continue;
+        if (boxes_[other].isEmpty() || boxes_[wall].exteriorDistance(boxes_[other]) > dx_) continue;
+        if (!collided_.contains(std::minmax(wall, other))) look_for_collision(wall, other, time);
+      }
+    }
+  }
+
+  void look_for_collision(int wall, int other, double time) {
+    for (const int f : faces_of_[wall]) {
+      for (const int g : faces_of_[other]) {
+        looks_ += looks_per_collision;
+        const auto found = collision(faces_[f], faces_[g], faces_before_[f], faces_before_[g], dx_);
         if (!found) continue;
-        collided_.insert(walls);
+        collided_.insert(std::minmax(wall, other));
         findings_.push_back(
             found->is_crossing
                 ? Finding::error("{} crosses {} at t = {:.6g} s at {}: change its path, or draw it shorter",
-                                 label(wall), label(other_wall), time, place(found->where))
+                                 label(wall), label(other), time, place(found->where))
                 : Finding::error("{} comes nearer than a spacing to {} at t = {:.6g} s at {}: the water between them "
                                  "would be crushed; end its path at least {:.6g} m before",
-                                 label(wall), label(other_wall), time, place(found->where), dx_));
+                                 label(wall), label(other), time, place(found->where), dx_));
+        return;
       }
     }
   }
 
   /// Checks that the water has room, each time a wall has moved by dx; not after an error.
   void look_for_room(double time) {
-    const auto has_moved = [&](int wall) { return farthest(wall, places_of_room_[wall], places_[wall]).second > dx_; };
-    if (!findings_.empty() || !std::ranges::any_of(moving_, has_moved)) return;
-    std::vector<AffineMap<Dim>> way;
-    for (const WallFace<Dim>& face : faces_) {
-      way.push_back(way_between(places_of_room_[face.wall], places_[face.wall]));
+    bool has_moved = false;
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const bool is_far = farthest(movers_[m], places_of_room_[m], places_[m]).second > dx_;
+      has_moved = has_moved || (movers_[m].is_followed && is_far);
+    }
+    if (!findings_.empty() || !has_moved) return;
+    std::vector<AffineMap<Dim>> way(faces_.size());
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      for (const int f : movers_[m].faces) way[f] = way_between(places_of_room_[m], places_[m]);
     }
     room_->move(faces_, way);
     places_of_room_ = places_;
@@ -173,15 +246,16 @@ class PathWalk {
 
   const Boundary<Dim>& drawn_;
   double dx_;
-  std::vector<WallPath<Dim>> paths_;
-  std::set<int> moving_;                        ///< walls without an error of their own so far
-  std::vector<AffineMap<Dim>> places_;          ///< of the walls at the last check
-  std::vector<WallFace<Dim>> faces_;            ///< at the last check
-  std::vector<WallFace<Dim>> faces_before_;     ///< at the check before it
-  std::set<std::pair<int, int>> collided_;      ///< walls whose collision is reported
-  std::optional<RoomForWater<Dim>> room_;       ///< none if it is unknown
-  std::vector<AffineMap<Dim>> places_of_room_;  ///< of the walls at the last check of the room
-  int pieces_ = 0;                              ///< followed so far
+  std::vector<Mover<Dim>> movers_;
+  Places places_;                                      ///< of the walls at the last check
+  std::vector<WallFace<Dim>> faces_;                   ///< at the last check
+  std::vector<WallFace<Dim>> faces_before_;            ///< at the check before it
+  std::vector<std::vector<int>> faces_of_;             ///< each wall
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;  ///< around each wall at the last check
+  std::set<std::pair<int, int>> collided_;             ///< walls whose collision is reported
+  std::optional<RoomForWater<Dim>> room_;              ///< none if it is unknown
+  Places places_of_room_;                              ///< of the walls at the last check of the room
+  double looks_ = 0.0;                                 ///< so far
   Findings findings_;
 };
 

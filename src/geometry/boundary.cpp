@@ -49,6 +49,11 @@ Vec<Dim> Boundary<Dim>::way_of(const WallMesh& mesh) const {
 
 template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
+  if (search_distance > resting_.reach() && resting_.reach() > 0.0) {
+    // Most places that are asked about are beside a wall.
+    const NearestWall<Dim> near = nearest(x, resting_.reach());
+    if (near.face >= 0) return near;
+  }
   NearestWall<Dim> best;
   double best_distance = search_distance;
   double best_height = 0.0;

@@ -1,15 +1,39 @@
 #include "geometry/polygon.h"
 
-#include "geometry/boundary.h"
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/face.h"
 
 namespace tailwater {
 
-Where where_in(const std::vector<Vec<2>>& corners, const Vec<2>& x, double tolerance) {
+Polygon::Polygon(std::vector<Vec<2>> corners, double tolerance) : corners_(std::move(corners)), tolerance_(tolerance) {
+  if (corners_.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(corners_, {}, [](const Vec<2>& x) { return x[1]; });
+  const int count = static_cast<int>(corners_.size());
+  low_ = lowest[1] - tolerance_;
+  constexpr double beyond_rounding = 1.0 + 1e-9;
+  band_ = beyond_rounding * (highest[1] + tolerance_ - low_) / count;
+  if (!(band_ > 0.0)) band_ = 1.0;
+  edges_.resize(count);
+  const auto band_at = [&](double y) { return std::clamp(static_cast<int>((y - low_) / band_), 0, count - 1); };
+  for (int i = 0, last = count - 1; i < count; last = i++) {
+    const auto [low, high] = std::minmax(corners_[last][1], corners_[i][1]);
+    // A band more on each side, whatever the rounding.
+    const int first = std::max(0, band_at(low - tolerance_) - 1);
+    const int end = std::min(count - 1, band_at(high + tolerance_) + 1);
+    for (int band = first; band <= end; ++band) edges_[band].push_back(i);
+  }
+}
+
+Where Polygon::where(const Vec<2>& x) const {
+  const double band = std::floor((x[1] - low_) / band_);
+  if (!(band >= 0.0 && band < static_cast<double>(edges_.size()))) return Where::outside;
   bool is_inside = false;
-  for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
-    const Vec<2>& a = corners[last];
-    const Vec<2>& b = corners[i];
-    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance) {
+  for (const int i : edges_[static_cast<std::size_t>(band)]) {
+    const Vec<2>& a = corners_[i == 0 ? corners_.size() - 1 : i - 1];
+    const Vec<2>& b = corners_[i];
+    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance_) {
       return Where::on_outline;
     }
     if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {

@@ -48,7 +48,9 @@ std::function<bool(const Vec<Dim>&)> region_of(const ProbeTable& probe, double t
       for (const Coordinates& point : probe.region_points) {
         corners.push_back(to_vec<2>(point, label(probe), "region_points"));
       }
-      return [corners, tolerance](const Vec<2>& x) { return where_in(corners, x, tolerance) != Where::outside; };
+      return [region = Polygon(std::move(corners), tolerance)](const Vec<2>& x) {
+        return region.where(x) != Where::outside;
+      };
     }
   }
   return {};

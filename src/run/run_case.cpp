@@ -32,6 +32,9 @@ namespace {
 /// this interval costs next to nothing.
 constexpr std::int64_t steps_between_sorts = 10;
 
+/// dx; what is checked beside walls is nearer.
+constexpr double reach_of_checks = 3.0;
+
 template <int Dim>
 class Run {
  public:
@@ -188,11 +191,16 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 
 template <int Dim>
 void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, bool warns) {
-  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  boundary.file_faces(reach_of_checks * spec.particles.spacing);
   // What a machine has for its ranks is enough for as many times more on all machines.
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
   std::vector<Finding> findings = check_memory(spec, boundary, ranks.least(available));
-  if (findings.empty()) findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary, ranks));
+  if (findings.empty()) {
+    // The velocities are found, and refused, when the flow is made.
+    const auto fluid = make_fluid_particles(spec, boundary, ranks, 0, StartVelocities::left_out);
+    findings = check_geometry(spec, boundary, fluid);
+  }
   constexpr std::size_t most_shown = 50;
   std::vector<std::string> errors;
   for (const Finding& finding : findings) {

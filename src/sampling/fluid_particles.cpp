@@ -64,6 +64,12 @@ class StartVelocity {
                         owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number));
       }
     }
+    if (const double speed = velocity.norm(); speed > largest_speed_of_case) {
+      throw InputError(
+          fmt::format("{}: velocity is {:.4g} m/s at {}, but water is treated as incompressible, which limits it to "
+                      "{:g} m/s: correct its velocity",
+                      owner_, speed, place(x), largest_speed_of_case));
+    }
     return velocity;
   }
 
@@ -159,7 +165,7 @@ class BlockWater {
   /// Calls put(position, velocity, volume) for the particles `from` to `to` - 1 of this block; its first one is number
   /// `first` of all.
   template <class Put>
-  void make(std::int64_t from, std::int64_t to, std::int64_t first, Put&& put) {
+  void make(std::int64_t from, std::int64_t to, std::int64_t first, StartVelocities velocities, Put&& put) {
     const double jitter = spec_.particles.jitter * spec_.particles.spacing;
     std::int64_t number = 0;
     for (std::int64_t row = 0; row < lattice_.rows() && number < to; ++row) {
@@ -183,7 +189,7 @@ class BlockWater {
         x = kept_off_walls(spec_, boundary_, block_, x);
         double volume = fitted_.share;
         for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
-        put(x, velocity_.at(x), volume);
+        put(x, velocities == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume);
       });
     }
   }
@@ -220,12 +226,11 @@ class BlockWater {
   /// Of the places on the outline of a polygon every second one, in their order, because half of their cells is inside.
   void leave_out_half_of_outline() {
     if constexpr (Dim == 2) {
-      const std::vector<Vec<2>> outline = outline_of(block_, owner_);
-      const double tolerance = corner_tolerance * spec_.particles.spacing;
+      const Polygon outline(outline_of(block_, owner_), corner_tolerance * spec_.particles.spacing);
       bool takes_next = false;
       for (std::int64_t row = 0; row < lattice_.rows(); ++row) {
         lattice_.visit_row(row, [&](const Cell<2>& cell) {
-          if (where_in(outline, at(cell), tolerance) != Where::on_outline) return;
+          if (outline.where(at(cell)) != Where::on_outline) return;
           takes_next = !takes_next;
           if (!takes_next) left_out_.insert(cell_key<2>(cell));
         });
@@ -302,7 +307,7 @@ double FluidParticles<Dim>::extent_along(const Vec<Dim>& direction) const {
 
 template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary, const Communicator& ranks,
-                                         std::int64_t others) {
+                                         std::int64_t others, StartVelocities velocities) {
   const Bodies<Dim> bodies(spec, boundary);
   std::vector<std::unique_ptr<BlockWater<Dim>>> blocks;
   FluidParticles<Dim> fluid;
@@ -326,7 +331,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
       fluid.volume.push_back(volume);
       fluid.block.push_back(static_cast<int>(b));
     };
-    blocks[b]->make(fluid.first - first, end - first, first, put);
+    blocks[b]->make(fluid.first - first, end - first, first, velocities, put);
     first += blocks[b]->particles();
   }
   return fluid;
@@ -334,7 +339,9 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
 
 template struct FluidParticles<2>;
 template struct FluidParticles<3>;
-template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&, const Communicator&, std::int64_t);
-template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&, const Communicator&, std::int64_t);
+template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&, const Communicator&, std::int64_t,
+                                                StartVelocities);
+template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&, const Communicator&, std::int64_t,
+                                                StartVelocities);
 
 }  // namespace tailwater

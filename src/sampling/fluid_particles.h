@@ -27,6 +27,9 @@ struct FluidParticles {
   double extent_along(const Vec<Dim>& direction) const;
 };
 
+/// An expression may take longer than all the rest; what asks for places only leaves it out, with velocities of 0.
+enum class StartVelocities { found, left_out };
+
 /// The particles on the starting lattice (water_lattice.h). With dummy walls a particle is the centre of its cell. As
 /// many cells become particles as the block, without what bodies and walls take, has volume, those that have most of
 /// their volume in it (cut_cells.h), and the particles have this volume to round-off. Where nothing cuts a cell,
@@ -38,9 +41,10 @@ struct FluidParticles {
 ///
 /// Each rank makes only its part: as much as it gets when all particles and `others` that follow them are shared out
 /// equally. Collective. Throws InputError, which names the block, for a block without extent or with coordinates of the
-/// wrong dimension, and for a fill as filled_cells does.
+/// wrong dimension, for a fill as filled_cells does, and where a velocity is not finite or faster than 150 m/s.
 template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary,
-                                         const Communicator& ranks = {}, std::int64_t others = 0);
+                                         const Communicator& ranks = {}, std::int64_t others = 0,
+                                         StartVelocities velocities = StartVelocities::found);
 
 }  // namespace tailwater

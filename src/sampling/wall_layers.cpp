@@ -8,6 +8,7 @@ namespace tailwater {
 namespace {
 
 constexpr double least_distance = 0.5;     // dx, between wall particles
+constexpr double reach_over_depth = 2.0;   // most wall particles are nearer to their feet
 constexpr double seam_over_spacing = 2.0;  // four places may be in the way of each other
 
 /// Projector onto the directions that walls with these normals block: the sum of n n^T, eigenvalues clipped at 1.
@@ -28,7 +29,15 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       tolerance_(corner_tolerance * layers.spacing),
       share_(layers.share),
       seam_(seam_over_spacing * layers.spacing),
-      taken_((least_distance - corner_tolerance) * layers.spacing) {}
+      taken_((least_distance - corner_tolerance) * layers.spacing),
+      plain_(reach_over_depth * layers.count * layers.spacing) {
+  body.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = body.faces[f];
+    const Eigen::AlignedBox<double, Dim> box = face.box();
+    plain_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+    all_plain_.push_back(f);
+  });
+}
 
 template <int Dim>
 bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const {

@@ -3,6 +3,8 @@
 // free ones. It is declared at the end of this file and called in wall_particles.cpp.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -71,11 +73,10 @@ class WallParticleCollector {
   void add_unless_behind_another(const WallPlace<Dim>& place, std::int64_t number, IsOwn&& is_own,
                                  const WallMesh* own_mesh = nullptr) {
     if (taken_.has_near(place.position)) return;
-    bool is_behind = is_behind_mesh(place, own_mesh);
-    body_.visit_plain_faces([&](int f) {
-      is_behind = is_behind || (!is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_));
-    });
-    if (!is_behind) keep(place, number);
+    const auto hides = [&](int f) {
+      return !is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_);
+    };
+    if (!is_behind_mesh(place, own_mesh) && std::ranges::none_of(faces_between(place), hides)) keep(place, number);
   }
 
   /// Call after all places on the wall itself have been proposed, before those behind it.
@@ -84,6 +85,10 @@ class WallParticleCollector {
   WallParticles<Dim> particles() && { return std::move(particles_); }
 
  private:
+  /// The faces, of no mesh, that may lie between a place and its foot.
+  std::span<const int> faces_between(const WallPlace<Dim>& place) const {
+    return (place.stands_at() - place.foot).norm() <= plain_.reach() ? plain_.near(place.foot) : all_plain_;
+  }
   /// Whether a mesh other than its own lies between a place and its foot.
   bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
   void keep(const WallPlace<Dim>& place, std::int64_t number);
@@ -93,6 +98,8 @@ class WallParticleCollector {
   SpaceShare share_;
   double seam_;  ///< m
   PointGrid<Dim> taken_;
+  FaceGrid<Dim> plain_;         ///< faces of no mesh
+  std::vector<int> all_plain_;  ///< the same
   WallParticles<Dim> particles_;
 };
 

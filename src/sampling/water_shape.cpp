@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/from_spec.h"
-#include "geometry/polygon.h"
 #include "sampling/fill.h"
 
 namespace tailwater {
@@ -30,12 +30,13 @@ WaterShape<Dim>::WaterShape(const CaseSpec& spec, std::size_t block, const Bound
   if (table.shape == BlockShape::fill) filled_ = filled_cells<Dim>(spec, table, owner, boundary, lattice);
   if constexpr (Dim == 2) {
     if (table.shape != BlockShape::polygon) return;
-    corners_ = outline_of(table, owner);
-    const double area = signed_area(corners_);
+    polygon_ = Polygon(outline_of(table, owner), tolerance_);
+    const std::vector<Vec<2>>& corners = polygon_.corners();
+    const double area = signed_area(corners);
     volume_ = std::abs(area);
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-      Vec<2> from = corners_[k];
-      Vec<2> to = corners_[(k + 1) % corners_.size()];
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      Vec<2> from = corners[k];
+      Vec<2> to = corners[(k + 1) % corners.size()];
       if ((to - from).norm() <= tolerance_) continue;
       if (area < 0.0) std::swap(from, to);
       const Vec<2> along = (to - from).normalized();
@@ -53,7 +54,7 @@ template <int Dim>
 bool WaterShape<Dim>::holds(const Cell<Dim>& cell, const Vec<Dim>& x) {
   if (filled_) return filled_->holds(cell);
   if constexpr (Dim == 2) {
-    return corners_.empty() || where_in(corners_, x, tolerance_) != Where::outside;
+    return polygon_.corners().empty() || polygon_.where(x) != Where::outside;
   } else {
     if (mesh_ == nullptr) return true;
     if (const double way = (x - last_).norm(); !(way < std::abs(last_height_) - tolerance_)) {
@@ -74,8 +75,9 @@ Bodies<Dim>::Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary)
     if (wall.shape == WallShape::box) {
       boxes_.emplace_back(to_vec<Dim>(wall.min, owner, "min"), to_vec<Dim>(wall.max, owner, "max"));
     } else if constexpr (Dim == 2) {
-      std::vector<Vec<2>>& outline = outlines_.emplace_back();
+      std::vector<Vec<2>> outline;
       for (const Coordinates& point : wall.points) outline.push_back(to_vec<2>(point, owner, "points"));
+      polygons_.emplace_back(std::move(outline), tolerance_);
     }
   }
   for (const WallMesh& mesh : boundary.meshes) {
@@ -92,8 +94,8 @@ bool Bodies<Dim>::hold(const Vec<Dim>& x) const {
     }
   }
   if constexpr (Dim == 2) {
-    for (const std::vector<Vec<2>>& outline : outlines_) {
-      if (where_in(outline, x, tolerance_) == Where::inside) return true;
+    for (const Polygon& polygon : polygons_) {
+      if (polygon.where(x) == Where::inside) return true;
     }
   }
   return std::ranges::any_of(meshes_, [&](const WallMesh* mesh) {

@@ -8,6 +8,7 @@
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/polygon.h"
 #include "sampling/cell_set.h"
 #include "sampling/lattice_axis.h"
 
@@ -47,9 +48,9 @@ class WaterShape {
   }
 
  private:
-  double tolerance_;                   ///< m
-  Boundary<Dim> outline_;              ///< of a polygon
-  std::vector<Vec<2>> corners_;        ///< of the polygon
+  double tolerance_;       ///< m
+  Boundary<Dim> outline_;  ///< of a polygon
+  Polygon polygon_;
   const MeshSurface* mesh_ = nullptr;  ///< its front is outside
   std::optional<CellSet<Dim>> filled_;
   double volume_ = 0.0;
@@ -70,7 +71,7 @@ class Bodies {
   const Boundary<Dim>& boundary_;
   double tolerance_;  ///< m
   std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
-  std::vector<std::vector<Vec<2>>> outlines_;
+  std::vector<Polygon> polygons_;
   std::vector<const WallMesh*> meshes_;
 };
 

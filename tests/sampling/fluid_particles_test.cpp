@@ -101,6 +101,25 @@ double total_volume(const FluidParticles<2>& fluid) {
   return std::accumulate(fluid.volume.begin(), fluid.volume.end(), 0.0);
 }
 
+TEST(FluidLattice, RefusesWaterThatIsTooFastToBeIncompressible) {
+  CaseSpec spec = tank();
+  spec.fluid[0].velocity = {0.0, 149.0};
+  EXPECT_NO_THROW(make_fluid_particles(spec, make_boundary<2>(spec)));
+  for (const Varying& fast : {Varying(1e14), Varying("200*x")}) {
+    spec.fluid[0].velocity = {fast, 0.0};
+    try {
+      make_fluid_particles(spec, make_boundary<2>(spec));
+      ADD_FAILURE() << "was taken";
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("fluid 'fluid1': velocity is "), std::string::npos) << message;
+      EXPECT_NE(message.find("limits it to 150 m/s"), std::string::npos) << message;
+    }
+  }
+  const auto places = make_fluid_particles(spec, make_boundary<2>(spec), {}, 0, StartVelocities::left_out);
+  EXPECT_EQ(places.velocity.at(0), Vec<2>(Vec<2>::Zero()));
+}
+
 TEST(FluidLattice, PolygonHasItsVolume) {
   const double dx = 0.05;
   CaseSpec spec = empty_case(dx);
