@@ -134,10 +134,11 @@ int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
 
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
-                   const Vec<Dim>& down) {
+                   const Vec<Dim>& down, Edge edge) {
   using Cell = typename CellSpace<Dim>::Cell;
   Spread<Dim> found;
   found.met.assign(space.faces().size(), false);
+  found.wet.assign(space.faces().size(), false);
   found.behind.assign(space.faces().size(), std::nullopt);
   std::vector<bool> visited(space.count(), false);
   const auto visit = [&](const Cell& c) {
@@ -154,12 +155,13 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
       if (step * down[axis] < -0.5) continue;
       if (const int face = space.face_beside(c, axis, step); face >= 0) {
         found.met[face] = true;
-        const bool is_behind = space.faces()[face].height(space.centre(c)) < 0.0 && !space.is_on_wall(c);
-        if (is_behind) found.behind[face] = space.centre(c);
+        const bool is_in_front = space.faces()[face].height(space.centre(c)) >= 0.0;
+        if (is_in_front) found.wet[face] = true;
+        if (!is_in_front && !space.is_on_wall(c)) found.behind[face] = space.centre(c);
         ++found.sides;
       } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
         visit(*target);
-      } else {
+      } else if (edge == Edge::leads_out) {
         found.way_out = space.centre(c);
         return found;
       }
@@ -186,7 +188,7 @@ std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space,
 #define TAILWATER_INSTANTIATE(Dim)                                                                      \
   template class CellSpace<Dim>;                                                                        \
   template Spread<Dim> spread(const CellSpace<Dim>&, const std::vector<typename CellSpace<Dim>::Cell>&, \
-                              const Vec<Dim>&);                                                         \
+                              const Vec<Dim>&, Edge);                                                   \
   template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, const FluidParticles<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

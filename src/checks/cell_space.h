@@ -83,15 +83,19 @@ struct Spread {
   std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it reaches them
   std::optional<Vec<Dim>> way_out;  ///< the last place inside, if water leaves the case; the search ends there
   std::vector<bool> met;            ///< by face: whether it held the water
+  std::vector<bool> wet;            ///< by face: whether it did from its front
   std::vector<std::optional<Vec<Dim>>> behind;  ///< by face: a place behind it that the water reaches
   std::size_t sides = 0;                        ///< sides of the cells that are at faces
 };
+
+/// Whether water that comes to the edge of all cells leaves the case, or is held there.
+enum class Edge { leads_out, holds };
 
 /// Lets water run from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
 /// runs in all directions, else (a unit vector) sideways and down, never up.
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
-                   const Vec<Dim>& down);
+                   const Vec<Dim>& down, Edge edge = Edge::leads_out);
 
 /// The cells of the water of all ranks, without places that a wall separates from the centre of their cell. Collective.
 template <int Dim>

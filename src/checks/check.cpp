@@ -19,16 +19,20 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   } else {
     append(findings, check_meshes(spec, boundary, fluid));
   }
-  append(findings, check_wall_thickness(spec, boundary));
+  append(findings, check_wall_thickness(spec, boundary, fluid));
   append(findings, check_plates(spec, boundary));
+  append(findings, check_closed_gaps(spec, boundary));
   append(findings, check_roughness(spec, boundary));
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
   append(findings, check_open_ends(spec, boundary, fluid));
   append(findings, check_end_flows(spec, boundary));
   append(findings, check_wave_makers(spec, fluid));
+  append(findings, check_speeds<Dim>(spec));
+  append(findings, check_moorings(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
+  if (!has_error(findings)) append(findings, check_probes(spec, boundary, fluid));
   // Both faces of a plate, for one, say the same.
   std::set<std::string> told;
   std::erase_if(findings, [&](const Finding& finding) { return !told.insert(finding.message).second; });

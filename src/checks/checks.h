@@ -33,14 +33,18 @@ Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const F
 template <int Dim>
 Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Error: a wall that is no mesh and thinner than its layers of wall particles, with water or another wall on its other
-/// side. Looks straight through each face from points dx apart; at most 50 points per edge.
+/// Error: a wall that is no mesh and thinner than its layers of wall particles, where water can come to both sides of
+/// it. Looks straight through each face from points dx apart; at most 50 points per edge.
 template <int Dim>
-Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Error: a plate where the wall particles stand on the walls, which cannot be seen from one side only.
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Warning: an opening between walls at rest, or under a plate, that is so narrow that it counts as closed.
+template <int Dim>
+Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Warning: a wall whose roughness is larger than dx.
 template <int Dim>
@@ -69,6 +73,18 @@ Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 /// as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
+/// Error: water that enters, or a body, faster than water can be and count as incompressible.
+template <int Dim>
+Findings check_speeds(const CaseSpec& spec);
+
+/// Error: a mooring that is fastened far from its body.
+template <int Dim>
+Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: a probe where no water can come. Warning: times of a probe after the end of the run.
+template <int Dim>
+Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
 /// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not where it is drawn
 /// at t = 0. Walls without that error then go through the checks below.

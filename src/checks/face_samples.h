@@ -14,4 +14,13 @@ int samples_along(const WallFace<Dim>& face, double dx) {
   return std::clamp(static_cast<int>(std::ceil((face.corners[1] - face.corners[0]).norm() / dx)), 1, 50);
 }
 
+/// One of these points; in 3D on the line from the middle of the edge between corners 0 and 2 to corner 1.
+template <int Dim>
+Vec<Dim> sample_of(const WallFace<Dim>& face, int k, int samples) {
+  const double share = (k + 0.5) / samples;
+  Vec<Dim> x = face.corners[0] + share * (face.corners[1] - face.corners[0]);
+  if constexpr (Dim == 3) x += 0.5 * (1.0 - share) * (face.corners[2] - face.corners[0]);
+  return x;
+}
+
 }  // namespace tailwater

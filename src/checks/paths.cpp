@@ -8,6 +8,7 @@
 #include "checks/collision.h"
 #include "checks/room_for_water.h"
 #include "geometry/from_spec.h"
+#include "geometry/largest_speed.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {

@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "checks/face_samples.h"
 #include "geometry/from_spec.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -17,10 +21,60 @@ bool shares_corner(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolera
   });
 }
 
+/// Largest number of cells; if cells of size dx were more, they are larger.
+constexpr double most_cells_of_wet = 4e6;
+
 /// Whether this is a body in the water. Where it rests on another wall, the two touch back to back and stay dry.
 bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
+
+/// Which faces water can come to the front of, from where it is and from open ends. These, and the box around all walls,
+/// count as closed.
+template <int Dim>
+std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  std::vector<WallFace<Dim>> faces = boundary.faces;
+  std::vector<Vec<Dim>> sources;
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    const std::vector<WallFace<Dim>> closing = end.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
+    Vec<Dim> middle = end.corner;
+    for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
+    sources.push_back(middle - 0.5 * spec.particles.spacing * end.normal);
+  }
+  const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_wet);
+  std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space, fluid);
+  for (const Vec<Dim>& x : sources) start.push_back(space.cell_of(x));
+  return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
+}
+
+/// Finds the faces that may be behind others.
+template <int Dim>
+class FacesBehind {
+ public:
+  /// `reach` [m]: how far behind
+  FacesBehind(const Boundary<Dim>& boundary, double reach) : grid_(reach) {
+    boundary.visit_plain_faces([&](int f) {
+      const WallFace<Dim>& face = boundary.faces[f];
+      const Eigen::AlignedBox<double, Dim> box = face.box();
+      grid_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+    });
+  }
+
+  /// Near the places of the face that are looked at, in their order.
+  std::vector<int> of(const WallFace<Dim>& face, double dx) const {
+    std::set<int> found;
+    const int samples = samples_along(face, dx);
+    for (int k = 0; k < samples; ++k) {
+      const std::span<const int> near = grid_.near(sample_of(face, k, samples));
+      found.insert(near.begin(), near.end());
+    }
+    return {found.begin(), found.end()};
+  }
+
+ private:
+  FaceGrid<Dim> grid_;
+};
 
 /// The first sample of `face` that has the back of `other` behind it within `depth`.
 template <int Dim>
@@ -29,11 +83,7 @@ std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const
   const double tolerance = corner_tolerance * dx;
   const int samples = samples_along(face, dx);
   for (int k = 0; k < samples; ++k) {
-    const double share = (k + 0.5) / samples;
-    Vec<Dim> foot = face.corners[0] + share * (face.corners[1] - face.corners[0]);
-    if constexpr (Dim == 3) {
-      foot += 0.5 * (1.0 - share) * (face.corners[2] - face.corners[0]);
-    }
+    const Vec<Dim> foot = sample_of(face, k, samples);
     // Starts just in front of the wall, so that a wall without thickness is passed as well.
     if (crosses(other, Vec<Dim>(foot + 2.0 * tolerance * face.normal), Vec<Dim>(foot - depth * face.normal),
                 tolerance)) {
@@ -46,39 +96,47 @@ std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const
 }  // namespace
 
 template <int Dim>
-Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const double dx = spec.particles.spacing;
   const double tolerance = corner_tolerance * dx;
   const double needed = dummy_layers(spec) * dx;
   Findings findings;
   std::set<std::pair<int, int>> reported;
+  std::optional<std::vector<bool>> wet;  // by face; found when it is asked for
+  const auto is_wet = [&](int face) {
+    if (!wet) wet = wet_faces(spec, boundary, fluid);
+    return wet->at(face);
+  };
+  const FacesBehind<Dim> faces_behind(boundary, needed + 3.0 * tolerance);
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    boundary.visit_plain_faces([&](int g) {
+    for (const int g : faces_behind.of(face, dx)) {
       const WallFace<Dim>& other = boundary.faces[g];
       const double facing = -face.normal.dot(other.normal);
       const bool is_neighbour = facing < 0.999 && shares_corner(face, other, tolerance);
       const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
-      if (&other == &face || facing <= 0.0 || is_neighbour || is_plate) return;
+      if (g == f || facing <= 0.0 || is_neighbour || is_plate) continue;
       const std::optional<Vec<Dim>> foot = place_with_other_behind(face, other, needed, dx);
-      if (!foot) return;
+      if (!foot) continue;
       const double thickness = std::max(0.0, -other.height(*foot) / facing);
       const bool rests_on_it =
           thickness <= 2.0 * tolerance && (is_obstacle(spec.walls[face.wall]) || is_obstacle(spec.walls[other.wall]));
-      if (rests_on_it || thickness >= needed - tolerance) return;
+      if (rests_on_it || thickness >= needed - tolerance) continue;
       const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
-      if (!reported.insert(walls).second) return;
+      // A body that reaches through the bed does no harm: there is no water below.
+      if (reported.contains(walls) || !is_wet(f) || !is_wet(g)) continue;
+      reported.insert(walls);
       findings.push_back(Finding::error(
           "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m; "
           "make it thicker, or the spacing smaller",
           wall_label(boundary, face.wall), thickness, place(*foot),
           face.wall == other.wall ? "the water" : wall_label(boundary, other.wall), dummy_layers(spec), needed));
-    });
+    }
   });
   return findings;
 }
 
-template Findings check_wall_thickness(const CaseSpec&, const Boundary<2>&);
-template Findings check_wall_thickness(const CaseSpec&, const Boundary<3>&);
+template Findings check_wall_thickness(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_wall_thickness(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
 
 }  // namespace tailwater

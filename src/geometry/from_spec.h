@@ -55,9 +55,6 @@ inline const std::vector<double>& periodic_range(const DomainTable& domain, int 
 /// Number of layers of dummy particles that fill the kernel's support behind a wall, including a row on the wall.
 inline int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
 
-/// m/s; a tenth of the speed of sound in water. What is faster cannot count as incompressible.
-inline constexpr double largest_speed_of_case = 150.0;
-
 /// Area of a polygon, m^2; positive when its corners run counter-clockwise.
 template <class Points>
 double signed_area(const Points& corners) {

@@ -14,6 +14,28 @@ constexpr double straight = 1e-6;
 
 }  // namespace
 
+template <int Dim>
+WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x) {
+  WallBesidePlate beside;
+  double nearest = std::numeric_limits<double>::infinity();
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    if (boundary.walls[face.wall].is_plate) return;
+    const double distance = (closest_point(face, x) - x).norm();
+    if (distance > nearest) return;
+    nearest = distance;
+    beside = {face.wall, face.height(x) < 0.0 ? -distance : distance};
+  });
+  for (const WallMesh& mesh : boundary.meshes) {
+    const double height = boundary.height_above(mesh, x, std::numeric_limits<double>::infinity());
+    if (height < beside.distance) beside = {mesh.wall, height};
+  }
+  return beside;
+}
+
+template WallBesidePlate wall_beside_plate(const Boundary<2>&, const Vec<2>&);
+template WallBesidePlate wall_beside_plate(const Boundary<3>&, const Vec<3>&);
+
 Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate) {
   const WallFace<3>& face = boundary.faces[plate.first_face];
   const Vec<3> far_corner = boundary.faces[plate.first_face + 1].corners[2];

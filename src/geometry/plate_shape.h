@@ -1,13 +1,24 @@
-// The shapes of plates in 3D, from which both what they hide and their particles are made.
+// The shapes of plates, from which both what they hide and their particles are made.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
+
+/// The wall nearest to the end of a plate.
+struct WallBesidePlate {
+  int wall = -1;                                              ///< index into Boundary::walls; -1: none
+  double distance = std::numeric_limits<double>::infinity();  ///< m; below 0 behind it
+};
+
+/// Plates do not count.
+template <int Dim>
+WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x);
 
 /// The front of a plate that is a rectangle of two triangles, without other walls.
 Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate);

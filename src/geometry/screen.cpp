@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
@@ -27,20 +26,7 @@ Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int p
 /// Whether a place is on a wall that is no plate, nearer to it than `gap`, or behind it.
 template <int Dim>
 bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, double gap) {
-  double nearest = std::numeric_limits<double>::max();
-  double height = 0.0;
-  boundary.visit_plain_faces([&](int f) {
-    const WallFace<Dim>& face = boundary.faces[f];
-    if (boundary.walls[face.wall].is_plate) return;
-    const double distance = (closest_point(face, x) - x).norm();
-    if (distance > nearest) return;
-    nearest = distance;
-    height = face.height(x);
-  });
-  if (nearest <= gap || height < 0.0) return true;
-  return std::ranges::any_of(boundary.meshes, [&](const WallMesh& mesh) {
-    return boundary.height_above(mesh, x, std::numeric_limits<double>::infinity()) <= gap;
-  });
+  return wall_beside_plate(boundary, x).distance <= gap;
 }
 
 /// Whether an edge, looked at in steps of dx, is closed by walls all along.

@@ -218,10 +218,10 @@ Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, cons
   if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
   return {columns,
           [places, gauges](const ProbeContext<Dim>& context) {
-            const WaterColumns<Dim> columns(context);
+            const WaterColumns<Dim> water(context);
             std::vector<Row> rows;
             for (std::size_t k = 0; k < gauges.size(); ++k) {
-              const WaterColumn column = columns.on(gauges[k].now(context));
+              const WaterColumn column = water.on(gauges[k].now(context));
               Row row(places[k].begin(), places[k].begin() + (Dim - 1));
               row.insert(row.end(), {column.bed, column.connected, column.highest});
               rows.push_back(std::move(row));

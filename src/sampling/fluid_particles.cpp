@@ -15,6 +15,7 @@
 #include "base/random.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
+#include "geometry/largest_speed.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/polygon.h"
 #include "sampling/cut_cells.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <string>
 
 #include "checks/check.h"
@@ -414,6 +415,161 @@ TEST(Check, BlocksOnBothSidesOfAPlateMayBeNearEachOther) {
     spec.fluid.push_back(water);
   }
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, WhatIsFasterThanWaterCanBeIsRefused) {
+  CaseSpec spec = tank();
+  WallTable box = box_wall({0.3, 0.1}, {0.7, 0.5}, {}, FluidSide::outside);
+  box.name = "hull";
+  box.drive = {Drive::By::body, 0};
+  spec.walls.push_back(box);
+  spec.fluid = {box_fluid({0, 0}, {0.3, 0.4})};
+  BodyTable body;
+  body.name = "boat";
+  body.walls = {"hull"};
+  body.mass = 100.0;
+  body.centre = {0.5, 0.3};
+  body.inertia = {10.0};
+  body.velocity = {0.0, 200.0};
+  spec.bodies = {body};
+  expect_among(check(spec), Severity::error, {"body 'boat': its velocity is 200 m/s", "150 m/s"});
+  CaseSpec channel = open_channel();
+  channel.physics.gravity = {0.0, 0.0};
+  channel.inlets = {inlet({0, 0}, {0, 0.8}, 1e6)};
+  channel.walls = {polyline({{0, 0}, {2, 0}})};
+  expect_among(check(channel), Severity::error, {"inlet 'inlet1'", "1.25e+06 m/s", "150 m/s"});
+}
+
+TEST(Check, AMooringIsFastenedToItsBody) {
+  CaseSpec spec = tank();
+  WallTable box = box_wall({0.3, 0.3}, {0.7, 0.5}, {}, FluidSide::outside);
+  box.name = "hull";
+  box.drive = {Drive::By::body, 0};
+  spec.walls.push_back(box);
+  BodyTable body;
+  body.name = "boat";
+  body.walls = {"hull"};
+  body.mass = 100.0;
+  body.centre = {0.5, 0.4};
+  body.inertia = {10.0};
+  body.velocity = {0.0, 0.0};
+  spec.bodies = {body};
+  MooringTable line;
+  line.name = "chain";
+  line.body = "boat";
+  line.at = {0.3, 0.1};  // below the hull, as on a keel
+  line.anchor = {0.0, 0.0};
+  spec.moorings = {line};
+  const auto told = [&] {
+    const Findings findings = check(spec);
+    return std::ranges::any_of(findings, [](const Finding& f) { return f.message.starts_with("mooring 'chain'"); });
+  };
+  EXPECT_FALSE(told()) << listed(check(spec));
+  spec.moorings[0].at = {56.7, 0.4};
+  expect_among(check(spec), Severity::error, {"mooring 'chain' is fastened at (56.7, 0.4), 56 m from body 'boat'"});
+}
+
+TEST(Check, AProbeWhereNoWaterComesIsRefused) {
+  ProbeTable probe;
+  probe.name = "p";
+  const auto check_probe = [&](Coordinates at, ProbeType type) {
+    CaseSpec spec = tank();  // 1 m x 0.6 m
+    probe.type = type;
+    probe.at = probe.from = std::move(at);
+    probe.to = probe.from;
+    if (!probe.to.empty()) probe.to[1] += 0.5;
+    spec.probes = {probe};
+    return check(spec);
+  };
+  for (const ProbeType type : {ProbeType::pressure, ProbeType::velocity, ProbeType::discharge}) {
+    EXPECT_TRUE(check_probe({0.5, 0.2}, type).empty());
+    EXPECT_TRUE(check_probe({0.5, 0.9}, type).empty()) << "where it splashes";
+    expect_only(check_probe({500, 0.2}, type), Severity::error,
+                {"probe 'p' at (500, 0.2) is outside of the case", "between (0, 0) and (1, 0.6)"});
+    expect_only(check_probe({0.5, -1.5}, type), Severity::error, {"probe 'p' at (0.5, -1.5)"});
+  }
+  // A tank that is driven to where the probe is.
+  CaseSpec spec = tank();
+  spec.walls[0].displacement = {"10*t", 0.0};
+  spec.time.end = 1.0;
+  probe.type = ProbeType::pressure;
+  probe.at = {10.5, 0.2};
+  spec.probes = {probe};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, TimesAfterTheEndAreTold) {
+  CaseSpec spec = tank();
+  spec.time.end = 1.0;
+  ProbeTable probe;
+  probe.name = "surface";
+  probe.type = ProbeType::profile;
+  probe.from = {0.0, 0.0};
+  probe.to = {1.0, 0.0};
+  probe.times = {0.5, 1.0, 7.5, 3.0};
+  spec.probes = {probe};
+  expect_only(check(spec), Severity::warning, {"probe 'surface': 2 of its 4 times are after time.end = 1 s", "7.5 s"});
+}
+
+// A hundred walls that shake for a quarter of an hour: their way is 190 km.
+TEST(CheckMotion, WaysThatAreTooLongAreFollowedAsFarAsTimeAllows) {
+  CaseSpec spec = tank();
+  spec.time.end = 1000.0;
+  for (int k = 0; k < 100; ++k) {
+    WallTable wall = box_wall({-10.0 - 3.0 * k, 5.0}, {-9.0 - 3.0 * k, 6.0}, {}, FluidSide::outside);
+    wall.displacement = {fmt::format("0.01*sin(t*{})", k + 1), "0.3*sin(10*t)"};
+    spec.walls.push_back(wall);
+  }
+  const std::clock_t start = std::clock();
+  const std::vector<Finding> findings = check(spec);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10.0);
+  expect_only(findings, Severity::warning, {"the walls move so far that their paths were followed only to t = "});
+}
+
+TEST(Check, ABodyThatReachesThroughTheBedDoesNoHarm) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {3, 0}, {3, 1}}), box_wall({1.5, -0.02}, {2, 0.3}, {}, FluidSide::outside)};
+  spec.fluid = {box_fluid({0, 0}, {1, 0.5})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.fluid = {box_fluid({0, 0}, {1, 0.6})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  CaseSpec in_3d = empty_case(0.1, 3);
+  in_3d.walls = {box_wall({0, 0, 0}, {3, 2, 1}, {"+z"}),
+                 box_wall({1.5, 0.6, -0.04}, {2, 1.4, 0.5}, {}, FluidSide::outside)};
+  in_3d.fluid = {box_fluid({0, 0, 0}, {1, 2, 0.6})};
+  EXPECT_TRUE(check<3>(in_3d).empty()) << listed(check<3>(in_3d));
+}
+
+// A plate that ends above the bed of a tank, and a box above it, spacing 0.1 m.
+TEST(Check, AGapThatCountsAsClosedIsTold) {
+  const auto check_with_gap = [](double gap) {
+    CaseSpec spec = empty_case(0.1);
+    spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}})};
+    spec.fluid = {box_fluid({0, 0}, {2, 1})};
+    spec.walls.push_back(polyline({{2, gap}, {2, 1.4}}));
+    spec.walls.back().shape = WallShape::plate;
+    return check(spec);
+  };
+  EXPECT_TRUE(check_with_gap(0.0).empty()) << listed(check_with_gap(0.0));
+  expect_only(
+      check_with_gap(0.04), Severity::warning,
+      {"the gap of 0.04 m between wall 'wall2' and wall 'wall1' at (2, 0.04) counts as closed", "at most 0.01 m"});
+  EXPECT_TRUE(check_with_gap(0.06).empty()) << listed(check_with_gap(0.06));
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}}), box_wall({2, 0.03}, {3, 1}, {}, FluidSide::outside)};
+  spec.fluid = {box_fluid({0, 0}, {1.9, 0.8})};
+  expect_among(check(spec), Severity::warning, {"the gap of 0.03 m between", "counts as closed"});
+}
+
+TEST(Check, AGapUnderAPlateThatCountsAsClosedIsToldIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {2, 0.8, 1}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {1, 0.8, 0.6})};
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{1, 0, 0.04}, {1, 0.8, 0.04}, {1, 0.8, 0.9}, {1, 0, 0.9}};
+  spec.walls.push_back(plate);
+  expect_only(check<3>(spec), Severity::warning, {"the gap of 0.04 m between wall 'wall2' and wall 'wall1'"});
 }
 
 TEST(Check, AnOutletIn3DIsNoLeak) {

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+#include "motion/wall_motion.h"
+
+namespace tailwater {
+namespace {
+
+/// Times at which walls that move are looked at.
+constexpr int looks_at_walls = 100;
+
+/// The box around the water at the start and the walls, wherever they are during the run.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<Dim>& drawn,
+                                           const FluidParticles<Dim>& fluid) {
+  Eigen::AlignedBox<double, Dim> box = fluid.box();
+  for (const WallFace<Dim>& face : drawn.faces) box.extend(face.box());
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    for (const WallFace<Dim>& face : end.as_faces()) box.extend(face.box());
+  }
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (!drawn.walls[w].moves()) continue;
+    const int wall = static_cast<int>(w);
+    const WallPath<Dim> path(spec, spec.walls[w], wall_label(drawn, wall));
+    for (int k = 0; k <= looks_at_walls; ++k) {
+      const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
+      if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // told by check_paths
+      for (const WallFace<Dim>& face : drawn.faces) {
+        if (face.wall == wall) box.extend(moved(map, face).box());
+      }
+    }
+  }
+  return box;
+}
+
+/// Where water may be: a spacing around the box, and above it as high again, where it splashes. Bodies that float may
+/// take it as far on all sides.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> reach_of_water(const CaseSpec& spec, Eigen::AlignedBox<double, Dim> box) {
+  const double dx = spec.particles.spacing;
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  const double size = box.diagonal().norm();
+  Vec<Dim> below = Vec<Dim>::Constant(dx);
+  Vec<Dim> above = below;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const bool is_open = gravity.isZero(0.0) || !spec.bodies.empty();
+    if (is_open || gravity[axis] > 0.0) below[axis] += size;
+    if (is_open || gravity[axis] < 0.0) above[axis] += size;
+  }
+  box.min() -= below;
+  box.max() += above;
+  return box;
+}
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_of_probe(const ProbeTable& probe) {
+  const std::string owner = "probe '" + probe.name + "'";
+  Eigen::AlignedBox<double, Dim> box;
+  if (probe.type == ProbeType::pressure || probe.type == ProbeType::velocity) {
+    box.extend(to_vec<Dim>(probe.at, owner, "at"));
+  } else if (probe.type == ProbeType::discharge) {
+    box.extend(to_vec<Dim>(probe.from, owner, "from"));
+    box.extend(to_vec<Dim>(probe.to, owner, "to"));
+  }
+  return box;  // others look for a wall, and tell if there is none
+}
+
+/// Adds a warning about times that are never reached.
+void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findings) {
+  const auto is_late = [&](double time) { return time > spec.time.end; };
+  const auto late = std::ranges::count_if(probe.times, is_late);
+  if (late == 0) return;
+  findings.push_back(Finding::warning(
+      "probe '{}': {} of its {} times are after time.end = {:.6g} s, the last at {:.6g} s, and are not taken: end the "
+      "run later, or leave them out",
+      probe.name, late, probe.times.size(), spec.time.end, *std::ranges::max_element(probe.times)));
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  Findings findings;
+  const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
+  for (const ProbeTable& probe : spec.probes) {
+    check_times(spec, probe, findings);
+    const Eigen::AlignedBox<double, Dim> where = box_of_probe<Dim>(probe);
+    if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
+    findings.push_back(Finding::error(
+        "probe '{}' at {} is outside of the case, whose walls and water lie between {} and {}: no water comes there; "
+        "move it",
+        probe.name, place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())));
+  }
+  return findings;
+}
+
+template Findings check_probes(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
+template Findings check_probes(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <cmath>
+
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "geometry/largest_speed.h"
+#include "motion/channel_end.h"
+#include "motion/floating_body.h"
+
+namespace tailwater {
+namespace {
+
+/// Times at which an open end is looked at.
+constexpr int looks_at_end = 200;
+
+template <int Dim>
+void check_speed_of_end(const ChannelEnd<Dim>& end, double last, Findings& findings) {
+  for (int k = 0; k <= looks_at_end; ++k) {
+    const double time = last * k / looks_at_end;
+    const double speed = end.largest_speed(time);
+    if (std::abs(speed) <= largest_speed_of_case) continue;
+    findings.push_back(Finding::error(
+        "{}: at t = {:.6g} s water would enter at {:.4g} m/s, but it is treated as incompressible, which limits it to "
+        "{:g} m/s: check the units, or make the opening larger",
+        end.opening.label(), time, speed, largest_speed_of_case));
+    return;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_speeds(const CaseSpec& spec) {
+  Findings findings;
+  for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
+    const double speed = body.drawn.linear_velocity().norm();
+    if (speed <= largest_speed_of_case) continue;
+    findings.push_back(Finding::error(
+        "body '{}': its velocity is {:.4g} m/s, but water is treated as incompressible, which limits bodies to {:g} "
+        "m/s: correct it",
+        body.name, speed, largest_speed_of_case));
+  }
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, findings);
+  }
+  return findings;
+}
+
+template Findings check_speeds<2>(const CaseSpec&);
+template Findings check_speeds<3>(const CaseSpec&);
+
+}  // namespace tailwater
