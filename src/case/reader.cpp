@@ -199,7 +199,13 @@ void CaseReader::parameters(std::vector<Parameter>& parameters) {
 /// Reads the few keys that all others depend on: the dimension, the parameters, dx and g, in this order.
 void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, const toml::table& root) {
   TableReader general(context, find_table(root, "case"), "case");
-  general.read_ahead(spec.general, {"dimension"});
+  general.read_ahead(spec.general, {"format", "dimension"});
+  if (spec.general.format > case_format) {
+    // What else seems wrong may be right in that format.
+    general.wrong("format", *general.given("format"),
+                  fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
+    throw InputError(context.problems.text());
+  }
   context.dimension = general.is_wrong("dimension") ? 0 : spec.general.dimension;
 
   reader.parameters(spec.parameters);

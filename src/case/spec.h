@@ -70,7 +70,11 @@ struct Range {
 
 enum class Presence { optional, required };
 
+/// Of the format of case files that this program writes and reads; it reads all earlier ones.
+inline constexpr int case_format = 1;
+
 struct CaseTable {
+  int format = case_format;
   std::string title = "untitled";
   int dimension = 2;
 
@@ -78,6 +82,8 @@ struct CaseTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
+    v.integer("format", self.format, "", Range::at_least(1),
+              "Version of the format that the case is written in; a program refuses one that is newer than its own");
     v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
   }

@@ -91,9 +91,9 @@ class PathWalk {
     for (int k = 0; k < least_samples; ++k) {
       if (looks_ > most_looks) {
         findings_.push_back(
-            Finding::warning("the walls move so far that their paths were followed only to t = {:.6g} s: what they "
+            Finding::warning("{} moves so far, or others do, that paths were followed only to t = {:.6g} s: what walls "
                              "meet later is not known",
-                             end * k / least_samples));
+                             wall_label(drawn_, static_cast<int>(*moving_.begin())), end * k / least_samples));
         break;
       }
       const double to = end * (k + 1) / least_samples;

@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 from program import SMALL_CASE, ProgramTest
 
-COMMANDS = ("new", "check", "run", "resume", "info", "bench")
+COMMANDS = ("new", "check", "explain", "run", "resume", "info", "bench")
 # With a coarse spacing (m) for a short run.
 TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "channel": 0.1, "weir": 0.03, "broad-weir": 0.03, "ogee": 0.025, "sluice-gate": 0.02,
              "hydraulic-jump": 0.025, "wave-flume": 0.05, "solitary-wave": 0.05, "sloshing": 0.025,
@@ -251,6 +251,16 @@ class Check(ProgramTest):
     def test_set_overrides_the_file(self):
         result = self.call("check", "small.toml", "--set", "particles.spacing=0.05")
         self.assertIn("particles: 200 fluid", result.stdout)
+
+
+class Explain(ProgramTest):
+    def test_says_what_a_case_is(self):
+        text = self.call("explain", "small.toml").stdout
+        for part in ('"Small dam break" is a case in two dimensions.', "0.5 m^3 of water per metre of width (500 kg)",
+                     "Walls are 'tank' (polyline of 4 points).", "It ends at 0.1 s: about 6 steps"):
+            self.assertIn(part, text)
+        self.assertEqual(list(self.listing()), ["small.toml"])
+        self.assertIn("out of range", self.call("explain", "small.toml", "--set", "time.end=-1", expect=2).stderr)
 
 
 class Info(ProgramTest):

@@ -526,6 +526,11 @@ const std::vector<BadInput> table{
      required_keys + water + probe + "type = \"front\"\ndirection = [0, 0]\n",
      "9:13",
      {"length 0"}},
+    {"newer_format",
+     "[case]\nformat = 2\nnovelty = 1\n",
+     "2:10",
+     {"case.format = 2", "up to format 1", "a newer version"}},
+    {"format_of_no_version", required_keys + water + "[case]\nformat = 0\n", "7:10", {"case.format = 0", "at least 1"}},
     // Texts
     {"escape_sequence_in_a_title",
      required_keys + water + "[case]\ntitle = \"\\u001b[2Jcleared\"\n",

@@ -1,0 +1,182 @@
+#include "run/explain.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "case/driven_walls.h"
+#include "case/named_numbers.h"
+#include "run/progress.h"
+
+namespace tailwater {
+namespace {
+
+std::string plural(double count, std::string_view what) {
+  const bool is_of_es = what.ends_with("x");
+  return fmt::format("{:.0f} {}{}", count, what, count == 1.0 ? "" : is_of_es ? "es" : "s");
+}
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& parts) {
+  if (parts.empty()) return "";
+  const std::vector<std::string> first(parts.begin(), parts.end() - 1);
+  return first.empty() ? parts.back() : fmt::format("{} and {}", fmt::join(first, ", "), parts.back());
+}
+
+/// A number with its unit, or the expression.
+std::string told(const Varying& value, std::string_view unit) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.4g} {}", *number, unit);
+  return fmt::format("{} in {}", std::get<std::string>(value), unit);
+}
+
+std::string_view per_width(const CaseSpec& spec) { return spec.general.dimension == 2 ? " per metre of width" : ""; }
+
+std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
+  const double dx = spec.particles.spacing;
+  if (spec.fluid.empty()) return fmt::format("There is no water at the start; particles are {:.4g} m apart.", dx);
+  std::map<std::string_view, int> shapes;
+  for (const FluidTable& fluid : spec.fluid) ++shapes[name_of(fluid.shape)];
+  std::vector<std::string> kinds;
+  for (const auto& [shape, count] : shapes) kinds.push_back(plural(count, shape));
+  const double volume = estimate.particles.fluid * std::pow(dx, spec.general.dimension);
+  return fmt::format("At the start there are {:.4g} m^3 of water{} ({:.4g} kg), in {}: {} particles, {:.4g} m apart.",
+                     volume, per_width(spec), volume * spec.physics.density, listed(kinds),
+                     fmt::format("{:.0f}", estimate.particles.fluid), dx);
+}
+
+std::string about_physics(const CaseSpec& spec) {
+  const PhysicsTable& physics = spec.physics;
+  std::string text = fmt::format("Gravity is {:.4g} m/s^2, the density {:.4g} kg/m^3, the viscosity {:.3g} m^2/s",
+                                 gravity_magnitude(physics), physics.density, physics.viscosity);
+  if (physics.channel_width > 0.0) {
+    text += fmt::format("; side walls {:.4g} m apart slow the water down", physics.channel_width);
+  }
+  return text + ".";
+}
+
+std::string kind_of(const WallTable& wall) {
+  std::string text = fmt::format("'{}' ({}", wall.name, name_of(wall.shape));
+  if (!wall.points.empty()) text += fmt::format(" of {}", plural(static_cast<double>(wall.points.size()), "point"));
+  if (wall.slip == Slip::no_slip) text += wall.roughness > 0.0 || wall.manning > 0.0 ? ", rough" : ", smooth";
+  if (wall.slip == Slip::partial) text += ", with part of the friction";
+  const auto varies = [](const Varying& value) { return value != Varying(0.0); };
+  const bool moves = !wall.series.empty() || varies(wall.rotation) || std::ranges::any_of(wall.displacement, varies);
+  return text + (moves ? ", moves)" : ")");
+}
+
+std::string about_walls(const CaseSpec& spec) {
+  constexpr std::size_t most_named = 8;
+  std::vector<std::string> walls;
+  std::size_t more = 0;
+  for (const WallTable& wall : spec.walls) {
+    if (wall.drive.by == Drive::By::gate || wall.drive.by == Drive::By::wave_maker) continue;
+    if (walls.size() < most_named) {
+      walls.push_back(kind_of(wall));
+    } else {
+      ++more;
+    }
+  }
+  if (walls.empty()) return "There are no walls.";
+  if (more > 0) walls.push_back(fmt::format("{} more", more));
+  return fmt::format("Walls are {}.", listed(walls));
+}
+
+void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences) {
+  for (const GateTable& gate : spec.gates) {
+    const std::string how = gate.motion == GateMotion::speed ? fmt::format("at {:.4g} m/s", gate.speed)
+                            : gate.motion == GateMotion::acceleration
+                                ? fmt::format("with {:.4g} m/s^2", gate.acceleration)
+                            : gate.motion == GateMotion::file ? "as " + gate.file + " says"
+                                                              : "pulled by a falling weight";
+    sentences.push_back(fmt::format("Gate '{}' begins to move at {:.4g} s, {}.", gate.name, gate.start, how));
+  }
+  for (const WaveMakerTable& maker : spec.wave_makers) {
+    std::string waves = fmt::format("makes {} waves {:.4g} m high", name_of(maker.waves), maker.height);
+    if (maker.waves == WaveKind::none) waves = "only absorbs";
+    if (maker.waves == WaveKind::solitary) waves = fmt::format("makes a solitary wave {:.4g} m high", maker.height);
+    if (maker.period > 0.0 && maker.waves != WaveKind::none)
+      waves += fmt::format(" with a period of {:.4g} s", maker.period);
+    sentences.push_back(fmt::format("Wave maker '{}', a {} in water {:.4g} m deep, {}.", maker.name,
+                                    name_of(maker.type), maker.depth, waves));
+  }
+  for (const BodyTable& body : spec.bodies) {
+    const auto lines = std::ranges::count(spec.moorings, body.name, &MooringTable::body);
+    sentences.push_back(
+        fmt::format("Body '{}' of {:.4g} kg{} floats, free in {}{}.", body.name, body.mass, per_width(spec),
+                    body.free.empty() ? "no way" : listed(body.free),
+                    lines > 0 ? fmt::format(", on {}", plural(static_cast<double>(lines), "line")) : ""));
+  }
+}
+
+void add_open_ends(const CaseSpec& spec, std::vector<std::string>& sentences) {
+  const std::string_view discharge = spec.general.dimension == 2 ? "m^3/s per metre of width" : "m^3/s";
+  for (const InletTable& inlet : spec.inlets) {
+    std::vector<std::string> parts;
+    if (inlet.discharge) parts.push_back("a discharge of " + told(*inlet.discharge, discharge));
+    if (inlet.velocity) parts.push_back("a velocity of " + told(*inlet.velocity, "m/s"));
+    if (inlet.level) parts.push_back("a level of " + told(*inlet.level, "m"));
+    if (!inlet.file.empty()) parts.push_back("what the file " + inlet.file + " says");
+    const std::string source =
+        inlet.water_from.empty() ? "" : fmt::format(", from what left at '{}'", inlet.water_from);
+    sentences.push_back(fmt::format("Water comes in at '{}' with {}{}.", inlet.name, listed(parts), source));
+  }
+  for (const OutletTable& outlet : spec.outlets) {
+    const std::string how = outlet.level          ? "against a tailwater at " + told(*outlet.level, "m")
+                            : outlet.file.empty() ? "as if the channel went on"
+                                                  : "against the tailwater that the file " + outlet.file + " says";
+    sentences.push_back(fmt::format("It leaves at '{}', {}.", outlet.name, how));
+  }
+}
+
+std::string about_probes(const CaseSpec& spec) {
+  if (spec.probes.empty()) return "Nothing is measured: there are no probes.";
+  std::map<std::string_view, std::vector<std::string>> by_type;
+  for (const ProbeTable& probe : spec.probes) by_type[name_of(probe.type)].push_back("'" + probe.name + "'");
+  std::vector<std::string> parts;
+  for (const auto& [type, names] : by_type) {
+    constexpr std::size_t most_named = 4;
+    parts.push_back(names.size() > most_named ? fmt::format("{} ({} probes)", type, names.size())
+                                              : fmt::format("{} ({})", type, listed(names)));
+  }
+  return fmt::format("Measured are {}.", listed(parts));
+}
+
+std::string about_method(const CaseSpec& spec) {
+  const SchemeTable& scheme = spec.scheme;
+  return fmt::format("The scheme is {} ({}, {} integrator).", name_of(scheme.name), name_of(scheme.formulation),
+                     name_of(scheme.integrator));
+}
+
+std::string about_cost(const CaseSpec& spec, const RunEstimate& estimate) {
+  const double interval = spec.output.fields_interval > 0.0 ? spec.output.fields_interval : spec.time.end / 100.0;
+  const std::string growth =
+      estimate.largest_fluid > 1.1 * estimate.particles.fluid
+          ? fmt::format(" With what comes in there will be about {:.2g} particles of water.", estimate.largest_fluid)
+          : "";
+  return fmt::format(
+      "It ends at {:.4g} s: about {:.0f} steps, {} on this machine and {:.0f} MB; fields are written every {:.3g} s.{}",
+      spec.time.end, estimate.steps, readable_duration(estimate.seconds), estimate.memory / 1e6, interval, growth);
+}
+
+}  // namespace
+
+std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& estimate) {
+  std::vector<std::string> sentences{fmt::format("\"{}\" is a case in {} dimensions.", spec.general.title,
+                                                 spec.general.dimension == 2 ? "two" : "three"),
+                                     about_water(spec, estimate), about_walls(spec)};
+  add_driven_walls(spec, sentences);
+  add_open_ends(spec, sentences);
+  sentences.push_back(about_physics(spec));
+  sentences.push_back(about_probes(spec));
+  sentences.push_back(about_method(spec));
+  sentences.push_back(about_cost(spec, estimate));
+  return sentences;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,56 @@
+// What a case is said to be.
+#include "run/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "case/reader.h"
+
+namespace tailwater {
+namespace {
+
+std::vector<std::string> sentences_of(const std::string& more, double fluid = 200.0) {
+  const CaseSpec spec = read_case_text(
+      "[case]\ntitle = \"A basin\"\n[particles]\nspacing = 0.05\n[time]\nend = 10\n[[fluid]]\nmin = [0, 0]\nmax = [1, "
+      "0.5]\n"
+      "[[wall]]\nname = \"tank\"\npoints = [[0, 1], [0, 0], [1, 0], [1, 1]]\nslip = \"no-slip\"\nroughness = 0.001\n" +
+          more,
+      "case.toml");
+  return explain_case(
+      spec, {.particles = {fluid, 300.0}, .largest_fluid = fluid, .memory = 5e7, .steps = 640.0, .seconds = 3.0});
+}
+
+bool tells(const std::vector<std::string>& sentences, const std::string& text) {
+  return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(text) != std::string::npos; });
+}
+
+TEST(ExplainCase, TellsWaterWallsMeasurementsAndCost) {
+  const std::vector<std::string> sentences = sentences_of("[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [0.5, 0]\n");
+  EXPECT_EQ(sentences.front(), "\"A basin\" is a case in two dimensions.");
+  for (const char* text :
+       {"there are 0.5 m^3 of water per metre of width (500 kg), in 1 box: 200 particles, 0.05 m apart",
+        "Walls are 'tank' (polyline of 4 points, rough).", "Gravity is 9.81 m/s^2", "Measured are depth ('a').",
+        "The scheme is farzin2014 (robust, explicit",
+        "It ends at 10 s: about 640 steps, 3 s on this machine and 50 MB"}) {
+    EXPECT_TRUE(tells(sentences, text)) << text;
+  }
+}
+
+TEST(ExplainCase, TellsWhatMovesComesInAndLeaves) {
+  const std::vector<std::string> sentences = sentences_of(
+      "[[gate]]\nname = \"g\"\nfrom = [0.5, 0]\nto = [0.5, 0.8]\nspeed = 2\nstart = 1\n"
+      "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [0.7, 0.4]\nmax = [0.9, 0.6]\nfluid_side = \"outside\"\n"
+      "[[body]]\nname = \"b\"\nwalls = [\"hull\"]\nmass = 20\ncentre = [0.8, 0.5]\nfree = [\"y\"]\n"
+      "[[inlet]]\nname = \"in\"\nfrom = [0, 0]\nto = [0, 1]\ndischarge = \"0.1*t\"\n"
+      "[[outlet]]\nname = \"out\"\nfrom = [1, 0]\nto = [1, 1]\nlevel = 0.45\n");
+  for (const char* text :
+       {"Gate 'g' begins to move at 1 s, at 2 m/s.", "Body 'b' of 20 kg per metre of width floats, free in y.",
+        "Water comes in at 'in' with a discharge of 0.1*t in m^3/s per metre of width.",
+        "It leaves at 'out', against a tailwater at 0.45 m.", "Nothing is measured"}) {
+    EXPECT_TRUE(tells(sentences, text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
