@@ -80,7 +80,7 @@ void add_passes(Stage<Dim>& stage, const CaseSpec& spec, const std::string& scra
   add_assembly(stage);
   add_benchmark("output/fields", [&stage, output = spec.output, scratch_file] {
     const FluidFields<Dim> fields(stage.flow, stage.flow.state.particles, output.fields);
-    write_vtp(scratch_file, 0.0, encode_piece(fields.view(), output.compression), output.compression);
+    write_vtp(scratch_file, 0.0, encode_piece(fields.view()));
   });
 }
 

@@ -41,7 +41,7 @@ def main():
     rows = []
     for support in (2.4, 3.0, 4.0):
         cost, run = seconds_per_step(VORTEX, ["particles.spacing=0.005", "particles.jitter=0.1",
-                                              f"scheme.support={support}", *QUICK_SOLVE], 0.003, 0.02)
+                                              f"study.support={support}", *QUICK_SOLVE], 0.003, 0.02)
         pairs = math.pi * support**2 - 1
         rows.append((pairs, cost / run["particles"]["fluid"]))
         print(f"vortex, support {support} dx: {pairs:.1f} pairs, {1e6 * rows[-1][1]:.2f} us per particle and step")

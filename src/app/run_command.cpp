@@ -31,14 +31,15 @@ struct RunArguments {
   bool quiet = false;
 };
 
+std::string help_on_cases(const std::string& format) {
+  if (format == "markdown") return case_reference_markdown();
+  if (format == "json") return case_reference_json();
+  return format == "study" ? study_reference_markdown() : case_help();
+}
+
 ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
-    if (ranks.is_root()) {
-      const std::string& format = arguments.help_case;
-      fmt::print("{}", format == "markdown" ? case_reference_markdown()
-                       : format == "json"   ? case_reference_json()
-                                            : case_help());
-    }
+    if (ranks.is_root()) fmt::print("{}", help_on_cases(arguments.help_case));
     return ExitCode::done;
   }
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
@@ -95,10 +96,12 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
   add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
-  command->add_option("--help-case", arguments->help_case, "Explain every key of a case file (text, markdown or json)")
+  command
+      ->add_option("--help-case", arguments->help_case,
+                   "Explain every key of a case file (text, markdown or json), or those of studies (study)")
       ->expected(0, 1)
       ->default_str("text")
-      ->check(CLI::IsMember({"text", "markdown", "json"}))
+      ->check(CLI::IsMember({"text", "markdown", "json", "study"}))
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"

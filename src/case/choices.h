@@ -23,23 +23,12 @@ enum class SchemeName { farzin2014, farmani2020 };
 enum class Formulation { robust, published };
 enum class Integrator { explicit_projection, implicit_projection };
 
-enum class KernelName { wendland_c2, cubic_spline, farzin };
-enum class LaplacianKind { morris, consistent, shao_lo };
-enum class GradientKind { conservative, consistent, density_weighted };
-enum class DivergenceKind { standard, consistent };
 enum class PairVectors { kernel, corrected, corrected_to_surface };
-enum class SourceKind { velocity_divergence, density, mixed };
-enum class SurfaceTreatment { air, cone, farzin, density };
-enum class WallTreatment { dummies, pressure_rows, row_and_dummies };
-enum class ShiftingKind { none, lind, farzin };
 enum class DivergenceFree { start, midway };
-enum class ImplicitForm { residual, repeated };
 enum class Displacement { new_velocity, mean_velocity };
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
 enum class PreconditionerName { automatic, ssor, cell_multigrid, ilu, boomeramg, gamg, jacobi };
-
-enum class DecompositionMethod { rcb, hsfc };
 
 enum class ProbeType {
   depth,
@@ -117,48 +106,12 @@ struct Choices<Integrator> {
   static constexpr std::array<std::string_view, 2> names{"explicit", "implicit"};
 };
 template <>
-struct Choices<KernelName> {
-  static constexpr std::array<std::string_view, 3> names{"wendland-c2", "cubic-spline", "farzin"};
-};
-template <>
-struct Choices<LaplacianKind> {
-  static constexpr std::array<std::string_view, 3> names{"morris", "consistent", "shao-lo"};
-};
-template <>
-struct Choices<GradientKind> {
-  static constexpr std::array<std::string_view, 3> names{"conservative", "consistent", "density-weighted"};
-};
-template <>
-struct Choices<DivergenceKind> {
-  static constexpr std::array<std::string_view, 2> names{"standard", "consistent"};
-};
-template <>
 struct Choices<PairVectors> {
   static constexpr std::array<std::string_view, 3> names{"kernel", "corrected", "corrected-to-surface"};
 };
 template <>
-struct Choices<SourceKind> {
-  static constexpr std::array<std::string_view, 3> names{"velocity-divergence", "density", "mixed"};
-};
-template <>
-struct Choices<SurfaceTreatment> {
-  static constexpr std::array<std::string_view, 4> names{"air", "cone", "farzin", "density"};
-};
-template <>
-struct Choices<WallTreatment> {
-  static constexpr std::array<std::string_view, 3> names{"dummies", "pressure-rows", "row-and-dummies"};
-};
-template <>
-struct Choices<ShiftingKind> {
-  static constexpr std::array<std::string_view, 3> names{"none", "lind", "farzin"};
-};
-template <>
 struct Choices<DivergenceFree> {
   static constexpr std::array<std::string_view, 2> names{"start", "midway"};
-};
-template <>
-struct Choices<ImplicitForm> {
-  static constexpr std::array<std::string_view, 2> names{"residual", "repeated"};
 };
 template <>
 struct Choices<Displacement> {
@@ -172,10 +125,6 @@ template <>
 struct Choices<PreconditionerName> {
   static constexpr std::array<std::string_view, 7> names{"auto",      "ssor", "cell-multigrid", "ilu",
                                                          "boomeramg", "gamg", "jacobi"};
-};
-template <>
-struct Choices<DecompositionMethod> {
-  static constexpr std::array<std::string_view, 2> names{"rcb", "hsfc"};
 };
 template <>
 struct Choices<ProbeType> {

@@ -1,5 +1,7 @@
 #include "case/driven_walls.h"
 
+#include "case/formulation.h"
+
 #include <algorithm>
 
 namespace tailwater {
@@ -58,7 +60,7 @@ WallTable plate_at(const Coordinates& from, const Coordinates& to, AxisDirection
 void append_driven_walls(CaseSpec& spec) {
   for (std::size_t k = 0; k < spec.gates.size(); ++k) {
     const GateTable& gate = spec.gates[k];
-    const bool is_thin = gate.thickness == 0.0 && spec.scheme.walls == WallTreatment::dummies;
+    const bool is_thin = gate.thickness == 0.0 && !traits_of(spec).walls.on_wall;
     const double thickness = gate.thickness > 0.0 ? gate.thickness : default_thickness * spec.particles.spacing;
     WallTable wall =
         is_thin ? plate_at(gate.from, gate.to, gate.side) : box_behind(gate.from, gate.to, gate.side, thickness);

@@ -3,65 +3,35 @@
 namespace tailwater {
 namespace {
 
-void set_published_farzin(SchemeTable& scheme) {
-  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
-  scheme.kernel = KernelName::farzin;
-  scheme.laplacian = LaplacianKind::consistent;
-  scheme.gradient = GradientKind::consistent;
-  scheme.divergence = DivergenceKind::consistent;
-  scheme.pair_vectors = PairVectors::kernel;
-  scheme.source = SourceKind::velocity_divergence;
-  scheme.surface = SurfaceTreatment::cone;
-  scheme.walls = WallTreatment::pressure_rows;
-  scheme.divergence_free = DivergenceFree::start;
-  scheme.displacement = Displacement::mean_velocity;
-  scheme.courant = is_explicit ? 0.05 : 0.12;
-  scheme.artificial_viscosity = 0.20;
-  scheme.viscosity_floor = 0.0;
-  scheme.noise_viscosity = 0.0;
-  scheme.smagorinsky = 0.10;
-  scheme.turbulence = Turbulence::none;
-  scheme.shifting = ShiftingKind::farzin;
-  scheme.shifting_strength = is_explicit ? 0.10 : 0.08;
-  scheme.shifting_cap = 0.05;
-  scheme.implicit_form = ImplicitForm::repeated;
-  scheme.max_passes = 30;
-  scheme.relax_pressure = 0.4;
-  scheme.relax_velocity = 0.3;
-  scheme.relax_position = 0.4;
-}
+constexpr std::string_view not_exact =
+    "its viscous and pressure forces on the water have no equal and opposite force on the wall";
+constexpr std::string_view not_one_projection =
+    "the force on a body must be the reaction of that on the water, and move both by their new velocities";
 
-void set_robust_farmani(SchemeTable& scheme) {
-  scheme.displacement = Displacement::mean_velocity;
-  scheme.courant = 0.25;  // its loss of energy grows with the step
-}
-
-void set_published_farmani(SchemeTable& scheme) {
-  scheme.kernel = KernelName::cubic_spline;
-  scheme.support = 2.4;
-  scheme.laplacian = LaplacianKind::shao_lo;
-  scheme.gradient = GradientKind::density_weighted;
-  scheme.pair_vectors = PairVectors::kernel;
-  scheme.source = SourceKind::density;
-  scheme.surface = SurfaceTreatment::density;
-  scheme.walls = WallTreatment::row_and_dummies;
-  scheme.displacement = Displacement::mean_velocity;
-  scheme.courant = 0.1;
-  scheme.noise_viscosity = 0.0;
-  scheme.turbulence = Turbulence::none;
-  scheme.shifting = ShiftingKind::none;
-}
+bool is_published(const SchemeTable& scheme) { return scheme.formulation == Formulation::published; }
 
 }  // namespace
 
+FormulationTraits traits_of(const CaseSpec& spec) {
+  const bool is_two_step = spec.scheme.name == SchemeName::farmani2020;
+  if (!is_published(spec.scheme)) {
+    const bool moves_with_mean = is_two_step || spec.study.displacement == Displacement::mean_velocity;
+    return {spec.study.support, {.on_wall = false, .behind = true}, "", moves_with_mean ? not_one_projection : ""};
+  }
+  if (is_two_step) return {2.4, {.on_wall = true, .behind = true}, "", not_one_projection};
+  return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection};
+}
+
 void apply_formulation(SchemeTable& scheme) {
-  const bool is_robust = scheme.formulation == Formulation::robust;
+  const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   switch (scheme.name) {
     case SchemeName::farzin2014:
-      if (!is_robust) set_published_farzin(scheme);
+      if (is_published(scheme)) scheme.courant = is_explicit ? 0.05 : 0.12;
       return;
     case SchemeName::farmani2020:
-      return is_robust ? set_robust_farmani(scheme) : set_published_farmani(scheme);
+      // That of the robust one keeps its loss of energy small, which grows with the step.
+      scheme.courant = is_published(scheme) ? 0.1 : 0.25;
+      return;
   }
 }
 

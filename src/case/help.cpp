@@ -12,49 +12,32 @@ namespace tailwater {
 
 namespace {
 
-/// Defaults of [scheme].
-std::vector<KeyInfo> defaults(SchemeName name, Formulation formulation,
-                              Integrator integrator = Integrator::explicit_projection) {
-  SchemeTable scheme{.name = name, .formulation = formulation, .integrator = integrator};
-  apply_formulation(scheme);
-  return keys_of(scheme);
+constexpr std::string_view study_table = "study";
+
+/// The default of the Courant number with each formulation.
+std::string courant_text() {
+  const auto text = [](SchemeName name, Formulation formulation,
+                       Integrator integrator = Integrator::explicit_projection) {
+    SchemeTable scheme{.name = name, .formulation = formulation, .integrator = integrator};
+    apply_formulation(scheme);
+    return toml_float(scheme.courant);
+  };
+  constexpr auto robust = Formulation::robust;
+  constexpr auto published = Formulation::published;
+  return fmt::format("{} (published: {}, implicit {}; farmani2020: {}, published {})",
+                     text(SchemeName::farzin2014, robust), text(SchemeName::farzin2014, published),
+                     text(SchemeName::farzin2014, published, Integrator::implicit_projection),
+                     text(SchemeName::farmani2020, robust), text(SchemeName::farmani2020, published));
 }
 
-/// The default of `row`, which is number `index` of its table.
-std::string default_text(const TableInfo& table, std::size_t index) {
-  const KeyInfo& row = table.keys[index];
+std::string default_text(const TableInfo& table, const KeyInfo& row) {
   if (row.presence == Presence::required) {
     return "required";
   }
   if (row.value == "[]" || row.value == "\"\"") {
     return "";
   }
-  if (table.name != "scheme" || row.key == "name" || row.key == "formulation" || row.key == "integrator") {
-    return row.value;
-  }
-  constexpr auto farzin = SchemeName::farzin2014;
-  constexpr auto farmani = SchemeName::farmani2020;
-  static const auto published_explicit = defaults(farzin, Formulation::published);
-  static const auto published_implicit = defaults(farzin, Formulation::published, Integrator::implicit_projection);
-  static const auto two_step_robust = defaults(farmani, Formulation::robust);
-  static const auto two_step_published = defaults(farmani, Formulation::published);
-
-  /// The values with the first and the second choice, each shown only where it differs from what is known.
-  const auto pair = [](const std::string& first, std::string_view second_name, const std::string& second,
-                       const std::string& known) {
-    std::string text = first == known ? "" : first;
-    if (second != first) text += fmt::format("{}{}{}", text.empty() ? "" : ", ", second_name, second);
-    return text;
-  };
-  std::vector<std::string> others;
-  const auto add = [&](std::string_view heading, const std::string& text) {
-    if (!text.empty()) others.push_back(fmt::format("{}{}", heading, text));
-  };
-  add("published: ", pair(published_explicit[index].value, "implicit ", published_implicit[index].value, row.value));
-  if (key_use_text("scheme", row.key).find("farzin2014") == std::string::npos) {
-    add("farmani2020: ", pair(two_step_robust[index].value, "published ", two_step_published[index].value, row.value));
-  }
-  return others.empty() ? row.value : fmt::format("{} ({})", row.value, fmt::join(others, "; "));
+  return table.name == "scheme" && row.key == "courant" ? courant_text() : row.value;
 }
 
 std::string type_text(const KeyInfo& row) {
@@ -104,6 +87,19 @@ std::string wrapped(const std::string& text) {
   return result;
 }
 
+/// A table of keys as a table of the page.
+std::string markdown_of(const TableInfo& table) {
+  std::string text = fmt::format("\n### {}\n\n{}.\n\n", table.heading(), table.doc);
+  text += "| key | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const KeyInfo& row : table.keys) {
+    if (row.presence == Presence::written) continue;
+    const std::string use = key_use_text(table.name, row.key);
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.key, type_text(row), default_text(table, row),
+                        row.unit, row.allowed, cell(row.doc), use.empty() ? "" : fmt::format(". *Goes with* {}", use));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string case_help() {
@@ -114,9 +110,9 @@ std::string case_help() {
       functions_text() + "\n";
   for (const TableInfo& table : case_tables()) {
     text += fmt::format("\n{}  {}\n", table.heading(), table.doc);
-    for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const KeyInfo& row = table.keys[i];
-      const std::string fallback = default_text(table, i);
+    for (const KeyInfo& row : table.keys) {
+      if (row.presence == Presence::written) continue;
+      const std::string fallback = default_text(table, row);
       const std::string use = key_use_text(table.name, row.key);
       text += fmt::format("  {} ({}{}{})\n", row.key, row.type, row.unit.empty() ? "" : fmt::format(", {}", row.unit),
                           row.presence == Presence::required ? ", required"
@@ -165,19 +161,24 @@ std::string case_reference_markdown() {
       "## Tables\n\n"
       "`[name]` appears once, `[[name]]` any number of times. *Goes with* names the shapes or types that a key belongs "
       "to; with any other the key is an error.\n\n"
-      "`scheme.formulation = \"published\"` changes the defaults marked *published*. It detects the free surface by "
-      "an empty cone; `surface = \"farzin\"` selects the paper's own detection (F35). `scheme.name = \"farmani2020\"` "
-      "changes those marked *farmani2020*.\n");
+      "The case that a run writes beside its results also has the `checksum` of each file that it names, and is "
+      "refused with another file.\n");
   for (const TableInfo& table : case_tables()) {
-    text += fmt::format("\n### {}\n\n{}.\n\n", table.heading(), table.doc);
-    text += "| key | type | default | unit | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
-    for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const KeyInfo& row = table.keys[i];
-      const std::string use = key_use_text(table.name, row.key);
-      text +=
-          fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.key, type_text(row), default_text(table, i),
-                      row.unit, row.allowed, cell(row.doc), use.empty() ? "" : fmt::format(". *Goes with* {}", use));
-    }
+    if (table.name != study_table) text += markdown_of(table);
+  }
+  return text;
+}
+
+std::string study_reference_markdown() {
+  std::string text = wrapped(
+      "# Keys for studies\n\n"
+      "Made by `tailwater run --help-case=study > docs/reference/study-keys.md`; change `src/case/spec.h`, not this "
+      "page.\n\n"
+      "The keys of [study] change parts of the robust formulations, so that a study can show what each is worth "
+      "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
+      "The published formulations have none of them.\n");
+  for (const TableInfo& table : case_tables()) {
+    if (table.name == study_table) text += markdown_of(table);
   }
   return text;
 }

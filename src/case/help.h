@@ -18,4 +18,7 @@ std::string case_reference_markdown();
 /// its table.
 std::string case_reference_json();
 
+/// For `tailwater run --help-case=study`: the keys of [study] alone, docs/reference/study-keys.md.
+std::string study_reference_markdown();
+
 }  // namespace tailwater

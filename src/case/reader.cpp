@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "case/driven_walls.h"
 #include "case/expression.h"
+#include "case/formulation.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
 #include "case/overrides.h"
@@ -362,17 +363,23 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
       }
     }
   }
-  const SchemeTable& scheme = spec.scheme;
-  const bool is_robust =
-      scheme.name == SchemeName::farzin2014 && scheme.walls == WallTreatment::dummies &&
-      scheme.gradient == GradientKind::conservative && scheme.laplacian == LaplacianKind::morris &&
-      scheme.displacement == Displacement::new_velocity &&
-      (scheme.integrator == Integrator::explicit_projection || scheme.implicit_form == ImplicitForm::residual);
-  if (!spec.bodies.empty() && !is_robust) {
-    problems.add(&root["body"][0].node()->source(),
-                 "body[0]: bodies float only with the operators and walls of scheme.formulation = \"robust\" and "
-                 "scheme.name = \"farzin2014\": the force on a body must be the reaction of that on the water; "
-                 "choose these, or give the walls a motion");
+  const std::string_view why_not = traits_of(spec).no_floating;
+  if (!spec.bodies.empty() && !why_not.empty()) {
+    problems.add(
+        &root["body"][0].node()->source(),
+        fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": {}; "
+                    "choose these, or give the walls a motion",
+                    name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
+  }
+}
+
+/// Studies change parts of the robust formulation; the published ones have none of these.
+void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const toml::table* study = root["study"].as_table();
+  if (study == nullptr || spec.scheme.formulation == Formulation::robust) return;
+  for (const auto& [key, node] : *study) {
+    problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.formulation = \"{}\"; remove it",
+                                             key.str(), value_text(node), name_of(spec.scheme.formulation)));
   }
 }
 
@@ -446,6 +453,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
     check_ends_of_series(spec, root, context.problems);
     check_names_of_driven_walls(spec, root, context.problems);
     check_bodies(spec, root, context.problems);
+    check_study(spec, root, context.problems);
     check_names(root, "mooring", spec.moorings, "body", &MooringTable::body, "body", spec.bodies, false,
                 context.problems);
     check_names(root, "inlet", spec.inlets, "water_from", &InletTable::water_from, "outlet", spec.outlets, true,

@@ -68,7 +68,9 @@ struct Range {
   }
 };
 
-enum class Presence { optional, required };
+/// Whether a key must be given. One that is `written` is given only by a run, in the case that it writes beside its
+/// results.
+enum class Presence { optional, required, written };
 
 /// Of the format of case files that this program writes and reads; it reads all earlier ones.
 inline constexpr int case_format = 1;
@@ -159,7 +161,8 @@ struct PlacedFile {
   static void describe(Self& self, Visitor& v) {
     v.text("file", self.file, "STL, OBJ or PLY file of a mesh, relative to the case file");
     v.text("checksum", self.checksum,
-           "CRC-32 of the mesh file, which a run writes into its case; a file with another one is refused");
+           "CRC-32 of the mesh file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
     v.number("scale", self.scale, "", Range::above(0.0), "Length of the mesh file's unit in m: 0.001 for millimetres");
     v.coordinates("rotate", self.rotate, "deg",
                   "Angles by which the mesh is turned after scaling: about the x, the y and the z axis, in this order, "
@@ -271,7 +274,8 @@ struct WallTable : PlacedFile {
            "Instead of displacement and rotation: CSV file of them over time, relative to the case file, with a line "
            "that names the columns, as in \"t [s], x [mm], angle [deg]\" (docs/theory/moving_walls.md)");
     v.text("motion_checksum", self.motion_checksum,
-           "CRC-32 of the motion's file, which a run writes into its case; a file with another one is refused");
+           "CRC-32 of the motion's file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
     v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
     v.coordinates("axis", self.axis, "", "Direction of the axis through the pivot about which a box turns (3D)");
   }
@@ -311,7 +315,7 @@ struct GateTable {
                   Presence::required);
     v.choice("side", self.side, "Side of that face on which the gate's thickness lies: away from the deep water");
     v.number("thickness", self.thickness, "m", Range::at_least(0.0),
-             "Thickness of the gate; 0: none, as a plate (4 dx if scheme.walls is not \"dummies\")");
+             "Thickness of the gate; 0: none, as a plate (4 dx with a published formulation)");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
     v.choice("motion", self.motion,
              "How it moves: at a constant speed, with a constant acceleration, pulled over a pulley by a weight that "
@@ -325,7 +329,8 @@ struct GateTable {
            "CSV file of the gate's way over the time since `start`, relative to the case file, with a line that names "
            "the columns, as in \"t [s], way [mm]\"");
     v.text("checksum", self.checksum,
-           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
     v.coordinates("direction", self.direction, "", "Direction in which the gate moves (default: up, against gravity)");
     v.number("travel", self.travel, "m", Range::at_least(0.0),
              "Way after which the gate stops; 0: its own length in the direction of its motion");
@@ -523,7 +528,8 @@ struct InletTable {
            "Instead of discharge, velocity and level, or of some of them: CSV file of them over time, relative to the "
            "case file, with a line that names the columns, as in \"t [s], discharge [l/s]\"; in between it is smooth");
     v.text("checksum", self.checksum,
-           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
     v.text("water_from", self.water_from,
            "Name of the outlet whose water circulates: what has left there enters here, and nothing else (default: new "
            "water enters)");
@@ -558,7 +564,8 @@ struct OutletTable {
            "Instead of level: CSV file of it over time, relative to the case file, with a line that names the columns, "
            "as in \"t [s], level [m]\"; in between it is smooth");
     v.text("checksum", self.checksum,
-           "CRC-32 of the file, which a run writes into its case; a file with another one is refused");
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
   }
 };
 
@@ -573,49 +580,16 @@ struct TimeTable {
   }
 };
 
-/// The scheme and every choice inside it. `name` and `formulation` set the defaults of the keys marked (formulation);
-/// the initialisers are those of farzin2014, robust.
+/// The scheme. `name`, `formulation` and `integrator` decide the default of `courant` (formulation.h); the initialisers
+/// are those of farzin2014, robust.
 struct SchemeTable {
   SchemeName name = SchemeName::farzin2014;
   Formulation formulation = Formulation::robust;
   Integrator integrator = Integrator::explicit_projection;
-
-  KernelName kernel = KernelName::wendland_c2;
-  double support = 3.0;
-  LaplacianKind laplacian = LaplacianKind::morris;
-  GradientKind gradient = GradientKind::conservative;
-  DivergenceKind divergence = DivergenceKind::standard;
   PairVectors pair_vectors = PairVectors::corrected;
-  SourceKind source = SourceKind::mixed;
-  SurfaceTreatment surface = SurfaceTreatment::air;
-  double surface_density = 0.99;
-  WallTreatment walls = WallTreatment::dummies;
-
-  DivergenceFree divergence_free = DivergenceFree::midway;
-  Displacement displacement = Displacement::new_velocity;
-
   double courant = 0.55;
-  double length = 0.0;
-
-  double artificial_viscosity = 0.0;
-  double viscosity_floor = 0.0;
   double noise_viscosity = 0.2;
-  double smagorinsky = 0.0;
   Turbulence turbulence = Turbulence::spalart_allmaras;
-
-  ShiftingKind shifting = ShiftingKind::lind;
-  double shifting_strength = 3.0;
-  double shifting_cap = 0.2;
-
-  double density_relaxation = 0.05;
-  double energy_slack = 1e-4;
-
-  ImplicitForm implicit_form = ImplicitForm::residual;
-  int max_passes = 3;
-  double pass_tolerance = 1e-3;
-  double relax_pressure = 1.0;
-  double relax_velocity = 1.0;
-  double relax_position = 1.0;
 
   bool operator==(const SchemeTable&) const = default;
 
@@ -629,67 +603,45 @@ struct SchemeTable {
              "robust: recommended (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
     v.choice("integrator", self.integrator,
              "explicit: derivatives at the old positions (F14-F17); implicit: at the new positions (F20-F27)");
-    v.choice("kernel", self.kernel, "Smoothing kernel (formulation)");
-    v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support (formulation)");
-    v.choice(
-        "laplacian", self.laplacian,
-        "Laplacian of the pressure equation and of the viscous term: two-point (F11), consistent (F12), or two-point "
-        "with each particle's density (B8) (formulation)");
-    v.choice(
-        "gradient", self.gradient,
-        "Pressure gradient: symmetric, consistent (F9), or symmetric with each particle's density (B7) (formulation)");
-    v.choice("divergence", self.divergence,
-             "Velocity divergence in the source of the pressure equation: standard SPH, or consistent (formulation)");
     v.choice("pair_vectors", self.pair_vectors,
-             "Vectors of the conservative gradient and the standard divergence: the kernel's gradient, or corrected to "
-             "first order and still antisymmetric, inside the water or up to its surface (waves then keep their "
-             "height, and jittered water takes longer to come to rest) (formulation)");
-    v.choice("source", self.source,
-             "Source of the pressure equation: the velocity's divergence (F15), the density error (B17), or the "
-             "divergence and a fraction of the density error (formulation)");
-    v.choice("surface", self.surface,
-             "Free surface in the pressure equation: missing neighbours count as air at p = 0, or p = 0 on particles "
-             "detected "
-             "by an empty cone, by (F35), or by a low density (B21) (formulation)");
-    v.number("surface_density", self.surface_density, "", Range::between(0.5, 1.0),
-             "beta of (B21): a particle with less than this fraction of the full density is on the surface");
-    v.choice(
-        "walls", self.walls,
-        "Walls in the pressure equation: dummy particles behind the wall, as deep as the support; one layer of wall "
-        "particles with the wall's pressure condition; or one layer that solves the pressure equation, with "
-        "dummies behind it (formulation)");
-    v.choice(
-        "divergence_free", self.divergence_free,
-        "Where the explicit projection makes the velocity divergence-free: at the start of the step (F18), or midway "
-        "along the displacement, which is second order in time (formulation)");
-    v.choice(
-        "displacement", self.displacement,
-        "Velocity that moves the particles: the new one, or the mean of the old and the new (F17, F25) (formulation)");
-    v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0),
-             "alpha of the time-step rule (F40, F41, B20) (formulation)");
-    v.number("length", self.length, "m", Range::at_least(0.0),
-             "Length scale L of the time-step rule (F41); 0: the initial height of the fluid along gravity");
-    v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
-             "c_a of nu_a = c_a |u| dx (F3) (formulation)");
-    v.number("viscosity_floor", self.viscosity_floor, "", Range::at_least(0.0),
-             "Lower bound of the numerical viscosity, as a multiple of dx sqrt(g L); (F3) alone vanishes at rest "
-             "(formulation)");
+             "Vectors of the pressure gradient and the divergence: the kernel's gradient, or corrected to first order "
+             "and still antisymmetric, inside the water or up to its surface (waves then keep their height, and "
+             "jittered water takes longer to come to rest)");
+    v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0), "alpha of the time-step rule (F40, F41, B20)");
     v.number(
         "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
         "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
-        "a multiple of dx times the speed of the time-step rule (formulation)");
-    v.number("smagorinsky", self.smagorinsky, "", Range::at_least(0.0),
-             "c_s of the sub-particle stress (F4-F6); 0: no stress (formulation)");
+        "a multiple of dx times the speed of the time-step rule");
     v.choice("turbulence", self.turbulence,
              "Mixing of momentum in the boundary layers of walls with friction: by the viscosity alone, or by the eddy "
-             "viscosity of Spalart & Allmaras (1992) as well (formulation)");
-    v.choice(
-        "shifting", self.shifting,
-        "Particle shifting: none, along the concentration gradient (lind), or as in (F28-F32) (farzin) (formulation)");
-    v.number("shifting_strength", self.shifting_strength, "", Range::at_least(0.0),
-             "Factor of the shifting displacement; with shifting = \"farzin\" eps of (F30) (formulation)");
-    v.number("shifting_cap", self.shifting_cap, "dx", Range::between(0.0, 0.3),
-             "Largest shift in one step (formulation)");
+             "viscosity of Spalart & Allmaras (1992) as well");
+  }
+};
+
+/// What a study changes in the robust formulation to see what a part of it is worth. No case needs these keys, and the
+/// reference does not list them.
+struct StudyTable {
+  double support = 3.0;
+  double length = 0.0;
+  double artificial_viscosity = 0.0;
+  double shifting = 3.0;
+  double density_relaxation = 0.05;
+  double energy_slack = 1e-4;
+  DivergenceFree divergence_free = DivergenceFree::midway;
+  Displacement displacement = Displacement::new_velocity;
+
+  bool operator==(const StudyTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.number("support", self.support, "dx", Range::between(2.0, 5.0), "Radius of the kernel's support");
+    v.number("length", self.length, "m", Range::at_least(0.0),
+             "Length scale L of the time-step rule (F41); 0: the height of the fluid along gravity, at the start or at "
+             "open ends");
+    v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
+             "c_a of the papers' artificial viscosity, nu_a = c_a |u| dx (F3)");
+    v.number("shifting", self.shifting, "", Range::at_least(0.0),
+             "Strength of the particle shifting along the concentration gradient; 0: none");
     v.number(
         "density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
         "Fraction of the density error that the source of the pressure equation corrects while water at the speed of "
@@ -697,21 +649,13 @@ struct SchemeTable {
     v.number(
         "energy_slack", self.energy_slack, "", Range::above(0.0),
         "The density source expands water less and less as the energy rises by more than the walls' work, and not at "
-        "all when the rise reaches this fraction of m g L/2 plus the kinetic energy (formulation)");
-    v.choice(
-        "implicit_form", self.implicit_form,
-        "Implicit integrator: the explicit step, then a second projection of the velocity at the new positions; or "
-        "the whole step repeated (F20-F27) (formulation)");
-    v.integer("max_passes", self.max_passes, "", Range::between(1, 100),
-              "Largest number of passes of the implicit iteration (formulation)");
-    v.number("pass_tolerance", self.pass_tolerance, "", Range::above(0.0),
-             "The implicit iteration ends when the pressure changes by less than this fraction of its rms value");
-    v.number("relax_pressure", self.relax_pressure, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of p in the implicit iteration (formulation)");
-    v.number("relax_velocity", self.relax_velocity, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of u in the implicit iteration (formulation)");
-    v.number("relax_position", self.relax_position, "", Range::above_up_to(0.0, 1.0),
-             "Under-relaxation of r in the implicit iteration (formulation)");
+        "all when the rise reaches this fraction of m g L/2 plus the kinetic energy");
+    v.choice("divergence_free", self.divergence_free,
+             "Where the projection makes the velocity divergence-free: midway along the displacement, which is second "
+             "order in time, or at the start of the step as published (F18)");
+    v.choice("displacement", self.displacement,
+             "Velocity that moves the particles of farzin2014: the new one, or as published the mean of the old and "
+             "the new (F17); farmani2020 always takes the mean (B19)");
   }
 };
 
@@ -737,16 +681,12 @@ struct PressureSolverTable {
 };
 
 struct ParallelTable {
-  DecompositionMethod decomposition = DecompositionMethod::rcb;
   double imbalance = 0.03;
 
   bool operator==(const ParallelTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.choice("decomposition", self.decomposition,
-             "How particles are distributed among ranks: recursive coordinate bisection (rcb) or Hilbert space-filling "
-             "curve (hsfc) (docs/scaling.md)");
     v.number("imbalance", self.imbalance, "", Range::between(0.0, 10.0),
              "Particles are redistributed when the busiest rank has more than 1 plus this times the mean work");
   }
@@ -754,7 +694,6 @@ struct ParallelTable {
 
 /// When a run warns of its own results, or gives up.
 struct LimitsTable {
-  double smallest_step = 1e-3;
   double energy_warning = 1e-3;
   double energy_stop = 0.0;
   double volume_warning = 0.05;
@@ -764,8 +703,6 @@ struct LimitsTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.number("smallest_step", self.smallest_step, "", Range::between(0.0, 1.0),
-             "The run fails when a time step is below this fraction of the step for the water at the start");
     v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
              "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of "
              "m g L/2 plus the kinetic energy; 0: never");
@@ -780,7 +717,6 @@ struct LimitsTable {
 struct OutputTable {
   double fields_interval = 0.0;
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
-  int compression = 1;
   double checkpoint_interval = 900.0;
 
   bool operator==(const OutputTable&) const = default;
@@ -790,8 +726,6 @@ struct OutputTable {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between field files; 0: a hundredth of the end time");
     v.texts("fields", self.fields, field_names, "Fields to write");
-    v.integer("compression", self.compression, "", Range::between(0, 9),
-              "zlib compression level of the field files; 0: none");
     v.number(
         "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
         "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or is "
@@ -888,6 +822,7 @@ struct CaseSpec {
   LimitsTable limits;
   OutputTable output;
   std::vector<ProbeTable> probes;
+  StudyTable study;
   CaseSources sources;
 
   bool operator==(const CaseSpec&) const = default;
@@ -914,6 +849,7 @@ struct CaseSpec {
     v.table("limits", self.limits, "When a run warns of its own errors, or gives up");
     v.table("output", self.output, "Field files for ParaView, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
+    v.table("study", self.study, "For studies: the robust formulation without one of its parts");
   }
 };
 

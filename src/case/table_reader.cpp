@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "case/nearest_name.h"
+#include "case/removed_keys.h"
 
 namespace tailwater {
 
@@ -240,7 +241,10 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
   }
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
-      wrong(key.str(), node, fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid)));
+      const std::string_view fate = fate_of(name_, key.str());
+      wrong(key.str(), node,
+            fate.empty() ? fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid))
+                         : std::string(fate));
     }
   }
 }

@@ -127,28 +127,6 @@ void set_defaults(InletTable& inlet, TableReader& reader) { inlet.direction = al
 
 void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction = along_x(reader); }
 
-/// Under-relaxation by a factor f leaves (1 - f)^passes of the old value, so too few passes lose part of every step.
-void check(const SchemeTable& scheme, TableReader& reader) {
-  constexpr double most_left = 0.01;
-  const double least = std::min({scheme.relax_pressure, scheme.relax_velocity, scheme.relax_position});
-  if (scheme.integrator != Integrator::implicit_projection || least >= 1.0 || reader.is_wrong("max_passes")) {
-    return;
-  }
-  const int needed = static_cast<int>(std::ceil(std::log(most_left) / std::log(1.0 - least)));
-  if (scheme.max_passes >= needed) {
-    return;
-  }
-  const std::string message = fmt::format(
-      "{} passes with an under-relaxation factor of {} do not complete a step; give at least {} passes, or a larger "
-      "factor",
-      scheme.max_passes, least, needed);
-  if (const toml::node* node = reader.given("max_passes")) {
-    reader.wrong("max_passes", *node, message);
-  } else {
-    reader.missing("max_passes", message);
-  }
-}
-
 void check(const PhysicsTable& physics, TableReader& reader) {
   const toml::node* node = reader.given("channel_width");
   if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {

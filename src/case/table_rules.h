@@ -50,7 +50,6 @@ void check(const DampingTable& damping, TableReader& reader);
 void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
-void check(const SchemeTable& scheme, TableReader& reader);
 
 /// Checks that the keys needed by the chosen shape or type are there, and no others (key_use.h). `rows` are the keys of
 /// the table as read, `table` its name without index.

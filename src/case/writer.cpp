@@ -19,6 +19,7 @@ class CaseWriter {
 
   template <class Table>
   void table(std::string_view name, const Table& table, std::string_view doc) {
+    if (std::is_same_v<Table, StudyTable> && table == Table{}) return;  // no study
     text_ += fmt::format("\n# {}\n[{}]\n", doc, name);
     write(name, keys_of(table));
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
@@ -27,7 +28,7 @@ class EndFlowCheck {
         label_(end.opening.label()),
         dx_(spec.particles.spacing),
         last_(spec.time.end),
-        crossing_((spec.scheme.support + 1.0) * dx_ / std::sqrt(std::max(end.gravity * end.height, 1e-30))),
+        crossing_((traits_of(spec).support + 1.0) * dx_ / std::sqrt(std::max(end.gravity * end.height, 1e-30))),
         has_lid_(std::abs(boundary.nearest(top(), std::numeric_limits<double>::infinity()).signed_distance) <=
                  rim_on_wall * dx_) {}
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "parallel/at_start.h"
@@ -26,7 +27,7 @@ struct Standing {
 
 Standing standing(const CaseSpec& spec) {
   const double dx = spec.particles.spacing;
-  const double regular = placement_of(spec.scheme.walls).on_wall ? 1.0 : 0.5;
+  const double regular = traits_of(spec).walls.on_wall ? 1.0 : 0.5;
   const double play = std::max(0.25, spec.particles.jitter) + corner_tolerance;
   return {regular, (0.5 - play) * dx, (regular + play) * dx, (regular + 1.5) * dx};
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
@@ -98,7 +99,7 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
 template <int Dim>
 void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
   const double dx = spec.particles.spacing;
-  const double depth = spec.scheme.support * dx;
+  const double depth = traits_of(spec).support * dx;
   for (const Vec<Dim>& x : places_before(end, depth, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
     if (wall.face < 0) continue;

@@ -1,3 +1,4 @@
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 
@@ -26,7 +27,7 @@ Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const 
 template <int Dim>
 Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
-  const double support = spec.scheme.support * spec.particles.spacing;
+  const double support = traits_of(spec).support * spec.particles.spacing;
   for (int axis = 0; axis < Dim; ++axis) {
     const std::vector<double>& range = periodic_range(spec.domain, axis);
     if (range.size() != 2) continue;
@@ -37,7 +38,7 @@ Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundar
         "domain.periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so a "
         "particle "
         "would meet its own image: make it at least {:.6g} m wide, or the spacing at most {:.6g} m",
-        "xyz"[axis], range[0], range[1], width, support, 4.0 * support, width / (4.0 * spec.scheme.support)));
+        "xyz"[axis], range[0], range[1], width, support, 4.0 * support, width / (4.0 * traits_of(spec).support)));
   }
   return findings;
 }

@@ -1,3 +1,4 @@
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "sampling/wall_particles.h"
 
@@ -5,11 +6,12 @@ namespace tailwater {
 
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  if (boundary.plates.empty() || !placement_of(spec.scheme.walls).on_wall) return {};
+  if (boundary.plates.empty() || !traits_of(spec).walls.on_wall) return {};
   return {Finding::error(
-      "{} is a plate, and scheme.walls = \"{}\" puts particles on the wall itself, which both sides would feel: set "
-      "scheme.walls = \"dummies\", or draw a wall with two faces",
-      wall_label(boundary, boundary.plates.front().wall), name_of(spec.scheme.walls))};
+      "{} is a plate, and scheme.formulation = \"{}\" puts particles on the wall itself, which both sides would feel: "
+      "choose \"{}\", or draw a wall with two faces",
+      wall_label(boundary, boundary.plates.front().wall), name_of(spec.scheme.formulation),
+      name_of(Formulation::robust))};
 }
 
 template Findings check_plates(const CaseSpec&, const Boundary<2>&);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "sampling/wall_particles.h"
@@ -8,7 +9,7 @@ namespace tailwater {
 
 template <int Dim>
 Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
-  if (!placement_of(spec.scheme.walls).on_wall) return {};
+  if (!traits_of(spec).walls.on_wall) return {};
   const double dx = spec.particles.spacing;
   for (const WallFace<Dim>& face : drawn.faces) {
     for (const WallFace<Dim>& other : drawn.faces) {
@@ -20,10 +21,10 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
         const auto [moving, near] = std::minmax(
             face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
         return {Finding::error(
-            "{} is {:.3g} m from {} at {}, and scheme.walls = \"{}\" puts particles on both: draw it {:.6g} m away, or "
-            "choose scheme.walls = \"{}\"",
-            wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner), name_of(spec.scheme.walls), dx,
-            name_of(WallTreatment::dummies))};
+            "{} is {:.3g} m from {} at {}, and scheme.formulation = \"{}\" puts particles on both: draw it {:.6g} m "
+            "away, or choose \"{}\"",
+            wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner),
+            name_of(spec.scheme.formulation), dx, name_of(Formulation::robust))};
       }
     }
   }

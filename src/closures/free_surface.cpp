@@ -21,14 +21,6 @@ constexpr double cone_concentration = 0.95;
 constexpr int cone_fewest_neighbours = 5;
 const double cone_cosine = std::cos(0.5 * 105.0 * std::numbers::pi / 180.0);
 
-constexpr double f35_kernel_sum = 0.80;
-/// (F35 b): on a flat regular surface the sum is 0.240 in 2D with the published kernel, 0.187 and more in 3D.
-template <int Dim>
-constexpr double f35_asymmetry = Dim == 2 ? 0.20 : 0.15;
-/// (F35 c): 14 in 2D; the interior value of S_B2 is proportional to Dim^2.
-template <int Dim>
-constexpr double f35_b2_sum = 3.5 * Dim* Dim;
-
 /// Half the neighbours that a full lattice has within the published 2.4 dx: 20 in 2D, 56 in 3D. A flat surface has 12
 /// and 38.
 template <int Dim>
@@ -57,19 +49,6 @@ bool cone_is_empty(const SurfaceInput<Dim>& input, std::size_t i) {
   return is_empty && input.concentration[i] < cone_concentration;
 }
 
-template <int Dim>
-bool f35_holds(const SurfaceInput<Dim>& input, std::size_t i) {
-  if (!input.tensors[i].has_inverse) return true;  // (d)
-  const Pairs<Dim>& pairs = input.pairs;
-  Vec<Dim> asymmetry = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    asymmetry += input.particles.volume[pairs.j[k]] * pairs.value(i, k) * pairs.e(i, k);
-  }
-  const double kernel_sum = input.concentration[i] * input.lattice_concentration;
-  return kernel_sum <= f35_kernel_sum && asymmetry.norm() > f35_asymmetry<Dim> &&
-         input.tensors[i].b2_sum > f35_b2_sum<Dim>;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -83,9 +62,6 @@ void find_free_surface(SurfaceTreatment test, const SurfaceInput<Dim>& input, st
         break;
       case SurfaceTreatment::cone:
         is_surface[i] = cone_is_empty(input, i);
-        break;
-      case SurfaceTreatment::farzin:
-        is_surface[i] = f35_holds(input, i);
         break;
       case SurfaceTreatment::density:
         is_surface[i] =

@@ -1,12 +1,10 @@
-// Where the free surface is. Four tests, one result: a mark on surface particles.
+// Where the free surface is. Three tests, one result: a mark on surface particles.
 //
 //   air     C/C_0 < 0.85: a mark for the field files only; nothing in the scheme needs it
 //   cone    no neighbour within 2.3 dx in a cone of opening 105 degrees around the outward normal -grad C, and
 //           C/C_0 < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. What worked in prototypes of the
-//           published scheme; the cone around the normal replaces their angular gap, which is 2D only.
-//   farzin  (F35): (a and b and c) or d, with a: sum w W <= 0.80 (the particle itself included), b: |sum w W e| > 0.20
-//           (printed 0.25, but a flat regular surface gives 0.240), c: S_B2 > 14, d: the system of B1 or of B2 is
-//           singular (printed det B1 = 0)
+//           published scheme, in place of (F35), which misses surface particles; the cone around the normal replaces
+//           their angular gap, which is 2D only.
 //   density (B21): C/C_0 < beta, where C/C_0 is rho/rho_0; or fewer than half the neighbours of a full lattice.
 //           Without the second condition a clump in the air that is as dense as water would have p = 0 nowhere, and
 //           its equation no solution
@@ -15,13 +13,13 @@
 #include <cstdint>
 #include <span>
 
-#include "case/choices.h"
+#include "case/scheme_choices.h"
 #include "operators/renormalisation.h"
 #include "particles/particles.h"
 
 namespace tailwater {
 
-/// Input of the tests. `concentration` is C/C_0; only cone and farzin need `tensors`.
+/// Input of the tests. `concentration` is C/C_0; only the cone needs `tensors`.
 template <int Dim>
 struct SurfaceInput {
   const Pairs<Dim>& pairs;
@@ -30,8 +28,6 @@ struct SurfaceInput {
   std::span<const Vec<Dim>> concentration_gradient;
   std::span<const Renormalisation<Dim>> tensors;
   double spacing;
-  double lattice_concentration;  ///< C_0
-  double W_0;
   double least_density;  ///< beta of (B21)
 };
 

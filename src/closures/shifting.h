@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <span>
 
-#include "case/choices.h"
+#include "case/scheme_choices.h"
 #include "closures/surroundings.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"

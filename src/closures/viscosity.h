@@ -1,11 +1,11 @@
 // Effective viscosity, the viscous acceleration and the friction of side walls.
 //
-//   nu_eff = nu_0 + max(c_a |u| dx, c_f dx sqrt(g L))        (F3) with a floor
+//   nu_eff = nu_0 + c_a |u| dx                               (F3)
 //   a = -2 tau_side(|u|)/(rho b) u/|u|                       side walls of a channel of width b, in 2D
 //
-// (F3) alone vanishes at rest, and a jittered tank then boils; the floor calms it (docs/theory/closures.md). Neither
-// has anything to do with a wall: as its friction they gave a smooth wall the stress 0.034 rho u^2, twenty times that
-// of water. What a wall has is in wall_law.h and spalart_allmaras.h.
+// (F3) vanishes at rest, and a jittered tank then boils (docs/theory/closures.md). It has nothing to do with a wall: as
+// its friction it gave a smooth wall the stress 0.034 rho u^2, twenty times that of water. What a wall has is in
+// wall_law.h and spalart_allmaras.h.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,10 @@ namespace tailwater {
 struct ViscosityLaw {
   double molecular = 0.0;          ///< m^2/s; nu_0
   double artificial = 0.0;         ///< m; c_a dx, times |u| gives nu_a
-  double floor = 0.0;              ///< m^2/s; c_f dx sqrt(g L)
   double channel_width = 0.0;      ///< m; b between two side walls; 0 if there are none
   double channel_roughness = 0.0;  ///< m; k_s of these walls
 
-  double at_speed(double speed) const { return molecular + std::max(artificial * speed, floor); }
+  double at_speed(double speed) const { return molecular + artificial * speed; }
 
   /// Rate [1/s] at which the two side walls slow water of this speed, averaged over the width: 2 tau/(rho b u). tau/rho
   /// is the larger of two values: 6 nu u/b, laminar flow between plates, and u_tau^2 of the turbulent wall law, whose

@@ -41,11 +41,10 @@ void find_surface(Flow<Dim>& flow, bool keep_marks) {
   const bool surface_is_air = setup.scheme.surface == SurfaceTreatment::air;
   if (surface_is_air) find_interior<Dim>(pairs, particles, here.concentration, setup.kernel_values.W_0, here.interior);
   if (!keep_marks) {
-    find_free_surface<Dim>(
-        setup.scheme.surface,
-        {pairs, particles, here.concentration, here.concentration_gradient, here.tensors, setup.spacing,
-         setup.lattice.concentration, setup.kernel_values.W_0, setup.scheme.surface_density},
-        here.is_surface);
+    find_free_surface<Dim>(setup.scheme.surface,
+                           {pairs, particles, here.concentration, here.concentration_gradient, here.tensors,
+                            setup.spacing, setup.scheme.surface_density},
+                           here.is_surface);
     flow.halo().exchange(here.is_surface);
     if (!surface_is_air) find_interior_by_marks<Dim>(pairs, particles, setup.spacing, here.is_surface, here.interior);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "case/formulation.h"
 #include "flow/verbs.h"
 
 namespace tailwater {
@@ -331,7 +332,7 @@ template <int Dim>
 std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec) {
   std::vector<OpenEnd<Dim>> ends;
   for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    ends.emplace_back(std::move(end), spec.particles.spacing, spec.scheme.support * spec.particles.spacing);
+    ends.emplace_back(std::move(end), spec.particles.spacing, traits_of(spec).support * spec.particles.spacing);
   }
   return ends;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/formulation.h"
 #include "geometry/from_spec.h"
 #include "operators/laplacian_shao_lo.h"
 #include "sampling/water_lattice.h"
@@ -112,7 +113,7 @@ std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
 
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const Communicator& ranks)
-    : wall_model(make_wall_model<Dim>(spec.scheme.walls)),
+    : wall_model(make_wall_model<Dim>(choices_of(spec).walls)),
       walls(make_walls(spec, *wall_model, ranks)),
       shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
@@ -121,13 +122,13 @@ Drawing<Dim>::Drawing(const CaseSpec& spec, const Communicator& ranks)
 template <int Dim>
 Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<Dim>& drawing)
     : ranks(all_ranks),
-      scheme(spec.scheme),
+      scheme(choices_of(spec)),
       density(spec.physics.density),
       spacing(spec.particles.spacing),
       first_wall_id(drawing.fluid.all),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      length(scheme.length > 0.0 ? scheme.length
-                                 : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
+      length(spec.study.length > 0.0 ? spec.study.length
+                                     : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
       rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       finds_wall_forces(!spec.bodies.empty() || std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
@@ -141,7 +142,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       bodies(make_bodies<Dim>(spec)),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       damping(make_damping<Dim>(spec)),
-      kernel(make_kernel<Dim>(scheme.kernel, scheme.support * spacing)),
+      kernel(make_kernel<Dim>(scheme.kernel, traits_of(spec).support * spacing)),
       lattice(lattice_sums(kernel, spacing)),
       kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)},
       eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
@@ -153,7 +154,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,
                    .artificial = scheme.artificial_viscosity * spacing,
-                   .floor = scheme.viscosity_floor * spacing * std::sqrt(g * length),
                    .channel_width = spec.physics.channel_width,
                    .channel_roughness = spec.physics.channel_roughness};
   const bool has_friction =
@@ -186,8 +186,7 @@ template <int Dim>
 bool Setup<Dim>::uses_tensors() const {
   return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
          scheme.divergence == DivergenceKind::consistent || scheme.surface == SurfaceTreatment::cone ||
-         scheme.surface == SurfaceTreatment::farzin || wall_traits.needs_tensors ||
-         scheme.shifting == ShiftingKind::farzin;
+         wall_traits.needs_tensors || scheme.shifting == ShiftingKind::farzin;
 }
 
 template <int Dim>

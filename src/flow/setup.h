@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "case/scheme_choices.h"
 #include "closures/air.h"
 #include "closures/shifting.h"
 #include "closures/time_step.h"
@@ -43,7 +44,7 @@ struct Setup {
   Setup(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim>& drawing);
 
   Communicator ranks;
-  SchemeTable scheme;
+  SchemeChoices scheme;
   double density;              ///< kg/m^3
   double spacing;              ///< m
   std::int64_t first_wall_id;  ///< of a wall particle of number 0

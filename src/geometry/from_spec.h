@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/vec.h"
+#include "case/formulation.h"
 #include "case/spec.h"
 
 namespace tailwater {
@@ -53,7 +54,7 @@ inline const std::vector<double>& periodic_range(const DomainTable& domain, int 
 }
 
 /// Number of layers of dummy particles that fill the kernel's support behind a wall, including a row on the wall.
-inline int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(spec.scheme.support)); }
+inline int dummy_layers(const CaseSpec& spec) { return static_cast<int>(std::ceil(traits_of(spec).support)); }
 
 /// Area of a polygon, m^2; positive when its corners run counter-clockwise.
 template <class Points>

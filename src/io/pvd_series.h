@@ -13,7 +13,7 @@ namespace tailwater {
 class PvdSeries {
  public:
   /// Files FOLDER/NAME_00000.vtp, ... listed in FOLDER/NAME.pvd; zlib level `compression`, 0 to 9.
-  PvdSeries(std::filesystem::path folder, std::string name, int compression);
+  PvdSeries(std::filesystem::path folder, std::string name, int compression = usual_compression);
 
   /// Adds the fields at `time` [s]; each rank gives its own particles. Collective. Throws IoError, on all ranks.
   template <int Dim>

@@ -52,14 +52,17 @@ struct EncodedPiece {
   std::string bytes;
 };
 
+/// zlib level of the files of a run: the quickest.
+inline constexpr int usual_compression = 1;
+
 /// Encodes particles with zlib level `compression` (0: none, up to 9).
 template <int Dim>
-EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression);
+EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression = usual_compression);
 
 /// Writes one file at time `time` [s]. Collective: a piece per rank, all with the same fields and encoded with the same
 /// `compression`. Every rank writes its own piece into the file. Empty pieces are left out, unless all are empty.
 /// Throws IoError, on all ranks; never leaves half a file.
-void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece, int compression,
-               const Communicator& ranks = {});
+void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece,
+               int compression = usual_compression, const Communicator& ranks = {});
 
 }  // namespace tailwater

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "case/choices.h"
+#include "case/scheme_choices.h"
 #include "kernel/cubic_spline.h"
 #include "kernel/farzin.h"
 #include "kernel/wendland_c2.h"

@@ -26,7 +26,7 @@ void move_to_owners(const ExchangePlan& plan, Particles<Dim>& particles) {
 
 template <int Dim>
 Decomposition<Dim>::Decomposition(const Communicator& ranks, const ParallelTable& settings)
-    : ranks_(ranks), tolerated_imbalance_(settings.imbalance), cuts_(ranks, settings.decomposition) {}
+    : ranks_(ranks), tolerated_imbalance_(settings.imbalance), cuts_(ranks) {}
 
 template <int Dim>
 Sharing Decomposition<Dim>::share_out(Particles<Dim>& particles, std::span<const double> work) {

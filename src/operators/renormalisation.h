@@ -35,7 +35,7 @@ struct Renormalisation {
   Vec<Dim> drift = Vec<Dim>::Zero();  ///< 1/m; B1 . (C : B2), the first-derivative part of the row (F23)
   double trace_A = 0.0;
   double least_eigenvalue_A = 0.0;
-  double b2_sum = 0.0;       ///< S_B2 of (F35 c): sum of |entries|, each off-diagonal entry once
+  double b2_sum = 0.0;       ///< S_B2: sum of |entries|, each off-diagonal entry once
   bool has_inverse = false;  ///< whether A and the system of B2 could be inverted
   bool gradient_is_sound() const { return has_inverse && least_eigenvalue_A > least_sound_eigenvalue<Dim>; }
   bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum<Dim>; }

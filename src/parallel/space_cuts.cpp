@@ -53,20 +53,20 @@ struct SpaceCuts<Dim>::Zoltan {
   Zoltan_Struct* handle = nullptr;
   bool are_made = false;
 
-  Zoltan(const Communicator& ranks, DecompositionMethod method) {
+  explicit Zoltan(const Communicator& ranks) {
     float version = 0.0F;
     check_zoltan(Zoltan_Initialize(0, nullptr, &version));
     handle = Zoltan_Create(ranks.handle());
     if (handle == nullptr) throw SolverError("Zoltan does not start");
     const auto set = [&](const char* name, const char* value) { check_zoltan(Zoltan_Set_Param(handle, name, value)); };
     set("DEBUG_LEVEL", "0");
-    set("LB_METHOD", method == DecompositionMethod::hsfc ? "HSFC" : "RCB");
+    set("LB_METHOD", "RCB");
     set("OBJ_WEIGHT_DIM", "1");
     set("RETURN_LISTS", "NONE");
     set("KEEP_CUTS", "1");
     set("REMAP", "0");
     set("IMBALANCE_TOL", "1.01");
-    if (method == DecompositionMethod::rcb) set("RCB_REUSE", "1");
+    set("RCB_REUSE", "1");
   }
   ~Zoltan() { Zoltan_Destroy(&handle); }
   Zoltan(const Zoltan&) = delete;
@@ -74,8 +74,8 @@ struct SpaceCuts<Dim>::Zoltan {
 };
 
 template <int Dim>
-SpaceCuts<Dim>::SpaceCuts(const Communicator& ranks, DecompositionMethod method)
-    : ranks_(ranks), method_(method), zoltan_(ranks.is_alone() ? nullptr : std::make_unique<Zoltan>(ranks, method)) {}
+SpaceCuts<Dim>::SpaceCuts(const Communicator& ranks)
+    : ranks_(ranks), zoltan_(ranks.is_alone() ? nullptr : std::make_unique<Zoltan>(ranks)) {}
 
 template <int Dim>
 SpaceCuts<Dim>::~SpaceCuts() = default;
@@ -104,9 +104,6 @@ void SpaceCuts<Dim>::cut(std::span<const Vec<Dim>> points, std::span<const doubl
   check_zoltan(Zoltan_LB_Partition(handle, &has_changed, &global_size, &local_size, &imports, &ids[0], &ids[1],
                                    &numbers[0], &numbers[1], &exports, &ids[2], &ids[3], &numbers[2], &numbers[3]));
   zoltan_->are_made = true;
-  if (method_ != DecompositionMethod::hsfc) return;
-  points_of_curve_.assign(reinterpret_cast<const char*>(points.data()), points.size_bytes());
-  points_of_curve_.append(reinterpret_cast<const char*>(weights.data()), weights.size_bytes());
 }
 
 template <int Dim>
@@ -117,7 +114,6 @@ bool SpaceCuts<Dim>::are_made() const {
 template <int Dim>
 std::string SpaceCuts<Dim>::bytes() const {
   if (!are_made()) return "";
-  if (method_ == DecompositionMethod::hsfc) return points_of_curve_;
   std::string bytes(Zoltan_Serialize_Size(zoltan_->handle), '\0');
   check_zoltan(Zoltan_Serialize(zoltan_->handle, bytes.size(), bytes.data()));
   return bytes;
@@ -125,16 +121,7 @@ std::string SpaceCuts<Dim>::bytes() const {
 
 template <int Dim>
 void SpaceCuts<Dim>::restore(std::string bytes) {
-  zoltan_ = std::make_unique<Zoltan>(ranks_, method_);
-  if (method_ == DecompositionMethod::hsfc) {
-    const std::size_t count = bytes.size() / (sizeof(Vec<Dim>) + sizeof(double));
-    std::vector<Vec<Dim>> points(count);
-    std::vector<double> weights(count);
-    bytes.copy(reinterpret_cast<char*>(points.data()), count * sizeof(Vec<Dim>));
-    bytes.copy(reinterpret_cast<char*>(weights.data()), count * sizeof(double), count * sizeof(Vec<Dim>));
-    cut(points, weights);
-    return;
-  }
+  zoltan_ = std::make_unique<Zoltan>(ranks_);
   check_zoltan(Zoltan_Deserialize(zoltan_->handle, bytes.size(), bytes.data()));
   zoltan_->are_made = true;
 }

@@ -1,5 +1,5 @@
 // Cuts space into one part per rank with an equal share of weighted points in each: Zoltan's recursive coordinate
-// bisection or Hilbert space-filling curve (Devine et al. 2002).
+// bisection (Devine et al. 2002).
 #pragma once
 
 #include <memory>
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/vec.h"
-#include "case/choices.h"
 #include "parallel/communicator.h"
 
 namespace tailwater {
@@ -16,7 +15,7 @@ template <int Dim>
 class SpaceCuts {
  public:
   /// Throws SolverError when Zoltan does not start.
-  SpaceCuts(const Communicator& ranks, DecompositionMethod method);
+  explicit SpaceCuts(const Communicator& ranks);
   ~SpaceCuts();
   SpaceCuts(SpaceCuts&&) noexcept;
   SpaceCuts& operator=(SpaceCuts&&) noexcept;
@@ -38,8 +37,6 @@ class SpaceCuts {
  private:
   struct Zoltan;
   Communicator ranks_;
-  DecompositionMethod method_;
-  std::string points_of_curve_;  ///< from which the Hilbert curve was cut, which Zoltan cannot give out
   std::unique_ptr<Zoltan> zoltan_;
 };
 

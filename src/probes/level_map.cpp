@@ -97,7 +97,7 @@ struct LevelMap {
     return {largest_over(lines.size(), level(0), level), mean_over_places(level)};
   }
 
-  void write(const std::filesystem::path& path, double time, int compression) const {
+  void write(const std::filesystem::path& path, double time) const {
     if constexpr (Dim == 2) {
       CsvWriter csv(std::filesystem::path(path).replace_extension(".map.csv"),
                     {"x_m", "bed_m", "largest_m", "time_of_largest_s", "mean_m", "last_m"});
@@ -105,7 +105,7 @@ struct LevelMap {
         csv.write(Row{places[k][0], bed(k), of(k, largest), of(k, time_of_largest), mean(k), of(k, last)});
       }
     } else {
-      write_vtp(path, time, encode_piece(FieldsOfPlan(*this).view(), compression), compression);
+      write_vtp(path, time, encode_piece(FieldsOfPlan(*this).view()));
     }
   }
 
@@ -167,9 +167,7 @@ Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, co
   reading.region = [map](double time) { return region_of(map->lines, time); };
   reading.memory = map->memory;
   reading.summary = [map] { return map->summary(); };
-  reading.write_map = [map, compression = spec.output.compression](const std::filesystem::path& path, double time) {
-    map->write(path, time, compression);
-  };
+  reading.write_map = [map](const std::filesystem::path& path, double time) { map->write(path, time); };
   return reading;
 }
 

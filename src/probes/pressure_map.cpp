@@ -108,7 +108,7 @@ struct PressureMap {
     return values;
   }
 
-  void write(const std::filesystem::path& path, double time, int compression) const {
+  void write(const std::filesystem::path& path, double time) const {
     const std::vector<double> largest_here = at_corners([&](std::size_t k) { return largest(k); });
     const std::vector<double> times = at_corners([&](std::size_t k) { return time_of_largest(k); });
     const std::vector<double> means = at_corners([&](std::size_t k) { return mean(k); });
@@ -119,7 +119,7 @@ struct PressureMap {
                                                 {"mean_pressure", means},
                                                 {"wall", walls}},
                                      .corners = Dim};
-    write_vtp(path, time, encode_piece(fields, compression), compression);
+    write_vtp(path, time, encode_piece(fields));
   }
 
   std::vector<std::pair<std::string, double>> summary() const {
@@ -149,9 +149,7 @@ Reading<Dim> pressure_map_reading(const ProbeTable& probe, const CaseSpec& spec,
   reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
   reading.memory = map->memory;
   reading.summary = [map] { return map->summary(); };
-  reading.write_map = [map, compression = spec.output.compression](const std::filesystem::path& path, double time) {
-    map->write(path, time, compression);
-  };
+  reading.write_map = [map](const std::filesystem::path& path, double time) { map->write(path, time); };
   return reading;
 }
 

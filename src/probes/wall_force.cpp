@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
+#include "case/formulation.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/places.h"
@@ -273,32 +274,20 @@ std::vector<std::string> component_columns(std::string_view what, std::string_vi
 }
 
 /// Throws InputError where the forces between particles are not equal and opposite.
-void require_reactions(const ProbeTable& probe, const SchemeTable& scheme) {
-  const auto refuse = [&](std::string_view key, std::string_view value, std::string_view why, std::string_view remedy) {
-    throw InputError(
-        fmt::format("{}: type = \"force\" does not go with scheme.{} = {}: {}; choose {}, or measure with "
-                    "type = \"wall-pressure-mean\"",
-                    label(probe), key, value, why, remedy));
-  };
-  constexpr std::string_view no_reactions = "what a wall does to the water has no equal and opposite force on the wall";
-  if (scheme.gradient == GradientKind::consistent) {
-    refuse("gradient", "\"consistent\"", no_reactions, "\"conservative\"");
-  }
-  if (scheme.laplacian == LaplacianKind::consistent) {
-    refuse("laplacian", "\"consistent\"", no_reactions, "\"morris\"");
-  }
-  if (scheme.name == SchemeName::farzin2014 && scheme.integrator == Integrator::implicit_projection &&
-      scheme.implicit_form == ImplicitForm::repeated && scheme.relax_velocity < 1.0) {
-    refuse("relax_velocity", fmt::format("{}", scheme.relax_velocity),
-           "the velocity keeps shares of the forces of all passes", "1");
-  }
+void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
+  const std::string_view why = traits_of(spec).no_reaction;
+  if (why.empty()) return;
+  throw InputError(
+      fmt::format("{}: type = \"force\" does not go with scheme.formulation = \"{}\": {}; choose \"{}\", or measure "
+                  "with type = \"wall-pressure-mean\"",
+                  label(probe), name_of(spec.scheme.formulation), why, name_of(Formulation::robust)));
 }
 
 }  // namespace
 
 template <int Dim>
 Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  require_reactions(probe, spec.scheme);
+  require_reactions(probe, spec);
   const auto walls = std::make_shared<WallForceProbe<Dim>>(probe, spec, boundary);
   const auto memory = std::make_shared<std::vector<double>>(ForceMemory<Dim>::count, 0.0);
   const std::string per_width = Dim == 2 ? "_per_m" : "";

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "case/formulation.h"
 #include "motion/wall_motion.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
@@ -23,7 +24,7 @@ struct PointOnWall {
 template <int Dim>
 PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const CaseSpec& spec,
                                const Boundary<Dim>& boundary) {
-  const double support = spec.scheme.support * spec.particles.spacing;
+  const double support = traits_of(spec).support * spec.particles.spacing;
   const NearestWall<Dim> nearest = boundary.nearest(x, support);
   if (nearest.face < 0) {
     throw InputError(fmt::format("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall",

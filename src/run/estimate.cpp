@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/for_each.h"
+#include "case/formulation.h"
 #include "flow/verbs.h"
 #include "geometry/mesh_surface.h"
 #include "run/inflow_estimate.h"
@@ -132,7 +133,7 @@ double available_memory() {
 template <int Dim>
 Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available) {
   const ParticleCount count = expected_particle_count(spec, boundary);
-  const double needed = memory_estimate<Dim>(count, neighbours_in_support<Dim>(spec.scheme.support));
+  const double needed = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));
   if (needed <= available) return {};
   // The particles' memory is proportional to dx^-Dim.
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
@@ -164,7 +165,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   const double of_a_particle = power<Dim>(spec.particles.spacing);
   const WaterEstimate water = estimate_water(spec, flow.walls.boundary, estimate.particles.fluid * of_a_particle);
   estimate.largest_fluid = water.largest / of_a_particle;
-  const double neighbours = neighbours_in_support<Dim>(spec.scheme.support);
+  const double neighbours = neighbours_in_support<Dim>(traits_of(spec).support);
   estimate.memory = memory_estimate<Dim>({estimate.largest_fluid, estimate.particles.wall}, neighbours);
   const double at_start = estimate.particles.fluid + estimate.particles.wall;
   const double in_the_mean = water.mean / of_a_particle + estimate.particles.wall;

@@ -45,7 +45,7 @@ class Run {
         wall_time_(options.wall_time),
         flow_(spec, ranks),
         output_(spec, options, flow_, checkpoint ? &checkpoint->output : nullptr),
-        guard_(flow_, output_.folder(), spec.limits.smallest_step),
+        guard_(flow_, output_.folder()),
         keeper_(spec, output_.folder(), ranks) {
     if (!checkpoint) return;
     go_on_from(*checkpoint);

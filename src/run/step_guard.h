@@ -15,9 +15,8 @@ namespace tailwater {
 template <int Dim>
 class StepGuard {
  public:
-  /// Borrows flow and folder. `smallest_step` is limits.smallest_step of the case.
-  StepGuard(Flow<Dim>& flow, const RunFolder& folder, double smallest_step)
-      : flow_(flow), folder_(folder), smallest_step_(smallest_step) {}
+  /// Borrows flow and folder.
+  StepGuard(Flow<Dim>& flow, const RunFolder& folder) : flow_(flow), folder_(folder) {}
 
   /// Keeps the present state as good. Indices must mean the same particles in it and after the step, so call it again
   /// after indices have changed.
@@ -44,7 +43,6 @@ class StepGuard {
 
   Flow<Dim>& flow_;
   const RunFolder& folder_;
-  double smallest_step_;
   double reference_step_ = 0.0;  ///< s; 0 before the first step
   std::size_t good_count_ = 0;   ///< owned
   // What a step changes of them.

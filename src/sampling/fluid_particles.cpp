@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "base/random.h"
+#include "case/formulation.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 #include "geometry/largest_speed.h"
@@ -93,7 +94,7 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   const double dx = spec.particles.spacing;
   const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
   if (wall.face < 0) return false;
-  if (placement_of(spec.scheme.walls).on_wall) {
+  if (traits_of(spec).walls.on_wall) {
     return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   }
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
@@ -142,7 +143,7 @@ class BlockWater {
         shape_(spec, index, boundary, axes_),
         velocity_(spec, block_, owner_),
         lattice_{axes_, {}},
-        stands_on_walls_(placement_of(spec.scheme.walls).on_wall) {
+        stands_on_walls_(traits_of(spec).walls.on_wall) {
     for (int axis = 0; axis < Dim; ++axis) {
       const bool is_on_nodes = stands_on_walls_ && periodic_range(spec.domain, axis).empty();
       lattice_.count[axis] = axes_[axis].count() + (is_on_nodes ? 1 : 0);

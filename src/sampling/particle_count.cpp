@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/vec.h"
+#include "case/formulation.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "sampling/wall_particles.h"
@@ -36,7 +37,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
       count.fluid += (extent / dx).array().round().max(1.0).prod();
     }
   }
-  const int layers = placement_of(spec.scheme.walls).behind ? dummy_layers(spec) : 1;
+  const int layers = traits_of(spec).walls.behind ? dummy_layers(spec) : 1;
   for (const WallFace<Dim>& face : boundary.faces) {
     count.wall += layers * face.measure() * dx / power<Dim>(dx);
   }

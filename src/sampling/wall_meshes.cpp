@@ -54,7 +54,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
   if (layers.starts_on_wall && !body.meshes.empty()) {
     throw InputError(
         wall_label(body, body.meshes[0].wall) +
-        " is a mesh, and wall particles stand behind a mesh, not on it: choose scheme.walls = \"dummies\"");
+        " is a mesh, and wall particles stand behind a mesh, not on it: choose scheme.formulation = \"robust\"");
   }
   struct Proposal {
     WallPlace<3> place;

@@ -90,18 +90,6 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
 
 }  // namespace
 
-WallPlacement placement_of(WallTreatment treatment) {
-  switch (treatment) {
-    case WallTreatment::pressure_rows:
-      return {.on_wall = true, .behind = false};
-    case WallTreatment::row_and_dummies:
-      return {.on_wall = true, .behind = true};
-    case WallTreatment::dummies:
-      break;
-  }
-  return {.on_wall = false, .behind = true};
-}
-
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
                                         const SpaceShare& share, const Lattice<Dim>& lattice) {

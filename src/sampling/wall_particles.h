@@ -40,15 +40,6 @@ struct WallParticles {
   }
 };
 
-/// Where the particles of a wall treatment stand. Where some stand on the wall, the water's lattice has nodes there
-/// too.
-struct WallPlacement {
-  bool on_wall;
-  bool behind;
-};
-
-WallPlacement placement_of(WallTreatment treatment);
-
 /// `layers` rows of dummy particles behind each wall, the first at dx/2. Rows follow the wall's shape and join at
 /// mitred corners. On axis-parallel walls of a whole number of dx they continue the fluid's lattice. Faces join where
 /// they share a corner and agree on the side of the fluid, even if they belong to different walls. No particle is

@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 StepReport take_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  const SchemeTable& scheme = flow.setup.scheme;
+  const SchemeChoices& scheme = flow.setup.scheme;
   if (scheme.name == SchemeName::farmani2020) return two_step(flow, start, dt);
   if (scheme.integrator == Integrator::explicit_projection) return explicit_projection_step(flow, start, dt);
   return scheme.implicit_form == ImplicitForm::residual ? two_projections_step(flow, start, dt)

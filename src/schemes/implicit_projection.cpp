@@ -56,7 +56,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
 
 template <int Dim>
 StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  const SchemeTable& scheme = flow.setup.scheme;
+  const SchemeChoices& scheme = flow.setup.scheme;
   Particles<Dim>& particles = flow.state.particles;
   StepReport report;
   WallDrive<Dim> drive = drive_walls(flow, start, dt);

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "case/choices.h"
+#include "case/scheme_choices.h"
 #include "closures/surroundings.h"
 #include "geometry/boundary.h"
 #include "linear/linear_system.h"

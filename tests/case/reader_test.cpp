@@ -23,7 +23,7 @@ TEST(Reader, GivesDefaultsForAllThatIsAbsent) {
 TEST(Reader, ReadsEveryKindOfValue) {
   const CaseSpec spec = read_text(
       "[case]\ntitle = \"Drop\"\n[particles]\nspacing = 1\nseed = 7\n[time]\nend = 2.5\n"
-      "[domain]\nperiodic_x = [0, 4]\n[output]\nfields = [\"id\", \"pressure\"]\n[scheme]\nkernel = \"cubic-spline\"\n"
+      "[domain]\nperiodic_x = [0, 4]\n[output]\nfields = [\"id\", \"pressure\"]\n[scheme]\npair_vectors = \"kernel\"\n"
       "[[fluid]]\nname = \"drop\"\nshape = \"polygon\"\npoints = [[0, 0], [2, 0], [1, 1.5]]\nvelocity = [3, 0]\n"
       "[[wall]]\nshape = \"box\"\nmin = [0, 0]\nmax = [4, 4]\nopen = [\"+y\"]\nslip = \"partial\"\nfriction = 0.25\n"
       "[[probe]]\nname = \"shape\"\ntype = \"profile\"\nfrom = [0, 0]\nto = [4, 0]\ntimes = [0.5, 1]\n");
@@ -33,7 +33,7 @@ TEST(Reader, ReadsEveryKindOfValue) {
   EXPECT_EQ(spec.time.end, 2.5);
   EXPECT_EQ(spec.domain.periodic_x, (std::vector<double>{0.0, 4.0}));
   EXPECT_EQ(spec.output.fields, (std::vector<std::string>{"id", "pressure"}));
-  EXPECT_EQ(spec.scheme.kernel, KernelName::cubic_spline);
+  EXPECT_EQ(spec.scheme.pair_vectors, PairVectors::kernel);
   EXPECT_EQ(spec.fluid[0].name, "drop");
   EXPECT_EQ(spec.fluid[0].points, (std::vector<Coordinates>{{0.0, 0.0}, {2.0, 0.0}, {1.0, 1.5}}));
   EXPECT_EQ(spec.fluid[0].velocity, (VectorField{3.0, 0.0}));
@@ -101,57 +101,37 @@ TEST(Reader, NumbersNamelessBlocksAndWallsByTheirPlace) {
   EXPECT_EQ(spec.walls[0].fluid_side, FluidSide::left);
 }
 
-TEST(Formulation, PublishedChangesDefaultsOnly) {
-  const SchemeTable scheme =
-      read_text(required_keys + "[scheme]\nkernel = \"cubic-spline\"\nformulation = \"published\"\ncourant = 0.5\n" +
-                water)
-          .scheme;
-  SchemeTable expected{.formulation = Formulation::published};
-  expected.kernel = KernelName::cubic_spline;
-  expected.laplacian = LaplacianKind::consistent;
-  expected.gradient = GradientKind::consistent;
-  expected.divergence = DivergenceKind::consistent;
-  expected.pair_vectors = PairVectors::kernel;
-  expected.source = SourceKind::velocity_divergence;
-  expected.surface = SurfaceTreatment::cone;
-  expected.walls = WallTreatment::pressure_rows;
-  expected.divergence_free = DivergenceFree::start;
-  expected.displacement = Displacement::mean_velocity;
-  expected.courant = 0.5;
-  expected.artificial_viscosity = 0.20;
-  expected.viscosity_floor = 0.0;
-  expected.noise_viscosity = 0.0;
-  expected.smagorinsky = 0.10;
-  expected.turbulence = Turbulence::none;
-  expected.shifting = ShiftingKind::farzin;
-  expected.shifting_strength = 0.10;
-  expected.shifting_cap = 0.05;
-  expected.implicit_form = ImplicitForm::repeated;
-  expected.max_passes = 30;
-  expected.relax_pressure = 0.4;
-  expected.relax_velocity = 0.3;
-  expected.relax_position = 0.4;
-  EXPECT_EQ(scheme, expected);
+TEST(Formulation, DecidesTheCourantNumberUnlessItIsGiven) {
+  const auto courant = [](const std::vector<std::string>& settings) {
+    return read_text(required_keys + water, settings).scheme.courant;
+  };
+  const std::string published = "scheme.formulation=published";
+  const std::string two_step = "scheme.name=farmani2020";
+  EXPECT_EQ(courant({}), 0.55);
+  EXPECT_EQ(courant({published}), 0.05);
+  EXPECT_EQ(courant({published, "scheme.integrator=implicit"}), 0.12);
+  EXPECT_EQ(courant({two_step}), 0.25);
+  EXPECT_EQ(courant({two_step, published}), 0.1);
+  EXPECT_EQ(courant({published, "scheme.courant=0.5"}), 0.5);
 }
 
-TEST(Formulation, PublishedDependsOnTheIntegrator) {
-  const SchemeTable scheme =
-      read_text(required_keys + water, {"scheme.formulation=published", "scheme.integrator=implicit"}).scheme;
-  EXPECT_EQ(scheme.kernel, KernelName::farzin);
-  EXPECT_EQ(scheme.courant, 0.12);
-  EXPECT_EQ(scheme.shifting_strength, 0.08);
-}
-
-TEST(Formulation, DependsOnTheSchemesName) {
-  const SchemeTable robust = read_text(required_keys + water, {"scheme.name=farmani2020"}).scheme;
-  EXPECT_EQ(robust.source, SourceKind::mixed);
-  EXPECT_EQ(robust.kernel, KernelName::wendland_c2);
-  const SchemeTable published =
-      read_text(required_keys + water, {"scheme.name=farmani2020", "scheme.formulation=published"}).scheme;
-  EXPECT_EQ(published.kernel, KernelName::cubic_spline);
-  EXPECT_EQ(published.support, 2.0 * 1.2);  // h = 1.2 dx
-  EXPECT_EQ(published.source, SourceKind::density);
-  EXPECT_EQ(published.courant, 0.1);
+TEST(Formulation, SaysWhereWallsStandAndHowFarTheKernelReaches) {
+  const auto traits = [](const std::vector<std::string>& settings) {
+    return traits_of(read_text(required_keys + water, settings));
+  };
+  const std::string published = "scheme.formulation=published";
+  const std::string two_step = "scheme.name=farmani2020";
+  EXPECT_EQ(traits({}).support, 3.0);
+  EXPECT_EQ(traits({"study.support=4"}).support, 4.0);
+  EXPECT_FALSE(traits({}).walls.on_wall);
+  EXPECT_TRUE(traits({published}).walls.on_wall);
+  EXPECT_FALSE(traits({published}).walls.behind);
+  EXPECT_EQ(traits({two_step, published}).support, 2.0 * 1.2);  // h = 1.2 dx
+  EXPECT_TRUE(traits({two_step, published}).walls.behind);
+  EXPECT_EQ(traits({}).no_floating, "");
+  EXPECT_NE(traits({"study.displacement=mean-velocity"}).no_floating, "");
+  EXPECT_NE(traits({two_step}).no_floating, "");
+  EXPECT_NE(traits({published}).no_reaction, "");
 }
 
 TEST(Formulation, RobustIsTheStructsOwnDefaults) {

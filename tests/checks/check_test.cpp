@@ -51,7 +51,7 @@ TEST(Check, AGoodCaseHasNoFindings) {
   spec.particles.jitter = 0.4;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.particles.jitter = 0.0;
-  spec.scheme.walls = WallTreatment::pressure_rows;
+  spec.scheme.formulation = Formulation::published;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
@@ -319,9 +319,10 @@ TEST(CheckMotion, ClosingCrushesTheWater) {
 
 TEST(CheckMotion, RowsOnTheWallsMustNotLieInEachOther) {
   CaseSpec spec = gate_case({0.0, "1.5*t"});
-  spec.scheme.walls = WallTreatment::row_and_dummies;
+  spec.scheme.name = SchemeName::farmani2020;
+  spec.scheme.formulation = Formulation::published;
   spec.fluid = {box_fluid({0, 0}, {0.5, 0.5})};
-  expect_only(check(spec), Severity::error, {"wall 'gate' is 0 m from wall 'wall1' at (1, 0)", "0.05 m", "dummies"});
+  expect_only(check(spec), Severity::error, {"wall 'gate' is 0 m from wall 'wall1' at (1, 0)", "0.05 m", "robust"});
   spec.walls[1].min[1] = 0.05;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
@@ -397,8 +398,8 @@ TEST(Check, WaterBehindALineIsAnError) {
   expect_only(check(spec), Severity::error, {"can reach the back of wall 'wall2'", "shape = \"plate\""});
   spec.walls[1].shape = WallShape::plate;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
-  spec.scheme.walls = WallTreatment::pressure_rows;
-  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"dummies\""});
+  spec.scheme.formulation = Formulation::published;
+  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"robust\""});
 }
 
 // Water on both sides of a slanted plate, each nearer than dx/2 to the other.

@@ -37,7 +37,7 @@ std::vector<CaseSpec> cases() {
   CaseSpec round = boxes;
   round.walls.push_back(polygon(circle(24, 0.21, {1.02, 0.33}), FluidSide::outside));
   cases.push_back(round);
-  slope.scheme.walls = WallTreatment::pressure_rows;
+  slope.scheme.formulation = Formulation::published;
   cases.push_back(slope);
   CaseSpec wrong = boxes;  // overlapping, behind a wall, and leaking
   wrong.fluid[1].min = {0.5, 0};

@@ -48,7 +48,7 @@ TYPED_TEST(KernelTest, IntegratesToOne) {
       };
       const double integral = gauss(0.0, 0.5 * radius, shell) + gauss(0.5 * radius, radius, shell);
       // A sum of 8 positive terms of some 10 roundings each.
-      EXPECT_NEAR(integral, 1.0, 100.0 * eps) << name_of(name) << ", radius " << radius;
+      EXPECT_NEAR(integral, 1.0, 100.0 * eps) << static_cast<int>(name) << ", radius " << radius;
     }
   }
 }
@@ -66,7 +66,7 @@ TYPED_TEST(KernelTest, DerivativeIsThatOfTheValue) {
         // W(b) - W(a) is the integral of dW/dr, which the quadrature takes exactly.
         const double integral = gauss(a, b, [&](double r) { return kernel_derivative(kernel, r); });
         EXPECT_NEAR(kernel_value(kernel, b) - kernel_value(kernel, a), integral, 100.0 * eps * W_0)
-            << name_of(name) << ", radius " << radius << ", r = " << a;
+            << static_cast<int>(name) << ", radius " << radius << ", r = " << a;
       }
     }
   }
@@ -80,7 +80,7 @@ TYPED_TEST(KernelTest, FIsTheDerivativeOverTheDistance) {
       for (int n = 1; n < 120; ++n) {
         const double r = 0.01 * n * radius;
         const double F = kernel_steepness(kernel, r);
-        EXPECT_NEAR(F, -kernel_derivative(kernel, r) / r, 16.0 * eps * F) << name_of(name) << ", r = " << r;
+        EXPECT_NEAR(F, -kernel_derivative(kernel, r) / r, 16.0 * eps * F) << static_cast<int>(name) << ", r = " << r;
       }
     }
   }
@@ -109,8 +109,8 @@ TYPED_TEST(KernelTest, IsZeroFromTheSupportOn) {
       const Kernel<Dim> kernel = make_kernel<Dim>(name, radius);
       EXPECT_EQ(kernel_radius(kernel), radius);
       for (const double r : {radius, std::nextafter(radius, 2.0 * radius), 1.5 * radius, 1e6 * radius}) {
-        EXPECT_EQ(kernel_value(kernel, r), 0.0) << name_of(name) << ", r = " << r;
-        EXPECT_EQ(kernel_derivative(kernel, r), 0.0) << name_of(name) << ", r = " << r;
+        EXPECT_EQ(kernel_value(kernel, r), 0.0) << static_cast<int>(name) << ", r = " << r;
+        EXPECT_EQ(kernel_derivative(kernel, r), 0.0) << static_cast<int>(name) << ", r = " << r;
       }
     }
   }
@@ -122,8 +122,8 @@ TYPED_TEST(KernelTest, IsPositiveAndFallsInsideTheSupport) {
     const Kernel<Dim> kernel = make_kernel<Dim>(name, 1.0);
     EXPECT_GT(kernel_value(kernel, 0.0), 0.0);
     for (int n = 1; n < 100; ++n) {
-      EXPECT_GT(kernel_value(kernel, 0.01 * n), 0.0) << name_of(name);
-      EXPECT_LT(kernel_derivative(kernel, 0.01 * n), 0.0) << name_of(name);
+      EXPECT_GT(kernel_value(kernel, 0.01 * n), 0.0) << static_cast<int>(name);
+      EXPECT_LT(kernel_derivative(kernel, 0.01 * n), 0.0) << static_cast<int>(name);
     }
   }
 }

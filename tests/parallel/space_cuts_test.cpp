@@ -41,25 +41,21 @@ template <class Dimension>
 class SpaceCutsTest : public testing::Test {};
 TYPED_TEST_SUITE(SpaceCutsTest, Dimensions);
 
-constexpr DecompositionMethod methods[] = {DecompositionMethod::hsfc, DecompositionMethod::rcb};
-
 /// A cut passes between points, so a part misses its share by up to the weight of one point at each of its cuts, or by
 /// the tolerance that Zoltan is given, 1 %.
 TYPED_TEST(SpaceCutsTest, PartsGetEqualWeight) {
   constexpr int Dim = TypeParam::value;
   const Cloud<Dim> cloud;
-  for (const DecompositionMethod method : methods) {
-    SpaceCuts<Dim> cuts(cloud.ranks, method);
-    cuts.cut(cloud.own, cloud.own_weights);
-    std::vector<double> weight(cloud.ranks.size(), 0.0);
-    double total = 0.0;
-    for (std::size_t i = 0; i < cloud.all.size(); ++i) {
-      weight[cuts.part_of(cloud.all[i])] += cloud.all_weights[i];
-      total += cloud.all_weights[i];
-    }
-    const double share = total / cloud.ranks.size();
-    for (const double part : weight) EXPECT_NEAR(part, share, 0.01 * share + 2.0 * 3.0);
+  SpaceCuts<Dim> cuts(cloud.ranks);
+  cuts.cut(cloud.own, cloud.own_weights);
+  std::vector<double> weight(cloud.ranks.size(), 0.0);
+  double total = 0.0;
+  for (std::size_t i = 0; i < cloud.all.size(); ++i) {
+    weight[cuts.part_of(cloud.all[i])] += cloud.all_weights[i];
+    total += cloud.all_weights[i];
   }
+  const double share = total / cloud.ranks.size();
+  for (const double part : weight) EXPECT_NEAR(part, share, 0.01 * share + 2.0 * 3.0);
 }
 
 TYPED_TEST(SpaceCutsTest, RanksAgreeAlsoAboutFarPlaces) {
@@ -69,19 +65,17 @@ TYPED_TEST(SpaceCutsTest, RanksAgreeAlsoAboutFarPlaces) {
   std::vector<Vec<Dim>> places = cloud.all;
   for (int i = 0; i < 2000; ++i) places.push_back(3.0 * noise.vector<Dim>());
   for (int i = 0; i < 100; ++i) places.push_back(1e3 * noise.vector<Dim>());
-  for (const DecompositionMethod method : methods) {
-    SpaceCuts<Dim> cuts(cloud.ranks, method);
-    EXPECT_FALSE(cuts.are_made());
-    cuts.cut(cloud.own, cloud.own_weights);
-    std::int64_t disagreements = 0;
-    for (const Vec<Dim>& place : places) {
-      const int part = cuts.part_of(place);
-      ASSERT_GE(part, 0);
-      ASSERT_LT(part, cloud.ranks.size());
-      disagreements += part != cloud.ranks.largest(part);
-    }
-    EXPECT_EQ(disagreements, 0);
+  SpaceCuts<Dim> cuts(cloud.ranks);
+  EXPECT_FALSE(cuts.are_made());
+  cuts.cut(cloud.own, cloud.own_weights);
+  std::int64_t disagreements = 0;
+  for (const Vec<Dim>& place : places) {
+    const int part = cuts.part_of(place);
+    ASSERT_GE(part, 0);
+    ASSERT_LT(part, cloud.ranks.size());
+    disagreements += part != cloud.ranks.largest(part);
   }
+  EXPECT_EQ(disagreements, 0);
 }
 
 /// Restored cuts are the same, and so are those that are made next: bisection starts from the cuts before.
@@ -91,21 +85,19 @@ TYPED_TEST(SpaceCutsTest, CanBeSavedAndRestored) {
   const auto expect_same = [&](const SpaceCuts<Dim>& a, const SpaceCuts<Dim>& b) {
     for (const Vec<Dim>& place : cloud.all) ASSERT_EQ(a.part_of(place), b.part_of(place));
   };
-  for (const DecompositionMethod method : methods) {
-    SpaceCuts<Dim> cuts(cloud.ranks, method);
-    cuts.cut(cloud.own, cloud.own_weights);
-    for (double& weight : cloud.own_weights) weight = 1.0 / weight;
-    cuts.cut(cloud.own, cloud.own_weights);
-    SpaceCuts<Dim> restored(cloud.ranks, method);
-    if (cloud.ranks.is_alone()) continue;
-    restored.restore(cuts.bytes());
-    EXPECT_TRUE(restored.are_made());
-    expect_same(cuts, restored);
-    for (std::size_t i = 0; i < cloud.own.size(); ++i) cloud.own_weights[i] = 2.0 + cloud.own[i][0];
-    cuts.cut(cloud.own, cloud.own_weights);
-    restored.cut(cloud.own, cloud.own_weights);
-    expect_same(cuts, restored);
-  }
+  SpaceCuts<Dim> cuts(cloud.ranks);
+  cuts.cut(cloud.own, cloud.own_weights);
+  for (double& weight : cloud.own_weights) weight = 1.0 / weight;
+  cuts.cut(cloud.own, cloud.own_weights);
+  SpaceCuts<Dim> restored(cloud.ranks);
+  if (cloud.ranks.is_alone()) return;
+  restored.restore(cuts.bytes());
+  EXPECT_TRUE(restored.are_made());
+  expect_same(cuts, restored);
+  for (std::size_t i = 0; i < cloud.own.size(); ++i) cloud.own_weights[i] = 2.0 + cloud.own[i][0];
+  cuts.cut(cloud.own, cloud.own_weights);
+  restored.cut(cloud.own, cloud.own_weights);
+  expect_same(cuts, restored);
 }
 
 /// Recursive bisection cuts space by planes: a far place belongs to the part of what is nearest to it in the cloud when
@@ -113,7 +105,7 @@ TYPED_TEST(SpaceCutsTest, CanBeSavedAndRestored) {
 TYPED_TEST(SpaceCutsTest, PartsOfBisectionAreBoxesWithoutBound) {
   constexpr int Dim = TypeParam::value;
   const Cloud<Dim> cloud;
-  SpaceCuts<Dim> cuts(cloud.ranks, DecompositionMethod::rcb);
+  SpaceCuts<Dim> cuts(cloud.ranks);
   cuts.cut(cloud.own, cloud.own_weights);
   for (const Vec<Dim>& x : cloud.all) {
     for (int d = 0; d < Dim; ++d) {

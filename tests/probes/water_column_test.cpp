@@ -49,10 +49,11 @@ TYPED_TEST(WaterColumnTest, KernelSumsAtCellFacesAreWithinTheBoundsAssumed) {
     for (const double offset : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}) {
       double sum = 0.0;
       for (int z = -4; z < 4; ++z) sum += row(z + 0.5, offset);
-      EXPECT_NEAR(sum, 1.0, 0.0125) << name_of(name) << ' ' << offset;
-      EXPECT_GT(row(0.5, offset), 0.34) << name_of(name) << ' ' << offset;
+      EXPECT_NEAR(sum, 1.0, 0.0125) << static_cast<int>(name) << ' ' << offset;
+      EXPECT_GT(row(0.5, offset), 0.34) << static_cast<int>(name) << ' ' << offset;
       for (double z = 0.0; z < 3.0; z += 0.125) {
-        EXPECT_LT(row(z, offset) - row(z + 0.125, offset), 0.125 * 0.45) << name_of(name) << ' ' << offset << ' ' << z;
+        EXPECT_LT(row(z, offset) - row(z + 0.125, offset), 0.125 * 0.45)
+            << static_cast<int>(name) << ' ' << offset << ' ' << z;
       }
     }
   }

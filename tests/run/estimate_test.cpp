@@ -49,7 +49,7 @@ TEST(CheckMemory, TheSpacingItProposesFits) {
   CaseSpec spec = empty_case(1e-4);
   spec.fluid = {box_fluid({0, 0}, {1, 1})};
   // Memory for a hundredth of the 1e8 particles: ten times the spacing.
-  const double available = memory_estimate<2>({.fluid = 1e6}, neighbours_in_support<2>(spec.scheme.support));
+  const double available = memory_estimate<2>({.fluid = 1e6}, neighbours_in_support<2>(traits_of(spec).support));
   expect_one_error(check_memory(spec, make_boundary<2>(spec), available), {"at least 0.001 m"});
   spec.particles.spacing = 1.001e-3;
   EXPECT_TRUE(check_memory(spec, make_boundary<2>(spec), available).empty());

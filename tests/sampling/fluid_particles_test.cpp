@@ -47,9 +47,9 @@ TEST(FluidLattice, HasTheVolumeOfABlockWhoseExtentIsNotWhole) {
   for (const double volume : fluid.volume) EXPECT_NEAR(volume, 0.11 * 0.04, round_off);
 }
 
-TEST(FluidLattice, IsNodeCentredBesidePressureRows) {
+TEST(FluidLattice, IsNodeCentredBesideRowsOnTheWall) {
   CaseSpec spec = tank();
-  spec.scheme.walls = WallTreatment::pressure_rows;
+  spec.scheme.formulation = Formulation::published;
   const FluidParticles<2> fluid = fluid_of(spec);
   // Nodes 0..10 by 0..4 without those on the two side walls and on the bed.
   ASSERT_EQ(fluid.position.size(), 9u * 4u);

@@ -19,8 +19,6 @@ inline CaseSpec free_case(double spacing) {
   spec.particles.spacing = spacing;
   spec.physics.gravity = {0.0, 0.0};
   spec.physics.viscosity = 0.0;
-  spec.scheme.artificial_viscosity = 0.0;
-  spec.scheme.viscosity_floor = 0.0;
   spec.scheme.noise_viscosity = 0.0;
   return spec;
 }

@@ -63,7 +63,7 @@ TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
   EXPECT_LT(rise_of_dam_break(spec, 0.25), 1e-4);
   // Without a limit the rise of the kernel's own pair vectors is 1.9e-4 (observed, not derived): the start of this test
   // does put the limit to use. With corrected ones it would be 3e-6.
-  spec.scheme.energy_slack = 1e3;
+  spec.study.energy_slack = 1e3;
   EXPECT_GT(rise_of_dam_break(spec, 0.25), 1.5e-4);
 }
 
@@ -89,7 +89,7 @@ TEST(DensitySource, CorrectsAsFastWhateverTheStep) {
   for (std::size_t n = 0; n < left.size(); ++n) {
     CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
     spec.scheme.courant /= static_cast<double>(n + 1);
-    spec.scheme.shifting = ShiftingKind::none;
+    spec.study.shifting = 0.0;
     Flow<2> flow(spec);
     stretch_up(flow);
     locate(flow);
@@ -190,7 +190,7 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
 TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
   spec.scheme.integrator = GetParam();
-  spec.scheme.energy_slack = 1.0;  // all that the settling lattice does is small
+  spec.study.energy_slack = 1.0;  // all that the settling lattice does is small
   Flow<2> flow(spec);
   const double mass = flow.setup.density * 0.5 * 0.5;
   flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;

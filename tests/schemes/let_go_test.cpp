@@ -60,7 +60,7 @@ TYPED_TEST(LetGoTest, WithoutGravityNothingFalls) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, 0.4, 0.2);
   spec.physics.gravity = Coordinates(Dim, 0.0);
-  spec.scheme.length = 0.2;
+  spec.study.length = 0.2;
   Flow<Dim> flow(spec);
   flow.state.particles.position[0] = beside<Dim>(100.0);
   EXPECT_FALSE(let_go(flow));

@@ -16,7 +16,6 @@ namespace {
 struct Way {
   const char* name;
   Integrator integrator;
-  ImplicitForm form = ImplicitForm::residual;
 };
 
 std::ostream& operator<<(std::ostream& out, const Way& way) { return out << way.name; }
@@ -25,7 +24,6 @@ CaseSpec case_with(const Way& way, double dx) {
   CaseSpec spec;
   spec.particles.spacing = dx;
   spec.scheme.integrator = way.integrator;
-  spec.scheme.implicit_form = way.form;
   return spec;
 }
 

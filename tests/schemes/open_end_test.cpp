@@ -43,9 +43,9 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
     spec.walls[0].open.emplace_back("-x");
     spec.physics.gravity = Coordinates(Dim, 0.0);
     spec.scheme.integrator = integrator;
-    spec.scheme.shifting = ShiftingKind::none;  // it would round the plug's ends off
-    spec.scheme.density_relaxation = 0.0;       // they have too few neighbours
-    spec.scheme.length = 0.2;
+    spec.study.shifting = 0.0;            // it would round the plug's ends off
+    spec.study.density_relaxation = 0.0;  // they have too few neighbours
+    spec.study.length = 0.2;
     spec.fluid[0].velocity.assign(Dim, 0.0);
     spec.fluid[0].velocity[0] = speed;
     Flow<Dim> flow(spec);
@@ -163,9 +163,9 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
   CaseSpec spec = channel<Dim>(1.0, 0.2);
   spec.walls[0].max.back() = spec.inlets[0].to.back() = spec.outlets[0].to.back() = height;
   spec.physics.gravity = Coordinates(Dim, 0.0);
-  spec.scheme.shifting = ShiftingKind::none;
-  spec.scheme.density_relaxation = 0.0;
-  spec.scheme.length = 0.2;
+  spec.study.shifting = 0.0;
+  spec.study.density_relaxation = 0.0;
+  spec.study.length = 0.2;
   spec.fluid.clear();
   spec.inlets[0].velocity = speed;
   const double breadth = 1.0;  // m; in 3D as broad as wide
@@ -335,7 +335,7 @@ TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
 TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
   CaseSpec spec = channel<2>(1.0, 0.4);
   spec.fluid.clear();
-  spec.scheme.length = 0.4;
+  spec.study.length = 0.4;
   spec.physics.gravity = {0.0, 0.0};
   spec.walls[0].max[1] = spec.inlets[0].to[1] = spec.outlets[0].to[1] = 0.4;
   spec.inlets[0].velocity = 1.5;

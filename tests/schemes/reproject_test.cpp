@@ -1,4 +1,4 @@
-// The second projection: what it takes away, and what it must not touch, whatever the operators and the particles.
+// The second projection: what it takes away, and what it must not touch, whatever the particles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +13,11 @@ namespace tailwater {
 namespace {
 
 /// Jittered, so that nothing is even; periodic, so that there is no surface and every particle counts.
-CaseSpec periodic_square(DivergenceKind divergence) {
+CaseSpec periodic_square() {
   CaseSpec spec = free_case(0.1);
   spec.particles.jitter = 0.2;
   spec.domain.periodic_x = {0.0, 1.0};
   spec.domain.periodic_y = {0.0, 1.0};
-  spec.scheme.divergence = divergence;
   FluidTable water;
   water.min = {0.0, 0.0};
   water.max = {1.0, 1.0};
@@ -41,11 +40,9 @@ void reproject_here(Flow<2>& flow) {
 
 double rms_divergence(Flow<2>& flow) { return bulk_rms(flow, find_divergence(flow)); }
 
-class Reproject : public testing::TestWithParam<DivergenceKind> {};
-
-TEST_P(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
+TEST(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
   constexpr double k = 2.0 * std::numbers::pi;
-  Flow<2> flow(periodic_square(GetParam()));
+  Flow<2> flow(periodic_square());
   std::vector<Vec<2>>& velocity = flow.state.particles.velocity;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
@@ -64,8 +61,8 @@ TEST_P(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
   EXPECT_LT((momentum() - before).norm(), 1e-12 * flow.state.particles.owned);
 }
 
-TEST_P(Reproject, LeavesAUniformVelocityAlone) {
-  Flow<2> flow(periodic_square(GetParam()));
+TEST(Reproject, LeavesAUniformVelocityAlone) {
+  Flow<2> flow(periodic_square());
   const Vec<2> uniform{1.0, -2.0};
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) flow.state.particles.velocity[i] = uniform;
   reproject_here(flow);
@@ -74,9 +71,6 @@ TEST_P(Reproject, LeavesAUniformVelocityAlone) {
     EXPECT_LT((flow.state.particles.velocity[i] - uniform).norm(), 1e-12);
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Divergences, Reproject, testing::Values(DivergenceKind::standard, DivergenceKind::consistent),
-                         [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace
 }  // namespace tailwater

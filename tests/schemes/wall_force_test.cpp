@@ -98,11 +98,6 @@ std::ostream& operator<<(std::ostream& out, const Scheme& scheme) { return out <
 const Scheme schemes[] = {
     {"explicit", [](CaseSpec& spec) { spec.scheme.integrator = Integrator::explicit_projection; }},
     {"implicit", [](CaseSpec& spec) { spec.scheme.integrator = Integrator::implicit_projection; }},
-    {"repeated",
-     [](CaseSpec& spec) {
-       spec.scheme.integrator = Integrator::implicit_projection;
-       spec.scheme.implicit_form = ImplicitForm::repeated;
-     }},
     {"two_step",
      [](CaseSpec& spec) {
        spec.scheme.name = SchemeName::farmani2020;
@@ -114,7 +109,6 @@ const Scheme schemes[] = {
        spec.scheme.formulation = Formulation::published;
        apply_formulation(spec.scheme);
      }},
-    {"pressure_rows", [](CaseSpec& spec) { spec.scheme.walls = WallTreatment::pressure_rows; }},
 };
 
 class WallForce : public testing::TestWithParam<Scheme> {};
@@ -148,7 +142,7 @@ void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, d
   EXPECT_GT(largest[Dim - 1], 2.0 * momentum_of(flow).mass * g);
   EXPECT_GT(largest[0], 0.1 * momentum_of(flow).mass * g);
   // Water does not come near a wall that has a row of its equation's particles on it.
-  EXPECT_EQ(any_contact, spec.scheme.walls != WallTreatment::row_and_dummies);
+  EXPECT_EQ(any_contact, spec.scheme.formulation == Formulation::robust);
 }
 
 TEST_P(WallForce, IsWhatTheMomentumLosesInATank) { expect_balance_of_momentum<2>(GetParam(), 0.05, 1.0, 0.4, 40); }
@@ -320,14 +314,14 @@ TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
 TEST(WallForceRefuses, SchemesWithoutReactions) {
   CaseSpec spec = tank_case<2>(0.1, 1.0, 0.5);
   spec.probes = {force_probe({0.0, 0.0})};
-  spec.scheme.gradient = GradientKind::consistent;
+  spec.scheme.formulation = Formulation::published;
   const Boundary<2> boundary = make_boundary<2>(spec);
   try {
     force_reading<2>(spec.probes[0], spec, boundary);
     FAIL() << "the consistent gradient has no reactions";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    for (const char* part : {"probe 'force'", "scheme.gradient", "\"conservative\""}) {
+    for (const char* part : {"probe 'force'", "scheme.formulation", "\"robust\""}) {
       EXPECT_NE(message.find(part), std::string::npos) << message;
     }
   }

@@ -22,7 +22,7 @@ from .reading import divergence, energy_at, exact, interventions, mean_level, ob
 from .runs import Run, finished, outcome
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-INVISCID = ("scheme.artificial_viscosity=0", "scheme.viscosity_floor=0", "scheme.noise_viscosity=0")
+INVISCID = ("scheme.noise_viscosity=0",)
 STARTS = {
     "regular": (),
     "shifted": ('fluid[0].min=["dx/2", "dx/2"]', 'fluid[0].max=["2*H+dx/2", "H+dx/2"]'),

@@ -147,15 +147,14 @@ def devices(plan):
     dx = spacing(plan)
     no_noise = ("scheme.noise_viscosity=0",)
     return zhou_comparison(
-        "devices", "With and without artificial viscosity, sub-particle stress and shifting",
+        "devices", "With and without artificial viscosity and shifting",
         "The default damps only differences between neighbours that a smooth field does not explain. The papers damp the "
-        "velocity itself (c_a = 0.2), add a sub-particle stress (c_s = 0.10), and shift particles.",
+        "velocity itself (c_a = 0.2), and shift particles.",
         {"default": zhou_run(plan, dx),
          "no viscosity": zhou_run(plan, dx, variant="inviscid", settings=no_noise),
          "c_a = 0.2 instead": zhou_run(plan, dx, variant="ca0.2",
-                                       settings=(*no_noise, "scheme.artificial_viscosity=0.2")),
-         "with stress": zhou_run(plan, dx, variant="sps", settings=("scheme.smagorinsky=0.10",)),
-         "no shifting": zhou_run(plan, dx, variant="no-shifting", settings=("scheme.shifting=none",))})
+                                       settings=(*no_noise, "study.artificial_viscosity=0.2")),
+         "no shifting": zhou_run(plan, dx, variant="no-shifting", settings=("study.shifting=0",))})
 
 
 def slip(plan):
