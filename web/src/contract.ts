@@ -38,6 +38,8 @@ export interface Probe {
   type: string;
   /** One point, a line, or an outline; empty: it has no place. */
   points: Point[];
+  /** Its table in the run's folder; probes/NAME.csv where it is not said. */
+  file?: string;
   columns: string[];
   lines?: Lines;
 }

@@ -2,7 +2,6 @@
 import type { StageColours } from "./water/stage.ts";
 
 export interface Theme extends StageColours {
-  paper: string;
   water: string;
   text: string;
   faint: string;

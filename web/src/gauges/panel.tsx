@@ -10,6 +10,7 @@ import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
 import { number, split } from "../units.ts";
 import { axisLabel, choices, curves, favourite, isProfile, laboratory } from "./curves.ts";
+import { limit, meanOf, type Mean } from "./limit.ts";
 import { Plot, type Line } from "./plot.tsx";
 import { saveText } from "../picture/save.ts";
 import { toSvg } from "../picture/svg.ts";
@@ -96,6 +97,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
       ) : (
         <p class="hint">No reading yet.</p>
       )}
+      {!profile && runs.length >= 3 && <Limit runs={runs} probe={probe.name} column={column} plot={plot} />}
       {lab.map((m) => (
         <p class="score">
           <i /> {m.title ?? m.name}
@@ -119,6 +121,32 @@ function Now({ app, run, probe, column, unit }: { app: App; run: Subject; probe:
     return app.player.on(tell);
   });
   return <span class="value" ref={out} />;
+}
+
+/** Means over the times that the plot shows, and what they come to at dx = 0, where there are three spacings. */
+function Limit({ runs, probe, column, plot }: { runs: Subject[]; probe: string; column: string; plot: { current: uPlot | null } }) {
+  const [span, show] = useState<[number, number] | null>(null);
+  useEffect(() => {
+    const u = plot.current;
+    if (!u) return;
+    const tell = (of: uPlot) => {
+      const { min, max } = of.scales["x"]!;
+      if (min != null && max != null) show((was) => (was && was[0] === min && was[1] === max ? was : [min, max]));
+    };
+    tell(u);
+    (u.hooks.setScale ??= []).push(tell);
+  });
+  if (!span || new Set(runs.map((run) => run.scene.spacing)).size < 3) return null;
+  const means = curves(runs, probe, column).map(({ run, x, y }) => meanOf(run.scene.spacing, x, y, ...span));
+  if (means.some((m) => m === null) || means.length < 3) return null;
+  const end = limit(means as Mean[]);
+  if (!end) return null;
+  const { unit } = split(column);
+  return (
+    <p class="score" title="A straight line through the means over the times shown; zoom to where the flow is steady">
+      means over {number(span[0], 3)} to {number(span[1], 3)} s: {means.map((m) => number(m!.mean, 4)).join(", ")}; at dx = 0: <strong>{number(end.value, 4)} ± {number(end.uncertainty, 2)} {unit}</strong>
+    </p>
+  );
 }
 
 function overTime(app: App, runs: Subject[], probe: Probe, column: string): Line[] {

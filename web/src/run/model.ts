@@ -11,6 +11,7 @@ const idle = 5000;
 export class RunModel implements Subject {
   tables = new Map<string, Table>();
   info: Info | null = null;
+  private maps = new Map<string, Table>();
   /** What went wrong with this run's data, "": nothing. */
   trouble = "";
   gone = false;
@@ -104,7 +105,8 @@ export class RunModel implements Subject {
       if (frames.length > 0) this.frames.add(frames);
       this.info = await this.source.info(this.id);
       this.connected = true;
-      await Promise.all(this.scene.probes.map((probe) => this.read(`probes/${probe.name}.csv`)));
+      await Promise.all(this.scene.probes.map((probe) => this.read(probe.file ?? `probes/${probe.name}.csv`)));
+      if (this.scene.dimension === 2) await Promise.all(this.scene.probes.filter((p) => p.type === "level-map").map((p) => this.readMap(p.name)));
       this.trouble = "";
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);
@@ -128,8 +130,19 @@ export class RunModel implements Subject {
     this.changed();
   }
 
+  /** A level map is written anew each time, so it is read whole. */
+  private async readMap(probe: string): Promise<void> {
+    const table = new Table();
+    table.append(await this.source.file(this.id, `probes/${probe}.map.csv`, 0));
+    if (table.rows > 0) this.maps.set(probe, table);
+  }
+
+  map(probe: string): Table | undefined {
+    return this.maps.get(probe);
+  }
+
   table(probe: string): Table | undefined {
-    return this.tables.get(`probes/${probe}.csv`);
+    return this.tables.get(this.scene.probes.find((p) => p.name === probe)?.file ?? `probes/${probe}.csv`);
   }
 
   get end(): number {

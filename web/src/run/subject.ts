@@ -20,6 +20,8 @@ export interface Subject {
     isDecoded(place: number): boolean;
   };
   table(probe: string): Table | undefined;
+  /** Largest, mean and last levels of a level map along a channel (2D), as far as they are written. */
+  map(probe: string): Table | undefined;
 }
 
 /** A scene as the page wants it: every list is there, and a box around all that is drawn. */
@@ -56,6 +58,7 @@ export function drawn(drawing: Drawing, name: string, id: string): Subject {
     id, name, scene, info: null, isLive: false, end: 0,
     frames: { list: [], times: [], at: () => at, frame: () => frame ?? undefined, isDecoded: () => frame !== null },
     table: () => undefined,
+    map: () => undefined,
   };
 }
 

@@ -67,7 +67,7 @@ void main() {
   if (size > 3.0) {
     cover *= clamp((1.0 - sqrt(r2)) * 0.5 * size + 0.5, 0.0, 1.0);
     if (cover <= 0.0) discard;
-    shade *= 1.0 - 0.22 * r2 * r2;
+    shade *= 1.0 - 0.16 * r2 * r2;
   }
   #else
   if (r2 > 1.0) discard;

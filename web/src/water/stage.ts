@@ -41,6 +41,7 @@ export class Stage {
     this.probes.set(scene.probes.map((probe) => this.mark(probe)));
     this.scene3.add(this.walls.group, this.particles.points, this.ends.mesh, this.profile.mesh, this.probes.mesh, this.lit.mesh);
     this.particles.points.renderOrder = dim === 2 ? -1 : 0;
+    for (const mark of [this.ends, this.profile, this.probes, this.lit]) mark.mesh.renderOrder = 3;
   }
 
   colours(c: StageColours): void {

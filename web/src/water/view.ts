@@ -1,5 +1,6 @@
 // The picture: stages in one canvas, side by side or one over the other, seen by one camera.
 import { Color, Vector4, WebGLRenderer } from "three";
+import { bestColumns } from "./columns.ts";
 import { Eye } from "./eye.ts";
 import type { Stage } from "./stage.ts";
 
@@ -73,8 +74,7 @@ export class WaterView {
   private arrange(): void {
     const { width, height } = this.size;
     const n = this.over ? 1 : Math.max(1, this.stages.length);
-    const wide = (this.stages[0]?.scene.dimension === 2 ? 1.6 : 1.2) * (height / width);
-    const columns = Math.min(n, Math.max(1, Math.round(Math.sqrt(n / wide))));
+    const columns = bestColumns(n, width / height, this.shape());
     const rows = Math.ceil(n / columns);
     this.cells = Array.from({ length: n }, (_, i) => ({
       stages: this.over ? this.stages : this.stages.slice(i, i + 1),
@@ -83,6 +83,13 @@ export class WaterView {
       width: width / columns,
       height: height / rows,
     }));
+  }
+
+  /** Width over height of what there is to see. */
+  private shape(): number {
+    const box = this.stages[0]?.bounds();
+    if (!box || this.stages[0]!.scene.dimension === 3) return 1.5;
+    return (box.max[0]! - box.min[0]!) / Math.max(1e-9, box.max[1]! - box.min[1]!);
   }
 
   draw(): void {

@@ -39,21 +39,26 @@ export interface WallColours {
   sheet: string;
   gate: string;
   body: string;
+  paper: string;
 }
 
 const roleOf = (wall: Wall): "wall" | "gate" | "body" => (wall.kind === "body" ? "body" : wall.kind === "gate" || wall.kind === "wave_maker" ? "gate" : "wall");
 
 export class WallMarks {
   readonly group = new Group();
-  private parts: { wall: Wall; holder: Group; lines: LineMark; sheets: Mesh<BufferGeometry, RawShaderMaterial>[] }[] = [];
+  private parts: { wall: Wall; holder: Group; lines: LineMark; casing: LineMark | null; sheets: Mesh<BufferGeometry, RawShaderMaterial>[] }[] = [];
 
   constructor(scene: Scene, private dim: 2 | 3) {
     for (const wall of scene.walls) {
       const holder = new Group();
       holder.matrixAutoUpdate = false;
       const lines = new LineMark({ colour: "#000", width: dim === 2 ? 3 : 1.2, opacity: dim === 2 ? 1 : 0.8 });
+      const casing = dim === 2 ? new LineMark({ colour: "#fff", width: 6 }) : null; // so that walls show before the water
       const sheets: Mesh<BufferGeometry, RawShaderMaterial>[] = [];
-      if (wall.polylines) lines.set(wall.polylines);
+      if (wall.polylines) {
+        lines.set(wall.polylines);
+        casing?.set(wall.polylines);
+      }
       if (wall.triangles) {
         const { positions, indices } = wall.triangles;
         const edge = edges(positions, indices);
@@ -64,15 +69,21 @@ export class WallMarks {
         if (wall.plate) sheets.push(sheet(geometry, DoubleSide, 1));
         else sheets.push(sheet(geometry, FrontSide, 1), sheet(geometry, BackSide, 0.06));
       }
+      if (casing) {
+        casing.mesh.renderOrder = 1;
+        lines.mesh.renderOrder = 2;
+        holder.add(casing.mesh);
+      }
       holder.add(...sheets, lines.mesh);
       this.group.add(holder);
-      this.parts.push({ wall, holder, lines, sheets });
+      this.parts.push({ wall, holder, lines, casing, sheets });
     }
   }
 
   colours(colours: WallColours): void {
-    for (const { wall, lines, sheets } of this.parts) {
+    for (const { wall, lines, casing, sheets } of this.parts) {
       lines.colour(colours[roleOf(wall)]);
+      casing?.colour(colours.paper);
       const face = roleOf(wall) === "wall" ? colours.sheet : colours[roleOf(wall)];
       for (const one of sheets) (one.material.uniforms["colour"]!.value as Color).set(face).convertLinearToSRGB();
     }
@@ -88,7 +99,7 @@ export class WallMarks {
   }
 
   picture(width: number, height: number): void {
-    for (const { lines } of this.parts) lines.picture(width, height);
+    for (const { lines, casing } of this.parts) for (const one of [lines, casing]) one?.picture(width, height);
   }
 
   move(posesA: number[][], posesB: number[][], share: number): void {
@@ -117,8 +128,9 @@ export class WallMarks {
   }
 
   dispose(): void {
-    for (const { lines, sheets } of this.parts) {
+    for (const { lines, casing, sheets } of this.parts) {
       lines.dispose();
+      casing?.dispose();
       for (const one of sheets) {
         one.geometry.dispose();
         one.material.dispose();

@@ -4,6 +4,7 @@ import { colourMaps, table } from "../../src/colours.ts";
 import { block, Table, toCsv, valueAt } from "../../src/tables.ts";
 import { duration, length, niceBelow, number, split, timeDecimals } from "../../src/units.ts";
 import { ticks, toSvg } from "../../src/picture/svg.ts";
+import { bestColumns } from "../../src/water/columns.ts";
 import { Player } from "../../src/time/player.ts";
 
 test("numbers as people read them", () => {
@@ -66,6 +67,13 @@ test("every colour map's lightness rises evenly, so that it is read without colo
     for (let i = 16; i < 256; i += 16) assert.ok(lightness[i]! > lightness[i - 16]! + 1, `${name} at ${i}`);
     assert.ok(lightness[255]! - lightness[0]! > 60, name);
   }
+});
+
+test("pictures side by side are as large as they can be", () => {
+  assert.equal(bestColumns(1, 1.5, 1), 1);
+  assert.equal(bestColumns(3, 1.5, 1), 2);
+  assert.equal(bestColumns(3, 3, 1), 3);
+  assert.equal(bestColumns(2, 1.5, 4), 1); // long flumes stand one over the other
 });
 
 test("the clock plays, stops at the end, loops, steps and follows", () => {
