@@ -22,7 +22,7 @@ export function choices(run: Subject, probe: Probe): string[] {
 export function favourite(probe: Probe, columns: string[]): string {
   const liked: Record<string, string[]> = {
     depth: ["connected_m"], front: ["front_m"], energy: ["total_J"], volume: ["density_error_rms"], profile: ["connected_m"],
-    "velocity-profile": ["velocity_x_m_per_s"], "run-up": ["connected_m"],
+    "velocity-profile": ["velocity_x_m_per_s"], "run-up": ["connected_m"], motion: ["displacement_y_m", "displacement_z_m"], "level-map": ["highest_m"],
   };
   return liked[probe.type]?.find((name) => columns.includes(name)) ?? columns[0] ?? "";
 }

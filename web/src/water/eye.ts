@@ -22,13 +22,16 @@ export class Eye {
     this.across = [first, new Vector3().crossVectors(this.up, first)];
   }
 
-  /** Shows the whole box in a picture of `aspect` = width / height. */
-  fit(min: number[], max: number[], aspect: number): void {
+  /** Shows the whole box in a picture of `aspect` = width / height; the share `below` of its height stays free for the legend. */
+  fit(min: number[], max: number[], aspect: number, below = 0): void {
     const size = max.map((x, d) => x - min[d]!);
     this.target.set(...(([0, 1, 2] as const).map((d) => (d < this.dim ? (min[d]! + max[d]!) / 2 : 0)) as [number, number, number]));
     this.reach = Math.hypot(...size);
     if (this.dim === 2) {
-      this.span = 1.12 * Math.max(size[1]!, size[0]! / aspect, 1e-6);
+      this.span = 1.1 * Math.max(size[1]! / (1 - below), size[0]! / aspect, 1e-6);
+      // The box stands in the middle where that leaves enough below it, else as high as it must.
+      const free = (this.span - size[1]!) / 2;
+      this.target.y -= Math.max(0, Math.min(below * this.span - free, 0.9 * free));
     } else {
       this.span = Math.max(0.82 * this.reach, (0.98 * this.reach) / aspect, 1e-6);
     }

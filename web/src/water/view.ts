@@ -67,7 +67,8 @@ export class WaterView {
     const boxes = this.stages.map((stage) => stage.bounds());
     const min = boxes[0]!.min.map((_, d) => Math.min(...boxes.map((b) => b.min[d]!)));
     const max = boxes[0]!.max.map((_, d) => Math.max(...boxes.map((b) => b.max[d]!)));
-    this.eye.fit(min, max, this.aspect);
+    const below = this.cells.length === 1 ? Math.min(0.3, 86 / this.size.height) : 0; // pixels of the legend
+    this.eye.fit(min, max, this.aspect, below);
     this.untouched = true;
   }
 

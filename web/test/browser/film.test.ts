@@ -1,0 +1,46 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { standingWave } from "../support/flows.ts";
+import { Mock, run } from "../support/mock.ts";
+import { until, visit } from "../support/browser.ts";
+
+const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
+
+test("a still and a film of the view are saved", async () => {
+  const mock = new Mock({ page, runs: [run("a", "wave", standingWave(8), 9)] });
+  const visitor = await visit(await mock.listen());
+  try {
+    const view = visitor.page;
+    await until(view, "app.view.eye && app.shown()[0]?.frames.isDecoded(8)");
+    // Instead of a file on the disk: what would be saved.
+    await view.evaluate(`(() => {
+      globalThis.saved = [];
+      let last;
+      const make = URL.createObjectURL;
+      URL.createObjectURL = (blob) => make.call(URL, (last = blob));
+      HTMLAnchorElement.prototype.click = function () {
+        globalThis.saved.push({ name: this.download, type: last.type, size: last.size });
+      };
+    })()`);
+    await view.evaluate("document.activeElement?.blur()");
+    await view.keyboard.press("p");
+    await view.waitForFunction("globalThis.saved.length === 1");
+    await view.evaluate("tailwater.player.setSpeed(10)");
+    await view.keyboard.press("m");
+    await view.waitForSelector(".film button.primary");
+    await view.click(".film button.primary");
+    await view.waitForFunction("globalThis.saved.length === 2", { timeout: 15_000 });
+    const saved = (await view.evaluate("saved")) as { name: string; type: string; size: number }[];
+    assert.match(saved[0]!.name, /^wave_0\.000s\.png$/);
+    assert.equal(saved[0]!.type, "image/png");
+    assert.match(saved[1]!.name, /^wave\.(webm|mp4)$/);
+    assert.ok(saved.every(({ size }) => size > 2000));
+    await view.waitForFunction("document.querySelector('.film [role=status]')?.textContent.startsWith('Saved')");
+    assert.deepEqual(visitor.faults, []);
+  } finally {
+    await visitor.close();
+    mock.close();
+  }
+});
