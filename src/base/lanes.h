@@ -1,8 +1,5 @@
-// Several numbers side by side, on which the processor works at once. A loop over the pairs of a row that takes them in
-// lanes reads as the one pair by pair. Compilers do not turn one into the other: that would change the order of sums.
-// Pairs are computed in single precision; what is conserved or nearly cancels is summed in double
-// (docs/theory/neighbours.md).
-// The instructions that gather are not used, because on many processors they are slower than single loads.
+// Several numbers side by side, on which the processor works at once. Pairs are computed in single precision; what is
+// conserved or nearly cancels is summed in double (docs/theory/neighbours.md).
 #pragma once
 
 #include <algorithm>
@@ -57,6 +54,20 @@ inline Lanes fused(Lanes a, Lanes b, Lanes c) {
 template <int Dim>
 struct VecLanes {
   Lanes at[Dim];
+
+  VecLanes& operator+=(const VecLanes& other) {
+    for (int d = 0; d < Dim; ++d) at[d] += other.at[d];
+    return *this;
+  }
+  VecLanes& operator-=(const VecLanes& other) {
+    for (int d = 0; d < Dim; ++d) at[d] -= other.at[d];
+    return *this;
+  }
+  friend VecLanes operator-(VecLanes a, const VecLanes& b) { return a -= b; }
+  friend VecLanes operator*(Lanes weight, VecLanes vector) {
+    for (int d = 0; d < Dim; ++d) vector.at[d] *= weight;
+    return vector;
+  }
 
   Lanes dot(const VecLanes& other) const {
     Lanes sum = at[0] * other.at[0];
@@ -222,172 +233,15 @@ template <int Dim>
 struct VecSum {
   LaneSum at[Dim];
 
+  void operator+=(const VecLanes<Dim>& terms) {
+    for (int d = 0; d < Dim; ++d) at[d] += terms.at[d];
+  }
+
   Vec<Dim> total() const {
     Vec<Dim> total;
     for (int d = 0; d < Dim; ++d) total[d] = at[d].total();
     return total;
   }
 };
-
-/// Up to four numbers of a particle, which are loaded together.
-struct alignas(16) Four {
-  std::array<float, 4> at{};
-};
-
-/// A vector field in single precision.
-template <int Dim>
-std::vector<Four> in_fours(std::span<const Vec<Dim>> field) {
-  std::vector<Four> fours(field.size());
-  for_each(field.size(), [&](std::size_t i) {
-    for (int d = 0; d < Dim; ++d) fours[i].at[d] = static_cast<float>(field[i][d]);
-  });
-  return fours;
-}
-
-/// What each lane reads of an array that has several numbers per entry.
-class LaneIndices {
- public:
-  explicit LaneIndices(IntegerLanes indices) { std::memcpy(index_.data(), &indices, sizeof(indices)); }
-
-  Lanes operator()(const float* array) const { return read(array, std::make_index_sequence<lane_count>()); }
-  /// Rounded to single precision.
-  Lanes operator()(const double* array) const { return read(array, std::make_index_sequence<double_lane_count>()); }
-
-  /// The numbers of entries of nothing but numbers of four bytes, as many as fill whole registers.
-  template <class Entry>
-  [[gnu::always_inline]] std::array<Lanes, sizeof(Entry) / 4> numbers(const Entry* entries) const {
-    constexpr int count = sizeof(Entry) / 4;
-    static_assert(count % 4 == 0);
-    const auto* const numbers = reinterpret_cast<const float*>(entries);
-    std::array<Lanes, count> lanes;
-    for (int n = 0; n < count; n += 4) read_four<count>(numbers + n, &lanes[n]);
-    return lanes;
-  }
-
-  template <int Dim>
-  [[gnu::always_inline]] VecLanes<Dim> vectors(const Four* field) const {
-    const std::array<Lanes, 4> lanes = numbers(field);
-    VecLanes<Dim> vectors;
-    for (int d = 0; d < Dim; ++d) vectors.at[d] = lanes[d];
-    return vectors;
-  }
-
- private:
-  template <std::size_t... Lane>
-  Lanes read(const float* from, std::index_sequence<Lane...>) const {
-    return Lanes{from[index_[Lane]]...};
-  }
-  template <std::size_t... Lane>
-  Lanes read(const double* from, std::index_sequence<Lane...>) const {
-    const DoubleLanes low{from[index_[Lane]]...};
-    const DoubleLanes high{from[index_[Lane + double_lane_count]]...};
-    using Half = float __attribute__((vector_size(4 * double_lane_count)));
-    // In registers: what is written in halves and read as a whole has to wait for both to reach the cache.
-    return __builtin_shufflevector(__builtin_convertvector(low, Half), __builtin_convertvector(high, Half), Lane...,
-                                   (Lane + double_lane_count)...);
-  }
-
-  /// Four numbers that follow each other, of entries that have `Stride` of them. They are loaded together: loads are
-  /// what loops over pairs have most of.
-  template <int Stride>
-  [[gnu::always_inline]] void read_four(const float* from, Lanes* lanes) const {
-    using Quarter = float __attribute__((vector_size(16)));
-    const auto load = [&](int n) {
-      Quarter four;
-      std::memcpy(&four, from + Stride * static_cast<std::ptrdiff_t>(index_[n]), sizeof(four));
-      return four;
-    };
-#if defined(__AVX__)
-    __m256 rows[4];
-    for (int n = 0; n < 4; ++n) rows[n] = _mm256_insertf128_ps(_mm256_castps128_ps256(load(n)), load(n + 4), 1);
-    const __m256 low_even = _mm256_unpacklo_ps(rows[0], rows[1]);
-    const __m256 high_even = _mm256_unpackhi_ps(rows[0], rows[1]);
-    const __m256 low_odd = _mm256_unpacklo_ps(rows[2], rows[3]);
-    const __m256 high_odd = _mm256_unpackhi_ps(rows[2], rows[3]);
-    lanes[0] = _mm256_shuffle_ps(low_even, low_odd, 0x44);
-    lanes[1] = _mm256_shuffle_ps(low_even, low_odd, 0xEE);
-    lanes[2] = _mm256_shuffle_ps(high_even, high_odd, 0x44);
-    lanes[3] = _mm256_shuffle_ps(high_even, high_odd, 0xEE);
-#else
-    const Quarter low_even = __builtin_shufflevector(load(0), load(1), 0, 4, 1, 5);
-    const Quarter high_even = __builtin_shufflevector(load(0), load(1), 2, 6, 3, 7);
-    const Quarter low_odd = __builtin_shufflevector(load(2), load(3), 0, 4, 1, 5);
-    const Quarter high_odd = __builtin_shufflevector(load(2), load(3), 2, 6, 3, 7);
-    lanes[0] = __builtin_shufflevector(low_even, low_odd, 0, 1, 4, 5);
-    lanes[1] = __builtin_shufflevector(low_even, low_odd, 2, 3, 6, 7);
-    lanes[2] = __builtin_shufflevector(high_even, high_odd, 0, 1, 4, 5);
-    lanes[3] = __builtin_shufflevector(high_even, high_odd, 2, 3, 6, 7);
-#endif
-  }
-
-  std::array<std::int32_t, lane_count> index_;
-};
-
-/// Some entries of a row: as many as there are lanes, or the rest of a row. Then lanes left over have the last entry's
-/// neighbour, so that they hold numbers with which one can calculate, and 0 where a weight is loaded.
-template <bool is_full>
-struct LaneRange {
-  std::size_t begin;
-  int count;
-
-  std::size_t entry(int n) const { return begin + (is_full ? n : std::min(n, count - 1)); }
-
-  /// The neighbours of the entries.
-  LaneIndices neighbours(const std::int32_t* j) const {
-    fetch_ahead(j + begin);
-    auto indices = load<IntegerLanes>(j);
-    if constexpr (!is_full)
-      indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count - 1)]);
-    return LaneIndices(indices);
-  }
-  /// 0 in lanes left over.
-  Lanes load(const float* array) const {
-    fetch_ahead(array + begin);
-    return load<Lanes>(array);
-  }
-  /// `lanes` with 0 in those left over.
-  Lanes only(Lanes lanes) const {
-    if constexpr (!is_full) lanes = holds() ? lanes : Lanes{};
-    return lanes;
-  }
-  /// Writes to `place` and behind it. Returns what was written, with 0 in lanes left over.
-  Lanes store(Lanes lanes, float* place) const {
-    if constexpr (is_full) {
-      std::memcpy(place, &lanes, sizeof(lanes));
-    } else {
-      for (int n = 0; n < count; ++n) place[n] = lanes[n];
-    }
-    return only(lanes);
-  }
-
- private:
-  /// Of which lanes there are entries.
-  LaneTruths holds() const { return lane_numbers < count; }
-
-  template <class Wide, class Number>
-  Wide load(const Number* array) const {
-    Wide lanes{};
-    if constexpr (is_full) {
-      std::memcpy(&lanes, array + begin, sizeof(lanes));
-    } else {
-#if defined(__AVX__)
-      lanes = reinterpret_cast<Wide>(
-          _mm256_maskload_ps(reinterpret_cast<const float*>(array + begin), reinterpret_cast<__m256i>(holds())));
-#else
-      std::memcpy(&lanes, array + begin, sizeof(Number) * count);
-#endif
-    }
-    return lanes;
-  }
-};
-
-/// Calls body(range) for the entries begin .. end, in their order. Mark the body as always_inline: compilers do not
-/// see by themselves that its sums then stay in registers, which halves the time of a loop.
-template <class Body>
-[[gnu::always_inline]] inline void for_each_lanes(std::size_t begin, std::size_t end, Body&& body) {
-  constexpr std::size_t width = lane_count;
-  for (; begin + width <= end; begin += width) body(LaneRange<true>{begin, lane_count});
-  if (begin < end) body(LaneRange<false>{begin, static_cast<int>(end - begin)});
-}
 
 }  // namespace tailwater

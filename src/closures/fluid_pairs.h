@@ -19,27 +19,17 @@ Vec<Dim> sum_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles
   return sum;
 }
 
-/// W_ij of several pairs of particle i, and 0 for those with walls.
-template <int Dim, class Range>
-[[gnu::always_inline]] inline Lanes weights_of_fluid(const Pairs<Dim>& pairs, const Range& range, const LaneIndices& j,
-                                                     std::size_t i) {
-  const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-  return place.of_fluid(kernel_at(pairs, place.d));
-}
-
 /// Kernel-weighted mean of `field` over the fluid neighbours of particle i and the particle itself, which has weight
 /// `own_weight`. 0 if all weights are 0. `field` must be up to date on ghosts.
 template <int Dim>
 double mean_over_fluid(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> field, double own_weight) {
   Lanes sums{};
   Lanes weights{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const Lanes weight = weights_of_fluid(pairs, range, j, i);
-        sums += weight * j(field.data());
-        weights += weight;
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const Lanes weight = several.kernel_of_fluid();
+    sums += weight * several.of(field);
+    weights += weight;
+  });
   const double weight = own_weight + sum_of(weights);
   return weight > 0.0 ? (own_weight * field[i] + sum_of(sums)) / weight : 0.0;
 }

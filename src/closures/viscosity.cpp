@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "base/for_each.h"
@@ -41,7 +42,7 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
 /// What viscous forces need of several pairs of particle i. They are found over both volumes, which is opposite for the
 /// two particles to the last bit.
 template <int Dim>
-struct PairLanes {
+struct ViscousPairs {
   const PlaceLanes<Dim>& place;
   Lanes F;                   ///< of the kernel
   VecLanes<Dim> difference;  ///< m/s; u_j - u_i
@@ -53,25 +54,29 @@ struct PairLanes {
   bool is_in_layer;          ///< of i; a boundary layer
   Lanes layer_viscosity;     ///< m^2/s; of j
 
-  [[gnu::always_inline]] PairLanes(const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs, const LaneIndices& j,
-                                   const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends,
-                                   double spacing, std::size_t i)
+  template <class Several>
+  ViscousPairs(const Several& several, const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs,
+               const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends, double spacing)
       : place(place_of_pairs), F(F_of_pairs) {
-    const auto other = j.numbers(ends.data());
-    const ViscousEnd<Dim>& own = ends[i];
-    for (int a = 0; a < Dim; ++a) difference.at[a] = other[a] - own.velocity[a];
-    viscosity = 0.5F * (own.viscosity + other[Dim]);
+    using End = ViscousEnd<Dim>;
+    const auto number = [](std::size_t offset) { return offset / sizeof(float); };
+    const auto other = several.j.numbers(ends.data());
+    const End& own = ends[several.i];
+    for (int a = 0; a < Dim; ++a) difference.at[a] = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
+    viscosity = 0.5F * (own.viscosity + other[number(offsetof(End, viscosity))]);
     is_in_layer = own.layer_viscosity > 0.0F;
-    layer_viscosity = other[Dim + 1];
-    for (int n = 0; n < Dim * Dim; ++n) gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + other[Dim + 2 + n];
+    layer_viscosity = other[number(offsetof(End, layer_viscosity))];
+    for (int n = 0; n < Dim * Dim; ++n) {
+      gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + other[number(offsetof(End, gradient)) + n];
+    }
     squared = place.d.dot(place.d);
-    volumes = in_all_lanes(particles.volume[i]) * place.volume_of_fluid();
+    volumes = in_all_lanes(particles.volume[several.i]) * place.volume_of_fluid();
     share_of_volumes = volumes * share_of_morris_weight(squared, spacing);
   }
 
   /// Adds `noise_viscosity` times the force by the noise in the difference of velocity. The shear of a boundary layer,
   /// to which both particles belong, is left alone.
-  [[gnu::always_inline]] void add_noise_force(double noise_viscosity, VecLanes<Dim>& terms) const {
+  void add_noise_force(double noise_viscosity, VecLanes<Dim>& terms) const {
     constexpr double least = std::numeric_limits<float>::min();  // prevents 0/0
     VecLanes<Dim> explained = gradients.times(place.d);
     VecLanes<Dim> noise;
@@ -116,22 +121,20 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     VecSum<Dim> sum;
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          const LaneIndices j = range.neighbours(pairs.j.data());
-          const PairVectorLanes<Dim> vectors = pair_vectors(pairs, range, j, i);
-          const PairLanes<Dim> pair(vectors.place, vectors.F, j, particles, ends, spacing, i);
-          // Only of pairs that nearly coincide may the corrections turn the sign.
-          const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
-          const Lanes laplacian = 2.0F * pair.share_of_volumes * F;
-          VecLanes<Dim> terms;
-          for (int d = 0; d < Dim; ++d) {
-            const Lanes transposed = pair.volumes * pair.gradients.column[d].dot(vectors.a);
-            terms.at[d] = pair.viscosity * fused(laplacian, pair.difference.at[d], transposed);
-          }
-          if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, terms);
-          for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
-        });
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PairVectorLanes<Dim> vectors = pair_vectors(several);
+      const ViscousPairs<Dim> pair(several, vectors.place, vectors.F, particles, ends, spacing);
+      // Only of pairs that nearly coincide may the corrections turn the sign.
+      const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
+      const Lanes laplacian = 2.0F * pair.share_of_volumes * F;
+      VecLanes<Dim> terms;
+      for (int d = 0; d < Dim; ++d) {
+        const Lanes transposed = pair.volumes * pair.gradients.column[d].dot(vectors.a);
+        terms.at[d] = pair.viscosity * fused(laplacian, pair.difference.at[d], transposed);
+      }
+      if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, terms);
+      sum += terms;
+    });
     acceleration[i] += sum.total() / particles.volume[i];
   });
 }
@@ -158,15 +161,13 @@ void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particle
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     VecSum<Dim> sum;
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          const LaneIndices j = range.neighbours(pairs.j.data());
-          VecLanes<Dim> terms{};
-          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-          const PairLanes<Dim> pair(place, range.load(pairs.F.data()), j, particles, ends, spacing, i);
-          pair.add_noise_force(viscosity, terms);
-          for (int d = 0; d < Dim; ++d) sum.at[d] += terms.at[d];
-        });
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PlaceLanes<Dim> place = several.place();
+      const ViscousPairs<Dim> pair(several, place, several.F(), particles, ends, spacing);
+      VecLanes<Dim> terms{};
+      pair.add_noise_force(viscosity, terms);
+      sum += terms;
+    });
     acceleration[i] += sum.total() / particles.volume[i];
   });
 }

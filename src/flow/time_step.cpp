@@ -52,15 +52,11 @@ double largest_approach(Flow<Dim>& flow) {
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;
     Lanes approach{};
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          const LaneIndices j = range.neighbours(pairs.j.data());
-          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-          VecLanes<Dim> difference = j.template vectors<Dim>(velocity.data());
-          for (int a = 0; a < Dim; ++a) difference.at[a] -= velocity[i].at[a];
-          const Lanes rate = difference.dot(place.d) / sqrt_of(place.d.dot(place.d));
-          approach = max_of(approach, place.of_fluid(rate));
-        });
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PlaceLanes<Dim> place = several.place();
+      const Lanes rate = (several.of(velocity) - velocity[i]).dot(place.d) / sqrt_of(place.d.dot(place.d));
+      approach = max_of(approach, place.of_fluid(rate));
+    });
     return largest_of(approach);
   });
   return flow.setup.ranks.largest(largest);

@@ -98,18 +98,18 @@ class LinearSystem {
     /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of those kept.
     template <class Weight>
     double set_weights(Weight&& weight) {
-      return write_weights([&weight](std::size_t first, std::size_t end, float* weights) {
+      return write_weights([&](float* weights) {
+        const std::size_t first = system_.row_begin_[i_];
+        const std::size_t end = system_.row_begin_[i_ + 1];
         double sum = 0.0;
         for (std::size_t k = first; k < end; ++k) sum += weights[k - first] = static_cast<float>(weight(k));
         return sum;
       });
     }
-    /// The same at once: write(first, end, weights) writes those of the pattern's entries first .. end and returns the
-    /// sum of those kept.
+    /// The same at once: write(weights) writes those of all entries of the row and returns the sum of those kept.
     template <class Write>
     double write_weights(Write&& write) {
-      const std::uint32_t first = system_.row_begin_[i_];
-      return system_.sum_[i_] = write(first, system_.row_begin_[i_ + 1], system_.weights_.data() + first);
+      return system_.sum_[i_] = write(system_.weights_.data() + system_.row_begin_[i_]);
     }
     /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);

@@ -35,20 +35,21 @@ class CellGrid {
   /// Calls body(begin, end) for ranges of order(), one after the other, that hold all particles within reach() of the
   /// box from `low` to `high`, and some farther away.
   template <class Body>
-  [[gnu::always_inline]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high, Body&& body) const {
+  [[gnu::always_inline, gnu::flatten]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high,
+                                                                Body&& body) const {
     Vec<Dim> first;
     Vec<Dim> last;
     for (int d = 0; d < Dim; ++d) {
       first[d] = in_cells(low, d);
       last[d] = in_cells(high, d);
     }
-    const auto visit_row = [&](std::int64_t row, double squared) __attribute__((always_inline)) {
+    const auto visit_row = [&](std::int64_t row, double squared) {
       if (squared < 0.0) return;
       const auto [begin, end] = cells_within(Dim - 1, std::sqrt(squared), first, last);
       const std::int32_t* const cell_begin = cell_begin_.data() + row * count_[Dim - 1];
       body(cell_begin[begin], cell_begin[end]);
     };
-    const auto visit_slab = [&](std::int64_t slab, double squared) __attribute__((always_inline)) {
+    const auto visit_slab = [&](std::int64_t slab, double squared) {
       const auto [begin, end] = cells_within(Dim - 2, reach_in_cells, first, last);
       for (std::int64_t row = begin; row < end; ++row) {
         visit_row(slab * count_[Dim - 2] + row, squared - squared_gap(Dim - 2, row, first, last));

@@ -8,7 +8,7 @@
 
 #include "base/batch.h"
 #include "base/for_each.h"
-#include "base/lanes.h"
+#include "base/lane_loop.h"
 #include "base/room.h"
 #include "neighbours/pair_lanes.h"
 
@@ -126,10 +126,9 @@ class Candidates {
     const bool has_ghosts = pairs.owned() < pairs.place.size();
     // Copied before they are told apart, because most ranges are shorter than a batch.
     near_.clear();
-    searched.grid.for_each_range_near(
-        group.low, group.high, [&](std::int32_t begin, std::int32_t end) __attribute__((always_inline)) {
-          near_.add({searched.order + begin, searched.order + end});
-        });
+    searched.grid.for_each_range_near(group.low, group.high, [&](std::int32_t begin, std::int32_t end) {
+      near_.add({searched.order + begin, searched.order + end});
+    });
     for (IndexList* list : {&below, &above, &ghosts}) list->make_room(near_.size());
     for (std::size_t n = 0; n < near_.size(); n += batch) {
       const std::int32_t* const indices = near_.data() + n;
@@ -229,22 +228,21 @@ class Candidates {
   std::size_t count_ = 0;
 };
 
-/// Of row i finds F from the squares of distances in its place. Returns whether some are less than the least one's.
+/// Of row i finds F from the squares of distances [m^2]. Returns whether some are less than the least one's.
 template <int Dim>
-bool find_steepness(Pairs<Dim>& pairs, std::size_t i) {
+bool find_steepness(Pairs<Dim>& pairs, std::size_t i, const float* squared_distances) {
   const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
   const Lanes too_near = in_all_lanes(1.0 - parted_tolerance) * least_squared;
-  return with_kernel(
-      pairs.kernel_in_lanes, [&](const auto& kernel) __attribute__((always_inline)) {
-        Lanes nearer{};
-        for_each_lanes(
-            pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-              const Lanes squared = range.load(pairs.F.data());
-              range.store(kernel.steepness(sqrt_of(max_of(squared, least_squared))), pairs.F.data() + range.begin);
-              nearer = max_of(nearer, range.only(too_near - squared));
-            });
-        return any_of(nearer > Lanes{});
-      });
+  float* const F = pairs.F.data() + pairs.begin(i);
+  return with_kernel(pairs.kernel_in_lanes, [&](const auto& kernel) {
+    Lanes nearer{};
+    for_each_lanes(0, pairs.end(i) - pairs.begin(i), [&](auto range) {
+      const Lanes squared = range.load(squared_distances);
+      range.store(kernel.steepness(sqrt_of(max_of(squared, least_squared))), F + range.begin);
+      nearer = max_of(nearer, range.only(too_near - squared));
+    });
+    return any_of(nearer > Lanes{});
+  });
 }
 
 /// Of each two neighbours that are too near puts the one with the larger id where Pairs::d sees it, so that loops in
@@ -300,9 +298,9 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
   pairs.sees_wall.resize(particles.owned);
   // The first pairs are counted before they are kept; later ones are about as many as the last.
   std::size_t expected = pairs.j.size();
+  std::vector<float> squared;  // distances of a row
   if (expected == 0) {
     std::vector<std::int32_t> j;
-    std::vector<float> squared;
     for_each_row([&](std::size_t i) {
       j.resize(std::max(j.size(), candidates.size() + batch));
       squared.resize(j.size());
@@ -319,8 +317,9 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
       pairs.j.resize(std::max(most, pairs.j.capacity()));
       pairs.F.resize(pairs.j.size());
     }
-    pairs.row_begin[i + 1] = begin + write_row(i, pairs.j.data() + begin, pairs.F.data() + begin);
-    crowded += find_steepness(pairs, i) ? 1 : 0;
+    if (candidates.size() + batch > squared.size()) squared.resize(candidates.size() + batch);
+    pairs.row_begin[i + 1] = begin + write_row(i, pairs.j.data() + begin, squared.data());
+    crowded += find_steepness(pairs, i, squared.data()) ? 1 : 0;
   });
   pairs.j.resize(pairs.row_begin.back());
   pairs.F.resize(pairs.row_begin.back());

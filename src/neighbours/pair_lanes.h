@@ -1,7 +1,10 @@
-// What loops that take the pairs of a row in lanes (base/lanes.h) read of them.
+// Loops over the pairs of a particle that take several of them at once (base/lanes.h).
 #pragma once
 
-#include "base/lanes.h"
+#include <cstddef>
+#include <span>
+
+#include "base/lane_loop.h"
 #include "neighbours/pairs.h"
 
 namespace tailwater {
@@ -24,38 +27,63 @@ struct PlaceLanes {
   return unit * __builtin_convertvector(reinterpret_cast<SignedLanes>(own - places), Lanes);
 }
 
-/// Of neighbours of particle i of which `numbers` are those of their Place, maybe with others behind it.
-template <int Dim, class Range, std::size_t size>
-[[gnu::always_inline]] inline PlaceLanes<Dim> place_lanes(const Pairs<Dim>& pairs, const Range& range,
-                                                          const std::array<Lanes, size>& numbers, std::size_t i) {
-  PlaceLanes<Dim> lanes;
-  const Place<Dim>& own = pairs.place[i];
-  for (int a = 0; a < Dim; ++a) {
-    lanes.d.at[a] = difference(pairs.unit[a], own.at[a], reinterpret_cast<IntegerLanes>(numbers[a]));
+/// Several pairs of particle i, side by side: as many as there are lanes, or the rest of its row.
+template <int Dim, bool is_full>
+struct SeveralPairs {
+  const Pairs<Dim>& pairs;
+  std::size_t i;
+  LaneRange<is_full> range;  ///< entries of the row
+  LaneIndices j;             ///< the neighbours
+
+  /// Of the neighbours, which must have an entry each.
+  Lanes of(std::span<const double> field) const { return j(field.data()); }
+  Lanes of(std::span<const float> field) const { return j(field.data()); }
+  VecLanes<Dim> of(std::span<const Four> field) const { return j.template vectors<Dim>(field.data()); }
+
+  PlaceLanes<Dim> place() const { return place_of(j.numbers(pairs.place.data())); }
+  /// The same of neighbours of which `numbers` are those of their Place, maybe with others behind it.
+  template <std::size_t size>
+  PlaceLanes<Dim> place_of(const std::array<Lanes, size>& numbers) const {
+    using Own = Place<Dim>;
+    constexpr std::size_t volume = offsetof(Own, signed_volume) / sizeof(float);
+    const Own& own = pairs.place[i];
+    PlaceLanes<Dim> lanes;
+    for (int a = 0; a < Dim; ++a) {
+      lanes.d.at[a] = difference(pairs.unit[a], own.at[a], reinterpret_cast<IntegerLanes>(numbers[a]));
+    }
+    lanes.signed_volume = range.only(numbers[volume]);
+    return lanes;
   }
-  lanes.signed_volume = range.only(numbers[Dim]);
-  return lanes;
-}
 
-/// Of neighbours `j` of particle i.
-template <int Dim, class Range>
-[[gnu::always_inline]] inline PlaceLanes<Dim> neighbour_places(const Pairs<Dim>& pairs, const Range& range,
-                                                               const LaneIndices& j, std::size_t i) {
-  return place_lanes<Dim>(pairs, range, j.numbers(pairs.place.data()), i);
-}
+  /// 1/m^(Dim+2); of the kernel, 0 in lanes left over.
+  Lanes F() const { return range.load(pairs.F.data()); }
+  /// 1/m^Dim; W at these differences.
+  Lanes kernel_at(const VecLanes<Dim>& d) const { return kernel_value(pairs.kernel_in_lanes, sqrt_of(d.dot(d))); }
+  /// 1/m^Dim; W_ij, and 0 with walls and in lanes left over.
+  Lanes kernel_of_fluid() const {
+    const PlaceLanes<Dim> where = place();
+    return where.of_fluid(kernel_at(where.d));
+  }
 
-/// pairs.value of pairs with these differences.
+  /// Writes to the places of these pairs in `row`, which has all pairs of i. Returns what was written, with 0 in lanes
+  /// left over.
+  Lanes store(Lanes lanes, float* row) const { return range.store(lanes, row + (range.begin - pairs.begin(i))); }
+};
+
+/// Pair k of particle i alone.
 template <int Dim>
-[[gnu::always_inline]] inline Lanes kernel_at(const Pairs<Dim>& pairs, const VecLanes<Dim>& d) {
-  return kernel_value(pairs.kernel_in_lanes, sqrt_of(d.dot(d)));
+SeveralPairs<Dim, false> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
+  const LaneRange<false> range{k, 1};
+  return {pairs, i, range, range.neighbours(pairs.j.data())};
 }
 
-/// pairs.gradient of pairs with these differences.
-template <int Dim, class Range>
-[[gnu::always_inline]] inline VecLanes<Dim> gradients(const Pairs<Dim>& pairs, const Range& range, VecLanes<Dim> d) {
-  const Lanes F = range.load(pairs.F.data());
-  for (int a = 0; a < Dim; ++a) d.at[a] *= -F;
-  return d;
+/// Calls body(several), of SeveralPairs, for the pairs of particle i, in their order. What the body adds up stays in
+/// registers.
+template <int Dim, class Body>
+[[gnu::always_inline, gnu::flatten]] inline void for_each_pair(const Pairs<Dim>& pairs, std::size_t i, Body&& body) {
+  for_each_lanes(pairs.begin(i), pairs.end(i), [&]<bool is_full>(LaneRange<is_full> range) {
+    body(SeveralPairs<Dim, is_full>{pairs, i, range, range.neighbours(pairs.j.data())});
+  });
 }
 
 }  // namespace tailwater

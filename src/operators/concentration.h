@@ -36,23 +36,17 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
   VecLanes<Dim> gradient{};
   VecLanes<Dim> crowding{};
   SymmetricLanes<Dim> moment{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes W = kernel_at(pairs, place.d);
-        concentration += place.volume() * W;
-        const Lanes volume_F = place.volume() * range.load(pairs.F.data());
-        const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
-        const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
-        VecLanes<Dim> weights;
-        for (int a = 0; a < Dim; ++a) {
-          weights.at[a] = volume_F * place.d.at[a];
-          gradient.at[a] -= weights.at[a];
-          crowding.at[a] -= weights.at[a] * pairing;
-        }
-        moment.add(weights, place.d);
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PlaceLanes<Dim> place = several.place();
+    const Lanes W = several.kernel_at(place.d);
+    const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
+    const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
+    const VecLanes<Dim> weights = place.volume() * several.F() * place.d;
+    concentration += place.volume() * W;
+    gradient -= weights;
+    crowding -= pairing * weights;
+    moment.add(weights, place.d);
+  });
   const double volume_i = std::abs(pairs.place[i].signed_volume);
   return {volume_i * values.W_0 + sum_of(concentration), sum_of(gradient), sum_of(moment), sum_of(crowding)};
 }

@@ -16,14 +16,10 @@ template <int Dim>
 double standard_divergence(const Pairs<Dim>& pairs, std::size_t i, const PairVectorField<Dim>& pair_vectors,
                            std::span<const Four> velocity) {
   LaneSum sum;
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        VecLanes<Dim> difference = j.template vectors<Dim>(velocity.data());
-        for (int d = 0; d < Dim; ++d) difference.at[d] -= velocity[i].at[d];
-        const PairVectorLanes<Dim> pair = pair_vectors(pairs, range, j, i);
-        sum += pair.place.volume() * difference.dot(pair.a);
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PairVectorLanes<Dim> pair = pair_vectors(several);
+    sum += pair.place.volume() * (several.of(velocity) - velocity[i]).dot(pair.a);
+  });
   return sum.total();
 }
 

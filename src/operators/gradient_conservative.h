@@ -20,13 +20,10 @@ Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span
   VecSum<Dim> sum;
   const Lanes own_volume = in_all_lanes(volume[i]);
   const Lanes own = in_all_lanes(field[i]);
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const PairVectorLanes<Dim> pair = pair_vectors(pairs, range, j, i);
-        const Lanes weight = own_volume * pair.place.volume() * (own + j(field.data()));
-        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * pair.a.at[d];
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PairVectorLanes<Dim> pair = pair_vectors(several);
+    sum += own_volume * pair.place.volume() * (own + several.of(field)) * pair.a;
+  });
   return sum.total() / volume[i];
 }
 

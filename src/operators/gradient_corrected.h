@@ -34,17 +34,12 @@ template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
                             std::span<const Four> field) {
   MatLanes<Dim> sums{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes weight = place.volume() * range.load(pairs.F.data());
-        const VecLanes<Dim> field_j = j.template vectors<Dim>(field.data());
-        for (int b = 0; b < Dim; ++b) {
-          for (int a = 0; a < Dim; ++a)
-            sums.column[b].at[a] -= weight * place.d.at[b] * (field_j.at[a] - field[i].at[a]);
-        }
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PlaceLanes<Dim> place = several.place();
+    const Lanes weight = place.volume() * several.F();
+    const VecLanes<Dim> difference = several.of(field) - field[i];
+    for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
+  });
   const Mat<Dim> sum = sum_of(sums);
   const double share = share_of_correction<Dim>(first_moment);
   if (share == 0.0) return sum;

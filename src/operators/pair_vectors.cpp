@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "base/for_each.h"
@@ -43,6 +44,9 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     const Packed<Dim> moment = packed<Dim>(input.first_moment[i]);
     for (int n = 0; n < symmetric_size<Dim>; ++n) moments[i].first_moment[n] = static_cast<float>(moment[n]);
   });
+  using Moment = InteriorMoment<Dim>;
+  static_assert(offsetof(Moment, interior) == 0);
+  constexpr std::size_t first_moment = offsetof(Moment, first_moment) / sizeof(float);
   const auto inverse_square = static_cast<float>(1.0 / (input.radius * input.radius));
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = input.interior[i];
@@ -57,19 +61,18 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     Lanes weight_sums{};
     Lanes interiors{};
     Lanes kernel_sums{};
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          const LaneIndices j = range.neighbours(pairs.j.data());
-          const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-          const Lanes squared = place.d.dot(place.d);
-          const auto other = j.numbers(moments.data());
-          const Lanes weight = range.only(other[0]) * (1.0F - squared * inverse_square);
-          for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[1 + n];
-          weight_sums += weight;
-          const Lanes W = place.of_fluid(kernel_value(pairs.kernel_in_lanes, sqrt_of(squared)));
-          interiors += W * other[0];
-          kernel_sums += W;
-        });
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PlaceLanes<Dim> place = several.place();
+      const Lanes squared = place.d.dot(place.d);
+      const auto other = several.j.numbers(moments.data());
+      const Lanes other_interior = other[0];
+      const Lanes weight = several.range.only(other_interior) * (1.0F - squared * inverse_square);
+      for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[first_moment + n];
+      weight_sums += weight;
+      const Lanes W = place.of_fluid(several.kernel_at(place.d));
+      interiors += W * other_interior;
+      kernel_sums += W;
+    });
     const double kernel_sum = sum_of(kernel_sums);
     mean_interior[i] = kernel_sum > 0.0 ? sum_of(interiors) / kernel_sum : 0.0;
     Packed<Dim> sum = share * packed<Dim>(input.first_moment[i]);
@@ -106,16 +109,14 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     VecLanes<Dim> sums{};
     VecLanes<Dim> kernel_sums{};
     Lanes weights{};
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          const LaneIndices j = range.neighbours(pairs.j.data());
-          const PairVectorLanes<Dim> pair = unclosed(pairs, range, j, i);
-          const Lanes volume_j = pair.place.volume();
-          const Lanes weight = volume_j * pair.F;
-          for (int a = 0; a < Dim; ++a) sums.at[a] -= volume_j * pair.a.at[a];
-          for (int a = 0; is_near_surface && a < Dim; ++a) kernel_sums.at[a] += weight * pair.place.d.at[a];
-          weights += weight;
-        });
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PairVectorLanes<Dim> pair = unclosed(several);
+      const Lanes volume_j = pair.place.volume();
+      const Lanes weight = volume_j * pair.F;
+      sums -= volume_j * pair.a;
+      if (is_near_surface) kernel_sums += weight * pair.place.d;
+      weights += weight;
+    });
     const Vec<Dim> open = sum_of(sums);
     equation.weights[i] = sum_of(weights);
     equation.open[i] = open;
@@ -130,13 +131,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
 template <int Dim>
 Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, std::span<const Four> weighted_l, std::size_t i) {
   VecLanes<Dim> sums{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const Lanes F = range.load(pairs.F.data());
-        const VecLanes<Dim> l_j = j.template vectors<Dim>(weighted_l.data());
-        for (int a = 0; a < Dim; ++a) sums.at[a] += F * l_j.at[a];
-      });
+  for_each_pair(pairs, i, [&](const auto& several) { sums += several.F() * several.of(weighted_l); });
   return sum_of(sums);
 }
 

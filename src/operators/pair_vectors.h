@@ -34,6 +34,7 @@
 // an array with an entry per pair would be the largest of all.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -81,15 +82,16 @@ template <int Dim>
 struct PairVectorField {
   std::vector<PairVectorEnd<Dim>> ends;  ///< of all particles, ghosts included
 
-  /// Of pairs of particle i and neighbours `j`.
-  template <class Range>
-  [[gnu::always_inline]] PairVectorLanes<Dim> operator()(const Pairs<Dim>& pairs, const Range& range,
-                                                         const LaneIndices& j, std::size_t i) const {
-    constexpr int l = Dim + 1;
-    constexpr int correction = 2 * Dim + 1;
-    const auto other = j.numbers(ends.data());
-    const PairVectorEnd<Dim>& own = ends[i];
-    PairVectorLanes<Dim> pair{place_lanes<Dim>(pairs, range, other, i), range.load(pairs.F.data()), {}};
+  template <bool is_full>
+  PairVectorLanes<Dim> operator()(const SeveralPairs<Dim, is_full>& several) const {
+    using End = PairVectorEnd<Dim>;
+    static_assert(offsetof(End, at) == offsetof(Place<Dim>, at) &&
+                  offsetof(End, signed_volume) == offsetof(Place<Dim>, signed_volume));
+    constexpr std::size_t l = offsetof(End, l) / sizeof(float);
+    constexpr std::size_t correction = offsetof(End, correction) / sizeof(float);
+    const auto other = several.j.numbers(ends.data());
+    const End& own = ends[several.i];
+    PairVectorLanes<Dim> pair{several.place_of(other), several.F(), {}};
     SymmetricLanes<Dim> corrections;
     for (int n = 0; n < symmetric_size<Dim>; ++n) corrections.packed[n] = own.correction[n] + other[correction + n];
     const VecLanes<Dim> corrected = corrections.times(pair.place.d);
@@ -101,8 +103,7 @@ struct PairVectorField {
 
   /// a_ij of pair k of particle i.
   Vec<Dim> at(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) const {
-    const LaneRange<false> range{k, 1};
-    const VecLanes<Dim> a = (*this)(pairs, range, range.neighbours(pairs.j.data()), i).a;
+    const VecLanes<Dim> a = (*this)(one_pair(pairs, i, k)).a;
     return Vec<Dim>::NullaryExpr([&a](Eigen::Index n) { return a.at[n][0]; });
   }
 };

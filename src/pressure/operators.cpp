@@ -42,19 +42,16 @@ Vec<Dim> push_of_wall_particle(const Flow<Dim>& flow, std::size_t i, const std::
   VecSum<Dim> sum;
   const Lanes own_volume = in_all_lanes(volume[i]);
   const Lanes own = in_all_lanes(pressure[i]);
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        PairVectorLanes<Dim> pair;
-        if (has_pair_vectors) {
-          pair = flow.here.pair_vectors(pairs, range, j, i);
-        } else {
-          pair.place = neighbour_places(pairs, range, j, i);
-          pair.a = gradients(pairs, range, pair.place.d);
-        }
-        const Lanes weight = own_volume * pair.place.volume_of_fluid() * (own + j(pressure.data()));
-        for (int d = 0; d < Dim; ++d) sum.at[d] += weight * pair.a.at[d];
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    PairVectorLanes<Dim> pair;
+    if (has_pair_vectors) {
+      pair = flow.here.pair_vectors(several);
+    } else {
+      pair.place = several.place();
+      pair.a = -several.F() * pair.place.d;
+    }
+    sum += own_volume * pair.place.volume_of_fluid() * (own + several.of(pressure)) * pair.a;
+  });
   return sum.total() / volume[i];
 }
 

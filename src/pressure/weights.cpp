@@ -43,16 +43,13 @@ double set_laplacian_weights(const Flow<Dim>& flow, std::span<const float> volum
   const std::vector<double>& volume = flow.state.particles.volume;
   const double spacing = flow.setup.spacing;
   if (flow.setup.scheme.laplacian == LaplacianKind::morris) {
-    return row.write_weights([&](std::size_t first, std::size_t end, float* weights) {
+    return row.write_weights([&](float* weights) {
       LaneSum sums;
-      for_each_lanes(
-          first, end, [&](auto range) __attribute__((always_inline)) {
-            const LaneIndices j = range.neighbours(pairs.j.data());
-            const VecLanes<Dim> d = neighbour_places(pairs, range, j, i).d;
-            const Lanes share = share_of_morris_weight(d.dot(d), spacing);
-            const Lanes weight = 2.0F * share * j(volume_taking_part.data()) * range.load(pairs.F.data());
-            sums += range.store(weight, weights + (range.begin - first));
-          });
+      for_each_pair(pairs, i, [&](const auto& several) {
+        const VecLanes<Dim> d = several.place().d;
+        const Lanes share = share_of_morris_weight(d.dot(d), spacing);
+        sums += several.store(2.0F * share * several.of(volume_taking_part) * several.F(), weights);
+      });
       return sums.total();
     });
   }

@@ -8,20 +8,18 @@
 namespace tailwater {
 namespace {
 
-/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach. Calls also(range, j, W)
-/// for the neighbours, with W 0 where they are not water.
+/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach. Calls also(several, W) for
+/// its pairs, with W 0 where the neighbours are not water.
 template <int Dim, class Also>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, Also&& also) {
   const Pairs<Dim>& pairs = scene.pairs;
   VecLanes<Dim> sum{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-        const Lanes weight = place.of_fluid(kernel_at(pairs, place.d));
-        for (int a = 0; a < Dim; ++a) sum.at[a] += weight * place.d.at[a];
-        also(range, j, weight);
-      });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PlaceLanes<Dim> place = several.place();
+    const Lanes weight = place.of_fluid(several.kernel_at(place.d));
+    sum += weight * place.d;
+    also(several, weight);
+  });
   return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);
 }
 
@@ -34,12 +32,11 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
   }
   const auto share = static_cast<float>(1.0 / scene.here.wall_fluid_weight[i]);
   double excess = 0.0;
-  const double sum = row.write_weights([&](std::size_t first, std::size_t /*end*/, float* weights) {
+  const double sum = row.write_weights([&](float* weights) {
     LaneSum sums;
-    excess = excess_over_water(
-        scene, force, i, [&](auto range, const LaneIndices&, const Lanes& weight) __attribute__((always_inline)) {
-          sums += range.store(share * weight, weights + (range.begin - first));
-        });
+    excess = excess_over_water(scene, force, i, [&](const auto& several, const Lanes& weight) {
+      sums += several.store(share * weight, weights);
+    });
     return sums.total();
   });
   row.finish(sum, excess);  // the sum is 1 but for rounding
@@ -109,9 +106,7 @@ class Dummies final : public WallModel<Dim> {
       if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
       LaneSum sum;
       const double excess = excess_over_water(
-          scene, force, i, [&](auto, const LaneIndices& j, const Lanes& weight) __attribute__((always_inline)) {
-            sum += weight * j(pressure.data());
-          });
+          scene, force, i, [&](const auto& several, const Lanes& weight) { sum += weight * several.of(pressure); });
       pressure[i] = std::max(0.0, sum.total() / scene.here.wall_fluid_weight[i] + excess);
     });
     return true;

@@ -19,10 +19,7 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
     is_wet[i] = 0;
     if (particles.is_fluid(i)) return;
     LaneSum sum;
-    for_each_lanes(
-        pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-          sum += weights_of_fluid(pairs, range, range.neighbours(pairs.j.data()), i);
-        });
+    for_each_pair(pairs, i, [&](const auto& several) { sum += several.kernel_of_fluid(); });
     fluid_weight[i] = sum.total();
     is_wet[i] = fluid_weight[i] > least_wet_weight * W_0;
   });

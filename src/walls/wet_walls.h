@@ -18,13 +18,7 @@ template <int Dim>
 Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double fluid_weight,
                                 std::span<const Four> velocity) {
   VecLanes<Dim> sum{};
-  for_each_lanes(
-      pairs.begin(i), pairs.end(i), [&](auto range) __attribute__((always_inline)) {
-        const LaneIndices j = range.neighbours(pairs.j.data());
-        const Lanes weight = weights_of_fluid(pairs, range, j, i);
-        const VecLanes<Dim> u = j.template vectors<Dim>(velocity.data());
-        for (int a = 0; a < Dim; ++a) sum.at[a] += weight * u.at[a];
-      });
+  for_each_pair(pairs, i, [&](const auto& several) { sum += several.kernel_of_fluid() * several.of(velocity); });
   return sum_of(sum) / fluid_weight;
 }
 

@@ -221,9 +221,11 @@ TEST(LinearSystemRow, IsWrittenAtOnceAsOneByOne) {
     LinearSystem::Row row = one_by_one.row(i);
     LinearSystem::Row same = at_once.row(i);
     const double sum = row.set_weights(weight);
-    const double same_sum = same.write_weights([&](std::size_t first, std::size_t end, float* weights) {
+    const double same_sum = same.write_weights([&](float* weights) {
       double total = 0.0;
-      for (std::size_t k = first; k < end; ++k) total += weights[k - first] = static_cast<float>(weight(k));
+      for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) {
+        total += weights[k - row_begin[i]] = static_cast<float>(weight(k));
+      }
       return total;
     });
     EXPECT_EQ(same_sum, sum);

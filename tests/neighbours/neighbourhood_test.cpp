@@ -288,8 +288,7 @@ TYPED_TEST(NeighbourhoodTest, PlacesOfCoincidingParticlesArePartedByTheirIds) {
     const std::size_t i = by_id[0];
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       if (static_cast<std::size_t>(pairs.j[k]) != by_id[1]) continue;
-      const LaneRange<false> one{k, 1};
-      const VecLanes<Dim> d = neighbour_places(pairs, one, one.neighbours(pairs.j.data()), i).d;
+      const VecLanes<Dim> d = one_pair(pairs, i, k).place().d;
       EXPECT_EQ(pairs.r(i, k), pairs.least_distance);
       for (int a = 0; a < Dim; ++a) EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], 2.0 * pairs.unit[0]);
     }

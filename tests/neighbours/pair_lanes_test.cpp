@@ -73,16 +73,17 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   std::vector<int> visits(pairs.j.size(), 0);
   std::vector<float> stored(pairs.j.size() + lane_count, -1.0F);
   for (std::size_t i = 0; i < count; ++i) {
-    for_each_lanes(pairs.begin(i), pairs.end(i), [&](auto range) {
-      const LaneIndices j = range.neighbours(pairs.j.data());
-      const PlaceLanes<Dim> place = neighbour_places(pairs, range, j, i);
-      const Lanes W = kernel_at(pairs, place.d);
-      const Lanes F = range.load(pairs.F.data());
-      const VecLanes<Dim> gradient = gradients(pairs, range, place.d);
-      const std::array<Lanes, 16> record = j.numbers(rows.records.data());
-      const Lanes field = j(rows.field.data());
-      const VecLanes<Dim> vectors = j.template vectors<Dim>(fours.data());
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const auto& range = several.range;
+      const PlaceLanes<Dim> place = several.place();
+      const Lanes W = several.kernel_at(place.d);
+      const Lanes F = several.F();
+      const std::array<Lanes, 16> record = several.j.numbers(rows.records.data());
+      const Lanes field = several.of(rows.field);
+      const VecLanes<Dim> vectors = several.of(fours);
+      const VecLanes<Dim> differences = vectors - fours[i];
       const Lanes fluid = place.of_fluid(in_all_lanes(1.0));
+      const Lanes W_of_fluid = several.kernel_of_fluid();
       for (int n = 0; n < range.count; ++n) {
         const std::size_t k = range.begin + n;
         const auto neighbour = pairs.j[k];
@@ -96,18 +97,20 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
         EXPECT_EQ(place.volume()[n], volume);
         EXPECT_EQ(place.volume_of_fluid()[n], is_fluid ? volume : 0.0F);
         EXPECT_EQ(fluid[n], is_fluid ? 1.0F : 0.0F);
+        EXPECT_EQ(W_of_fluid[n], is_fluid ? W[n] : 0.0F);
         for (int a = 0; a < Dim; ++a) {
           EXPECT_NEAR(place.d.at[a][n], pairs.d(i, k)[a], single_eps);
-          EXPECT_EQ(gradient.at[a][n], -F[n] * place.d.at[a][n]);
           EXPECT_EQ(vectors.at[a][n], static_cast<float>(rows.vectors[neighbour][a]));
+          EXPECT_EQ(differences.at[a][n], vectors.at[a][n] - fours[i].at[a]);
         }
       }
       for (int n = range.count; n < lane_count; ++n) {  // what sums leave out
         EXPECT_EQ(F[n], 0.0F);
         EXPECT_EQ(place.volume()[n], 0.0F);
         EXPECT_EQ(fluid[n], 0.0F);
+        EXPECT_EQ(W_of_fluid[n], 0.0F);
       }
-      range.store(F, stored.data() + range.begin);
+      several.store(F, stored.data() + pairs.begin(i));
     });
   }
   for (std::size_t k = 0; k < visits.size(); ++k) {
@@ -124,11 +127,10 @@ TYPED_TEST(PairLanes, DifferencesAreAsExactFarFromTheOriginAndOppositeForBothEnd
   Pairs<Dim> swapped = pairs;
   for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const LaneRange<false> one{k, 1};
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       swapped.j[k] = static_cast<std::int32_t>(i);
-      const VecLanes<Dim> d = neighbour_places(pairs, one, one.neighbours(pairs.j.data()), i).d;
-      const VecLanes<Dim> back = neighbour_places(swapped, one, one.neighbours(swapped.j.data()), j).d;
+      const VecLanes<Dim> d = one_pair(pairs, i, k).place().d;
+      const VecLanes<Dim> back = one_pair(swapped, j, k).place().d;
       for (int a = 0; a < Dim; ++a) {
         EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], single_eps);
         EXPECT_EQ(d.at[a][0], -back.at[a][0]);
