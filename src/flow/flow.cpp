@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "flow/wall_particle.h"
 
 namespace tailwater {
 namespace {
@@ -32,25 +33,16 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   const auto rank = static_cast<std::size_t>(setup.ranks.rank());
   const std::size_t all = fluid_count + walls.moving;
   const std::size_t first = all * rank / ranks;
-  Particles<Dim> particles;
-  particles.resize(all * (rank + 1) / ranks - first);
-  particles.owned = particles.size();
   TAILWATER_ASSERT(fluid.position.empty() || static_cast<std::size_t>(fluid.first) == first,
                    "the water is shared out as all particles are");
-  for_each(particles.owned, [&](std::size_t i) {
+  Particles<Dim> particles;
+  particles.add(all * (rank + 1) / ranks - first, [&](std::size_t i) -> NewParticle<Dim> {
     const std::size_t n = first + i;
-    const bool is_fluid = n < fluid_count;
-    const std::size_t row = is_fluid ? 0 : n - fluid_count;
-    particles.position[i] = is_fluid ? fluid.position[i] : walls.particles.position[row];
-    particles.velocity[i] = is_fluid ? fluid.velocity[i] : Vec<Dim>(Vec<Dim>::Zero());
-    particles.pressure[i] = 0.0;
-    particles.second_pressure[i] = 0.0;
-    particles.volume[i] = is_fluid ? fluid.volume[i] : walls.particles.share[row] * power<Dim>(setup.spacing);
-    particles.kind[i] = is_fluid ? ParticleKind::fluid : ParticleKind::wall;
-    particles.wall_row[i] = is_fluid ? -1 : static_cast<std::int32_t>(row);
-    particles.layer_viscosity[i] = 0.0;
-    particles.wall_distance[i] = far_from_walls;
-    particles.id[i] = is_fluid ? static_cast<std::int64_t>(n) : setup.first_wall_id + walls.particles.number[row];
+    if (n >= fluid_count) return wall_particle(setup, walls.particles, n - fluid_count);
+    return {.position = fluid.position[i],
+            .velocity = fluid.velocity[i],
+            .volume = fluid.volume[i],
+            .id = static_cast<std::int64_t>(n)};
   });
   return particles;
 }

@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "flow/wall_particle.h"
 
 namespace tailwater {
 namespace {
@@ -30,19 +31,10 @@ void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
   Particles<Dim>& particles = flow.state.particles;
   const std::vector<std::int32_t> own = hand_to_owners(flow, std::move(rows));
   flow.neighbourhood.forget(particles);
-  const std::size_t before = particles.owned;
-  particles.owned += own.size();
-  particles.resize(particles.owned);
-  for_each(own.size(), [&](std::size_t n) {
-    const std::size_t i = before + n;
-    particles.position[i] = place_of_row(flow, own[n]);
-    particles.velocity[i].setZero();
-    particles.pressure[i] = 0.0;
-    particles.second_pressure[i] = 0.0;
-    particles.volume[i] = flow.walls.particles.share[own[n]] * power<Dim>(flow.setup.spacing);
-    particles.kind[i] = ParticleKind::wall;
-    particles.wall_row[i] = own[n];
-    particles.id[i] = flow.setup.first_wall_id + flow.walls.particles.number[own[n]];
+  particles.add(own.size(), [&](std::size_t n) {
+    NewParticle<Dim> particle = wall_particle(flow.setup, flow.walls.particles, own[n]);
+    particle.position = place_of_row(flow, own[n]);
+    return particle;
   });
   flow.end_of.resize(particles.owned, -1);
 }

@@ -105,22 +105,13 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
   const std::vector<std::size_t> own = indices_where(entrants.size(), [&](std::size_t n) {
     return ranks.is_alone() || flow.decomposition.cuts().part_of(entrants[n].position) == ranks.rank();
   });
-  const std::size_t before = particles.owned;
-  particles.owned += own.size();
-  particles.resize(particles.owned);
-  for_each(own.size(), [&](std::size_t n) {
-    const std::size_t i = before + n;
+  particles.add(own.size(), [&](std::size_t n) -> NewParticle<Dim> {
     const Entrant<Dim>& entrant = entrants[own[n]];
-    particles.position[i] = entrant.position;
-    particles.velocity[i] = entrant.velocity;
-    particles.pressure[i] = entrant.pressure;
-    particles.second_pressure[i] = 0.0;
-    particles.volume[i] = entrant.volume;
-    particles.kind[i] = ParticleKind::fluid;
-    particles.wall_row[i] = -1;
-    particles.layer_viscosity[i] = 0.0;
-    particles.wall_distance[i] = far_from_walls;
-    particles.id[i] = first_id + static_cast<std::int64_t>(own[n]);
+    return {.position = entrant.position,
+            .velocity = entrant.velocity,
+            .pressure = entrant.pressure,
+            .volume = entrant.volume,
+            .id = first_id + static_cast<std::int64_t>(own[n])};
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/for_each.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -13,6 +14,17 @@ namespace tailwater {
 inline constexpr double far_from_walls = 1e30;
 
 enum class ParticleKind : std::uint8_t { fluid, wall };
+
+/// A particle as it is made: of water, or of a row of walls.
+template <int Dim>
+struct NewParticle {
+  Vec<Dim> position;                     ///< m
+  Vec<Dim> velocity = Vec<Dim>::Zero();  ///< m/s
+  double pressure = 0.0;                 ///< Pa
+  double volume;                         ///< m^Dim
+  std::int64_t id;
+  std::int32_t wall_row = -1;  ///< -1: water
+};
 
 template <int Dim>
 struct Particles {
@@ -51,7 +63,30 @@ struct Particles {
     apply_to_fields([count](auto&... field) { (field.resize(count), ...); });
   }
 
+  /// Makes `count` owned particles, the n-th as make(n) says, behind those that there are. There must be no ghosts. No
+  /// particle is made elsewhere.
+  template <class Make>
+  void add(std::size_t count, Make&& make) {
+    const std::size_t before = owned;
+    owned += count;
+    resize(owned);
+    for_each(count, [&](std::size_t n) { set(before + n, make(n)); });
+  }
+
  private:
+  void set(std::size_t i, const NewParticle<Dim>& made) {
+    position[i] = made.position;
+    velocity[i] = made.velocity;
+    pressure[i] = made.pressure;
+    second_pressure[i] = 0.0;
+    volume[i] = made.volume;
+    kind[i] = made.wall_row < 0 ? ParticleKind::fluid : ParticleKind::wall;
+    wall_row[i] = made.wall_row;
+    layer_viscosity[i] = 0.0;
+    wall_distance[i] = far_from_walls;
+    id[i] = made.id;
+  }
+
   template <class Self, class Body>
   static void apply(Self& self, Body& body) {
     body(self.position, self.velocity, self.pressure, self.second_pressure, self.volume, self.kind, self.wall_row,
