@@ -58,6 +58,7 @@ struct Stage {
     share_out(flow);
     dt = next_time_step(flow);
     gather_walls(flow);
+    assign_roles(flow);
     hold_open_ends(flow, dt);
     begin = remember(flow);
     drive = drive_walls(flow, begin, dt);

@@ -68,7 +68,6 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   particles = make_particles(setup, drawing.fluid, walls);
   drawing.fluid = {};
   decomposition.share_out(particles, neighbourhood.work(particles));
-  end_of.assign(particles.owned, -1);
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion.wave_makers.resize(setup.wave_plates.size());
   for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
@@ -77,19 +76,20 @@ Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> dr
   state.section_volumes.assign(setup.sections.size(), 0.0);
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);
+  assign_roles(*this);
 }
 
 template <int Dim>
 void Flow<Dim>::restore(State<Dim> saved) {
   state = std::move(saved);
   neighbourhood.forget(state.particles);
-  end_of.assign(state.particles.owned, -1);
   here = {};
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
   // As after sharing out, so that a run that goes on asks for the same rows as one that never stopped.
   shared_rows.drop_guests(walls, state.particles);
   near_walls.restore(walls, state.particles);
+  assign_roles(*this);
   place_walls(*this, state.time);
 }
 

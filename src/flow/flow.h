@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closures/surroundings.h"
+#include "flow/role.h"
 #include "flow/setup.h"
 #include "flow/state.h"
 #include "linear/linear_solver.h"
@@ -41,6 +42,7 @@ struct Flow {
   bool is_located = false;           ///< whether no particle has moved since
   bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
+  std::vector<Role> role;            ///< of owned particles in this step
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
@@ -65,20 +67,8 @@ struct Flow {
     return {setup.density, setup.gravity, acceleration};
   }
 
-  /// Whether owned particle i is in the end stretch of an inlet or outlet, where nothing is solved for.
-  bool is_in_end_stretch(std::size_t i) const { return end_of[i] >= 0; }
-  /// Whether it is in one where something is prescribed, or in one whose discharge or velocity is.
-  bool is_driven(std::size_t i) const { return end_of[i] >= 0 && setup.open_ends[end_of[i]].is_driven(); }
-  bool is_fed(std::size_t i) const { return end_of[i] >= 0 && setup.open_ends[end_of[i]].flow.feeds(); }
-  bool is_solved_for(std::size_t i) const { return state.particles.is_fluid(i) && !is_in_end_stretch(i); }
   /// Whether statistics of the bulk count particle i.
-  bool is_inside(std::size_t i) const { return is_solved_for(i) && here.interior[i] > 0.5; }
-  /// Whether the row of particle i is the fluid's pressure equation.
-  bool has_equation(std::size_t i) const {
-    const Particles<Dim>& particles = state.particles;
-    return particles.is_fluid(i) ||
-           (setup.wall_traits.solves_on_wall && walls.particles.is_on_wall(particles.wall_row[i]));
-  }
+  bool is_inside(std::size_t i) const { return role[i] == Role::water && here.interior[i] > 0.5; }
   double kinetic_energy_of(std::size_t i) const {
     return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
   }

@@ -36,7 +36,6 @@ void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
     particle.position = place_of_row(flow, own[n]);
     return particle;
   });
-  flow.end_of.resize(particles.owned, -1);
 }
 
 }  // namespace

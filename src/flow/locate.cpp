@@ -21,7 +21,7 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
     here.concentration[i] = 1.0;
     if (with_gradient) here.concentration_gradient[i].setZero();
     here.first_moment[i].setIdentity();
-    if (!flow.has_equation(i)) return;
+    if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
     here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;

@@ -234,7 +234,7 @@ void choose_rows(double spacing, OpenEndState& state) {
 template <int Dim>
 double kinetic_energy_in_driven_ends(const Flow<Dim>& flow) {
   return sum_over(flow.state.particles.owned, 0.0,
-                  [&](std::size_t i) { return flow.is_driven(i) ? flow.kinetic_energy_of(i) : 0.0; });
+                  [&](std::size_t i) { return is_driven(flow.role[i]) ? flow.kinetic_energy_of(i) : 0.0; });
 }
 
 }  // namespace
@@ -289,13 +289,6 @@ Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) c
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.state.particles;
-  flow.end_of.assign(particles.owned, -1);
-  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
-    for_each(particles.owned, [&](std::size_t i) {
-      if (particles.is_fluid(i) && end.holds(particles.position[i])) flow.end_of[i] = static_cast<std::int16_t>(e);
-    });
-  }
   flow.driven_change = -kinetic_energy_in_driven_ends(flow);
   const double time = flow.state.time + 0.5 * dt;
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {

@@ -41,7 +41,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   interventions.capped_shifts =
       compute_shift<Dim>(setup.shifting_law, dt, largest_speed(flow), flow.pairs(), particles, flow.here, shift);
   for_each(particles.owned, [&](std::size_t i) {
-    if (flow.is_in_end_stretch(i)) shift[i].setZero();
+    if (is_in_end_stretch(flow.role[i])) shift[i].setZero();
   });
   if (setup.scheme.shifting == ShiftingKind::farzin) carry_fields_along(flow, shift);
   const std::vector<Vec<Dim>> before(particles.position.begin(),

@@ -53,7 +53,12 @@ WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
 template <int Dim>
 void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity);
 
-/// Finds the conditions at the open ends in this step: the particles in end stretches, their velocity, the level
+/// Gives each owned particle its role in this step. Call once per step, at the positions where it starts, before all
+/// that goes by roles.
+template <int Dim>
+void assign_roles(Flow<Dim>& flow);
+
+/// Finds the conditions at the open ends in this step: the velocity of the particles in end stretches, the level
 /// beyond. Call once per step, at the positions where it starts.
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);

@@ -10,7 +10,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   Particles<Dim>& particles = flow.state.particles;
   const Vec<Dim> gravity = setup.wall_traits.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : setup.gravity;
   for_each(particles.owned, [&](std::size_t i) {
-    if (!flow.is_solved_for(i)) return;
+    if (flow.role[i] != Role::water) return;
     particles.velocity[i] =
         predicted.velocity[i] + dt * (gravity - gradient_at(flow, i, particles.pressure) / setup.density);
   });

@@ -61,7 +61,7 @@ double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double
   if (flow.setup.scheme.source != SourceKind::mixed) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
-    if (!flow.is_solved_for(i)) return 0.0;
+    if (flow.role[i] != Role::water) return 0.0;
     const double expansion = equation.density_source[i] * dt * dt / flow.setup.density;  // dt div u
     return particles.pressure[i] * particles.volume[i] * expansion;
   });
@@ -83,7 +83,7 @@ double end_work(const Flow<Dim>& flow, double dt) {
   const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
   if (std::ranges::none_of(ends, [](const OpenEnd<Dim>& end) { return end.is_driven(); })) return 0.0;
   return flow.driven_change + sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
-           return flow.is_driven(i) ? work_of_driven_particle(flow, i, dt) : 0.0;
+           return is_driven(flow.role[i]) ? work_of_driven_particle(flow, i, dt) : 0.0;
          });
 }
 

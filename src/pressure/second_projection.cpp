@@ -36,7 +36,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   const Divergence<Dim> divergence(flow, particles.velocity);
   for_each(particles.owned, [&](std::size_t i) {
-    flow.pressure_rows.set_rhs(i, flow.is_solved_for(i) ? -density / dt * divergence(i) : 0.0);
+    flow.pressure_rows.set_rhs(i, flow.role[i] == Role::water ? -density / dt * divergence(i) : 0.0);
   });
   const SolveReport solved =
       solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance()));
@@ -51,7 +51,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    if (flow.is_solved_for(i)) particles.velocity[i] -= dt / density * gradient_at(flow, i, correction);
+    if (flow.role[i] == Role::water) particles.velocity[i] -= dt / density * gradient_at(flow, i, correction);
     particles.pressure[i] += correction[i];
   });
   add_wall_forces(flow, correction);

@@ -10,7 +10,7 @@ SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double to
   flow.halo().exchange(pressure);
   const std::vector<double> guess = pressure;  // some wall models' rows look at each other
   for_each(owned, [&](std::size_t i) {
-    if (!flow.has_equation(i)) pressure[i] = flow.pressure_rows.answer(i, guess.data());
+    if (!has_equation(flow.role[i])) pressure[i] = flow.pressure_rows.answer(i, guess.data());
   });
   return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
 }

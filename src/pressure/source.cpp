@@ -64,7 +64,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   const double unit = flow.setup.density / dt;
   const bool with_divergence = flow.setup.scheme.source != SourceKind::density;
   std::vector<double> source(flow.state.particles.owned, 0.0);
-  const auto is_sought = [&flow](std::size_t i) { return flow.has_equation(i) && !flow.is_in_end_stretch(i); };
+  const auto is_sought = [&flow](std::size_t i) { return is_solved_for(flow.role[i]); };
   if (with_divergence) {
     const Divergence<Dim> divergence(flow, predicted.velocity);
     for_each(flow.state.particles.owned, [&](std::size_t i) {

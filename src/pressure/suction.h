@@ -9,7 +9,7 @@ namespace tailwater {
 /// an end stretch, 1 or 0 for walls as their model says.
 template <int Dim>
 double suction_share(const Flow<Dim>& flow, std::size_t i) {
-  if (flow.is_solved_for(i)) return flow.here.interior[i];
+  if (flow.role[i] == Role::water) return flow.here.interior[i];
   return flow.state.particles.is_fluid(i) || flow.setup.wall_traits.pulls ? 1.0 : 0.0;
 }
 

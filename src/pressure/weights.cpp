@@ -117,7 +117,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
     return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.value(i, k) : 0.0;
   };
   double total = 0.0;
-  for (std::size_t k = pairs.begin(i); flow.is_fed(i) && k < pairs.end(i); ++k) total += weight(k);
+  for (std::size_t k = pairs.begin(i); flow.role[i] == Role::fed_end && k < pairs.end(i); ++k) total += weight(k);
   LinearSystem::Row row = flow.pressure_rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
@@ -137,7 +137,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
 template <int Dim>
 bool assemble_equation(Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i) {
   const Setup<Dim>& setup = flow.setup;
-  if (flow.is_in_end_stretch(i)) {
+  if (is_in_end_stretch(flow.role[i])) {
     assemble_end_row(flow, i);
     return false;
   }
@@ -171,7 +171,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
     const std::span positions(flow.state.particles.position);
     flow.pressure_rows.set_cells(
         find_cells<Dim>(positions.first(flow.state.particles.owned), cell_edge * flow.setup.spacing,
-                        [&](std::size_t i) { return flow.has_equation(i) && !flow.is_fed(i); }));
+                        [&](std::size_t i) { return has_equation(flow.role[i]) && flow.role[i] != Role::fed_end; }));
   }
   flow.setup.wall_model->assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   std::vector<float> volume(flow.state.particles.size());
@@ -179,7 +179,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
     volume[j] = flow.here.takes_part[j] ? static_cast<float>(flow.state.particles.volume[j]) : 0.0F;
   });
   return count_each(flow.state.particles.owned,
-                    [&](std::size_t i) { return flow.has_equation(i) && assemble_equation(flow, volume, i); });
+                    [&](std::size_t i) { return has_equation(flow.role[i]) && assemble_equation(flow, volume, i); });
 }
 
 template std::size_t assemble_weights<2>(Flow<2>&, const WallDrive<2>&);

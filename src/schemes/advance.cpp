@@ -21,6 +21,7 @@ StepReport take_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
+  assign_roles(flow);
   hold_open_ends(flow, dt);
   steer_wave_makers(flow);
   const StepStart<Dim> start = remember(flow);

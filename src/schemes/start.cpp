@@ -11,6 +11,7 @@ namespace tailwater {
 template <int Dim>
 void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
+  assign_roles(flow);
   hold_open_ends(flow, 0.0);
   const StepStart<Dim> start = remember(flow);
   locate(flow);

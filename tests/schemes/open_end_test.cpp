@@ -123,7 +123,7 @@ TEST(Outlet, EndStretchIsHydrostatic) {
   start(flow);
   int leaving = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (!flow.is_in_end_stretch(i)) continue;
+    if (!is_in_end_stretch(flow.role[i])) continue;
     ++leaving;
     EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (0.5 - flow.state.particles.position[i][1]),
                 1e-6);
