@@ -13,6 +13,7 @@ namespace {
 
 constexpr double rim_tolerance = 0.1;    // dx, between an opening's rim and the walls
 constexpr double wall_clearance = 0.25;  // dx, between walls and the path of the water
+constexpr double least_flush = 0.9;      // cosine of the slope of a wall that leads to a hole in the floor
 constexpr double least_downward = 0.9;   // cosine between gravity and the way out through a floor
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
@@ -121,7 +122,7 @@ void check_pit(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   const double depth = (spec.scheme.support + 1.0) * dx;
   for (const Vec<Dim>& x : closed_rim(end, gravity, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x - depth * end.normal, std::numeric_limits<double>::infinity());
-    if (wall.face >= 0 && std::abs(wall.signed_distance) <= 0.5 * depth) continue;
+    if (wall.face >= 0 && std::abs(wall.signed_distance) <= least_flush * depth) continue;
     findings.push_back(Finding::error(
         "{} is a hole in the floor without walls above its edge at {}: water that comes to it from the sides would be "
         "crushed; draw a pit below the hole, with upright walls {:.3g} m deep or more, and put the {} on its floor",

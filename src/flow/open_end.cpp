@@ -187,7 +187,8 @@ void hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Readings& 
   state.depth = depth_at(state.speed_beyond);
   state.entry_speed = std::min(-speed_of_stretch(end, readings, dt, state), fastest);
   const bool is_felt = state.speed < 0.0 || state.depth_at_gauge <= depth_at_speed(invariant, end.gravity, state.speed);
-  watch_level(is_felt ? own - beyond.mean_depth() : 0.0, beyond, flow, dt, state.miss);
+  const double stands = readings.gauge.volume / (end.gauge * end.width);
+  watch_level(is_felt ? stands - beyond.mean_depth() : 0.0, beyond, flow, dt, state.miss);
 }
 
 /// Speed out [m/s] of a particle in an end stretch whose level is prescribed; `deviation` is that of its own speed from

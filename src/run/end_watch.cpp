@@ -36,10 +36,10 @@ void EndWatch::look(const Flow<Dim>& flow) {
           "deeper opening, or levels and discharges that change more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing));
     }
+    if (!end.flow.feeds() || end.circuit >= 0) continue;
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
     const double columns = columns_that_wait * spacing * state.depth * end.width;
-    if (end.circuit < 0 && missing > most_missing * std::abs(state.asked) + columns &&
-        is_first(label + ": discharge")) {
+    if (missing > most_missing * std::abs(state.asked) + columns && is_first(label + ": discharge")) {
       warn(
           fmt::format("{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of "
                       "room; water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller "

@@ -45,6 +45,10 @@ TEST(EndChecks, AHoleInTheFloorNeedsAPit) {
       << refused;
   EXPECT_NE(refused.find("draw a pit below the hole"), std::string::npos) << refused;
   EXPECT_EQ(errors_of(tank_over_slot(0.2)), "");
+  CaseSpec spillway = tank_over_slot(0.0);  // a face of 45 degrees leads to the hole
+  spillway.walls = {polyline({{0.0, 0.8}, {0.0, 0.3}, {0.1, 0.3}, {0.4, 0.0}}), polyline({{0.6, 0.0}, {0.6, 0.8}})};
+  spillway.fluid = {box_fluid({0.02, 0.32}, {0.1, 0.4})};
+  EXPECT_EQ(errors_of(spillway), "");
 }
 
 std::string refusal_of_profile(const std::string& profile) {
