@@ -119,7 +119,7 @@ void check_pit(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0 || end.normal.dot(gravity) < least_downward * gravity.norm()) return;
   const double dx = spec.particles.spacing;
-  const double depth = (spec.scheme.support + 1.0) * dx;
+  const double depth = (traits_of(spec).support + 1.0) * dx;
   for (const Vec<Dim>& x : closed_rim(end, gravity, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x - depth * end.normal, std::numeric_limits<double>::infinity());
     if (wall.face >= 0 && std::abs(wall.signed_distance) <= least_flush * depth) continue;

@@ -93,7 +93,7 @@ class PathWalk {
         findings_.push_back(
             Finding::warning("{} moves so far, or others do, that paths were followed only to t = {:.6g} s: what walls "
                              "meet later is not known",
-                             wall_label(drawn_, static_cast<int>(*moving_.begin())), end * k / least_samples));
+                             wall_label(drawn_, movers_.front().wall), end * k / least_samples));
         break;
       }
       const double to = end * (k + 1) / least_samples;

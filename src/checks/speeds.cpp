@@ -14,10 +14,10 @@ namespace {
 constexpr int looks_at_end = 200;
 
 template <int Dim>
-void check_speed_of_end(const ChannelEnd<Dim>& end, double last, Findings& findings) {
+void check_speed_of_end(const ChannelEnd<Dim>& end, double last, double spacing, Findings& findings) {
   for (int k = 0; k <= looks_at_end; ++k) {
     const double time = last * k / looks_at_end;
-    const double speed = end.largest_speed(time);
+    const double speed = end.largest_speed(time, spacing);
     if (std::abs(speed) <= largest_speed_of_case) continue;
     findings.push_back(Finding::error(
         "{}: at t = {:.6g} s water would enter at {:.4g} m/s, but it is treated as incompressible, which limits it to "
@@ -41,7 +41,7 @@ Findings check_speeds(const CaseSpec& spec) {
         body.name, speed, largest_speed_of_case));
   }
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, findings);
+    if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, spec.particles.spacing, findings);
   }
   return findings;
 }

@@ -29,8 +29,8 @@ bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
 
-/// Which faces water can come to the front of, from where it is and from open ends. These, and the box around all walls,
-/// count as closed.
+/// Which faces water can come to the front of, from where it is and from open ends. These, and the box around all
+/// walls, count as closed.
 template <int Dim>
 std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   std::vector<WallFace<Dim>> faces = boundary.faces;

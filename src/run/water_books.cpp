@@ -87,8 +87,7 @@ bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box
   const Vec<Dim> way = length * gravity.normalized();
   Landing first;
   for (const Vec<Dim>& place : images_on_the_way<Dim>(flow.setup.domain, x, way)) {
-    const Landing landing =
-        landing_of<Dim>(flow.walls.boundary, place, way, corner_tolerance * flow.setup.spacing);
+    const Landing landing = landing_of<Dim>(flow.walls.boundary, place, way, corner_tolerance * flow.setup.spacing);
     if (landing.share < first.share) first = landing;
   }
   return first.height > 0.0;
