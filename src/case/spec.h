@@ -660,7 +660,7 @@ struct StudyTable {
 };
 
 struct PressureSolverTable {
-  KrylovMethod method = KrylovMethod::automatic;
+  KrylovMethod method = KrylovMethod::automatic;  ///< no key: it goes with the preconditioner
   PreconditionerName preconditioner = PreconditionerName::automatic;
   double tolerance = 1e-4;
   int max_iterations = 500;
@@ -670,8 +670,8 @@ struct PressureSolverTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.choice("method", self.method, "Krylov method; auto chooses by size (docs/theory/linear.md)");
-    v.choice("preconditioner", self.preconditioner, "Preconditioner; auto chooses by size");
+    v.choice("preconditioner", self.preconditioner,
+             "Preconditioner, and the method that goes with it; auto chooses by size (docs/theory/linear.md)");
     v.number("tolerance", self.tolerance, "", Range::between(1e-14, 0.1), "Relative residual at which a solve ends");
     v.integer("max_iterations", self.max_iterations, "", Range::at_least(1),
               "Largest number of iterations; a solve that needs more is an error");

@@ -116,7 +116,7 @@ SolverError no_convergence(const LinearSystem& system, const Solve& solve, const
   return SolverError(fmt::format(
       "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
       "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
-      "another pressure_solver.method, preconditioner or petsc_options",
+      "another pressure_solver.preconditioner or petsc_options",
       outcome.reason, solve.report().iterations, solve.report().residual, solve.tolerance(), system.size_of_all(),
       fmt::join(shown_residuals(outcome.history, first), ", ")));
 }
