@@ -3,7 +3,7 @@
 // The bed is the highest upward-facing wall face on the line with water above it. From there c (water_share.h) is
 // sampled every dx/4, up to the next downward-facing face or past the highest particle. Surfaces are where the
 // piecewise linear curve passes 1/2. The bed counts as water below a layer that fills most of the free space at the
-// bed, else as wall. With particles on the wall itself (scheme.walls other than "dummies") the top row of the starting
+// bed, else as wall. With particles on the wall itself, as published, the top row of the starting
 // lattice is on the surface, not dx/2 below it, and depths come out dx/2 too large.
 #pragma once
 
