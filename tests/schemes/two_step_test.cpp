@@ -142,7 +142,7 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);
   const std::vector<Four> velocity = in_fours<Dim>(predicted.velocity);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (!flow.has_equation(i)) continue;
+    if (!has_equation(flow.role[i])) continue;
     flow.pressure_rows.set_rhs(
         i, -flow.setup.density / dt * standard_divergence<Dim>(flow.pairs(), i, flow.here.pair_vectors, velocity));
   }
