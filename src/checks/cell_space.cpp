@@ -133,6 +133,25 @@ int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
 }
 
 template <int Dim>
+template <class Visit>
+void CellSpace<Dim>::visit_fronts_beside(const Cell& c, int axis, int step, Visit&& visit) const {
+  const int first = face_beside(c, axis, step);
+  if (first < 0) return;
+  Cell beside = c;
+  beside[axis] += step;
+  const Vec<Dim> from = centre(c);
+  const Vec<Dim> to = centre(beside);
+  const auto share_to = [&](const WallFace<Dim>& face) {
+    return face.height(from) / (face.height(from) - face.height(to));
+  };
+  const double nearest = share_to(faces_[first]) + corner_tolerance;
+  for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
+    const WallFace<Dim>& face = faces_[near_list_[k]];
+    if (face.height(from) >= 0.0 && passes(face, from, to) && share_to(face) <= nearest) visit(near_list_[k]);
+  }
+}
+
+template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down, Edge edge) {
   using Cell = typename CellSpace<Dim>::Cell;
@@ -155,9 +174,9 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
       if (step * down[axis] < -0.5) continue;
       if (const int face = space.face_beside(c, axis, step); face >= 0) {
         found.met[face] = true;
-        const bool is_in_front = space.faces()[face].height(space.centre(c)) >= 0.0;
-        if (is_in_front) found.wet[face] = true;
-        if (!is_in_front && !space.is_on_wall(c)) found.behind[face] = space.centre(c);
+        const bool is_behind = space.faces()[face].height(space.centre(c)) < 0.0 && !space.is_on_wall(c);
+        if (is_behind) found.behind[face] = space.centre(c);
+        space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
         ++found.sides;
       } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
         visit(*target);

@@ -45,6 +45,10 @@ class CellSpace {
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The same from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;
+  /// Calls visit(face) for the faces that the same way meets first and from the front: of two that are back to back,
+  /// the one that looks here.
+  template <class Visit>
+  void visit_fronts_beside(const Cell& c, int axis, int step, Visit&& visit) const;
 
   /// Calls visit(cell) for all cells in the box around two faces, and those beside it.
   template <class Visit>

@@ -17,9 +17,9 @@ namespace {
 /// Least number of samples of a path, even where it does not seem to move.
 constexpr int least_samples = 2000;
 
-/// Work that is done at most on following the paths, in looks at the place of a wall: 10 km of one wall at
-/// dx = 0.004 m. It takes some seconds.
-constexpr double most_looks = 1e7;
+/// Work that is done at most on following the paths, in looks at the place of a wall: 10 km of one wall at dx = 0.01 m.
+/// It takes some seconds.
+constexpr double most_looks = 4e6;
 
 constexpr double looks_per_letter = 0.01;    ///< of an expression
 constexpr double looks_per_corner = 0.01;    ///< of a wall
