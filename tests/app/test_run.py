@@ -169,6 +169,24 @@ class Outlet(ProgramTest):
         self.assertAlmostEqual(section["mean_m3_per_s"], section["volume_m3"] / summary["time_s"]["reached"])
         self.assertAlmostEqual(rows[0][1], 0.5, places=6)  # a lattice in even motion is counted exactly
 
+    def test_an_end_that_misses_its_level_says_so(self):
+        """A shooting flow 0.5 m deep at 4 m/s passes below a tailwater of 0.9 m: its conjugate depth is 1.05 m."""
+        shooting = ("--set", "wall[0].points=[[0, 0], [1.5, 0]]", "--set", "fluid[0].max=[1.5, 0.5]", "--set",
+                    "fluid[0].velocity=[4, 0]", "--set", "time.end=9", "--set",
+                    "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge=2, level=0.5}]", "--set",
+                    "outlet[0].level=0.9")
+        result = self.call("run", "small.toml", "--out", "run", "--quiet", *shooting)
+        said = "outlet 'end' does not hold its level: since t = "
+        self.assertIn(said, result.stderr)
+        self.assertIn(said, (self.folder / "run" / "log.txt").read_text())
+        balance = self.summary("run")["water_balance"]
+        (outlet,), (inlet,) = balance["outlets"], balance["inlets"]
+        self.assertAlmostEqual(outlet["level_missed"]["by_m"], 0.5 - 0.9, delta=0.1)  # the spacing
+        self.assertGreater(outlet["level_missed"]["for_s"], 0)
+        self.assertNotIn("level_missed", inlet)
+        self.assertAlmostEqual(inlet["asked_for_m3"], 2 * 9, delta=0.1)
+        self.assertAlmostEqual(inlet["volume_m3"], 2 * 9, delta=0.5)
+
     def test_a_run_goes_on_when_all_is_gone(self):
         self.call("run", "small.toml", "--out", "run", *self.OPEN, "--set", "fluid[0].velocity=[8, 0]")
         summary = self.summary("run")
