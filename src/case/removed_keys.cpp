@@ -43,8 +43,9 @@ constexpr std::array removed{
     RemovedKey{"scheme", "displacement", in_study},
     RemovedKey{"scheme", "shifting", "was replaced by study.shifting, the strength of the shifting; 0: none"},
     RemovedKey{"scheme", "shifting_strength", "was replaced by study.shifting"},
-    RemovedKey{"pressure_solver", "method",
-               "was removed: the method goes with the preconditioner; -pressure_ksp_type in petsc_options names another"},
+    RemovedKey{
+        "pressure_solver", "method",
+        "was removed: the method goes with the preconditioner; -pressure_ksp_type in petsc_options names another"},
     RemovedKey{"parallel", "decomposition", "was removed: space is cut by recursive coordinate bisection"},
     RemovedKey{"limits", "smallest_step", "was removed: a step may shrink to a thousandth of the first"},
     RemovedKey{"output", "compression", "was removed: field files have the quickest compression"},

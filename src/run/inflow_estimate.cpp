@@ -73,7 +73,8 @@ WaterEstimate estimate_water(const CaseSpec& spec, const Boundary<Dim>& boundary
       }
       volume = std::max(0.0, volume + change);
       const double fall = std::max(0.0, end.floor - basin.level(volume));
-      const double speed = std::hypot(end.largest_speed(time, spec.particles.spacing), std::sqrt(2.0 * end.gravity * fall));
+      const double speed =
+          std::hypot(end.largest_speed(time, spec.particles.spacing), std::sqrt(2.0 * end.gravity * fall));
       if (discharge > 0.0 && std::isfinite(speed)) estimate.largest_speed = std::max(estimate.largest_speed, speed);
     }
     sum += volume;

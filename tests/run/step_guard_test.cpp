@@ -21,7 +21,7 @@ class StepGuardTest : public testing::Test {
   TemporaryFolder temporary;
   RunFolder folder = RunFolder::create(temporary.path(), false);
   Flow<Dim> flow{pond_case<Dim>()};
-  StepGuard<Dim> guard{flow, folder, 1e-3};
+  StepGuard<Dim> guard{flow, folder};
 
   void SetUp() override {
     locate(flow);
