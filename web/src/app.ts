@@ -11,6 +11,8 @@ import { Player } from "./time/player.ts";
 import type { WaterView } from "./water/view.ts";
 
 const remembered = "tailwater-theme";
+/** Runs that are shown at once to begin with; others are chosen in the panel. */
+const most = 4;
 
 export class App {
   readonly player = new Player();
@@ -56,7 +58,7 @@ export class App {
       this.state = await this.source.state();
       document.title = `${this.state.runs[0]?.name ?? this.state.case?.path ?? "Tailwater"} · Tailwater`;
       if (this.state.mode === "case") this.look.change({ tab: "case" });
-      const first = this.state.runs.slice(0, this.state.mode === "sweep" ? 4 : 1);
+      const first = this.state.runs.slice(0, most);
       for (const run of first) await this.open(run.id);
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);

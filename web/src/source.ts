@@ -27,8 +27,8 @@ export interface Source {
   /** Text of a file of the run's folder from byte `from` on; "" where there is none. */
   file(run: string, path: string, from: number): Promise<string>;
   info(run: string): Promise<Info>;
-  /** Returns what ends the listening. */
-  listen(run: string, events: RunEvents): () => void;
+  /** Tells of frames from index `from` on. Returns what ends the listening. */
+  listen(run: string, from: number, events: RunEvents): () => void;
   control(run: string, what: string): Promise<string>;
 }
 
@@ -79,12 +79,15 @@ export class Server implements Source, Workshop {
   }
 
   async file(run: string, path: string, from: number): Promise<string> {
-    const response = await answer(`api/run/${run}/file/${path}`, from > 0 ? { headers: { Range: `bytes=${from}-` } } : {});
-    return response.status === 204 || response.status === 416 ? "" : response.text();
+    // From the last byte that is known, so that there is always something to answer.
+    const response = await answer(`api/run/${run}/file/${path}`, from > 0 ? { headers: { Range: `bytes=${from - 1}-` } } : {});
+    if (response.status === 204 || response.status === 416) return "";
+    const text = await response.text();
+    return from > 0 ? text.slice(1) : text;
   }
 
-  listen(run: string, events: RunEvents): () => void {
-    const stream = new EventSource(`api/run/${run}/events`);
+  listen(run: string, from: number, events: RunEvents): () => void {
+    const stream = new EventSource(`api/run/${run}/events?from=${from}`);
     const on = <T>(name: string, take: (data: T) => void) =>
       stream.addEventListener(name, (event) => take(JSON.parse((event as MessageEvent<string>).data) as T));
     on<FrameEntry>("frame", events.frame);

@@ -71,7 +71,7 @@ export class RunModel implements Subject {
   }
 
   private listen(): () => void {
-    return this.source.listen(this.id, {
+    return this.source.listen(this.id, (this.frames.list.at(-1)?.index ?? -1) + 1, {
       frame: (entry) => this.frames.add([entry]),
       table: (path) => void this.read(path),
       info: (info) => {

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { Mock, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
-import { until, visit } from "../support/browser.ts";
+import { allowed, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
@@ -20,7 +20,8 @@ test("a live run: frames come in, the page follows, the camera stays; scrubbing,
     const asked = Date.now();
     mock.grow("a");
     await until(view, "app.player.time === app.shownRuns()[0].frames.list[20]?.time && app.shownRuns()[0].frames.at(app.player.time)?.exact");
-    assert.ok(Date.now() - asked < 1000, "a frame is on the screen within 1 s");
+    const took = Date.now() - asked;
+    assert.ok(took < (await allowed(view, 1000)), `a frame is on the screen within 1 s; here ${took} ms`);
     assert.equal(await camera(), before);
 
     // Scrubbing: there is a picture at every moment, and the right one soon.

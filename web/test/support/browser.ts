@@ -48,3 +48,19 @@ export async function visit(address: string, dark = false): Promise<Visit> {
 export async function until(page: Page, condition: string, milliseconds = 10_000): Promise<void> {
   await page.waitForFunction(`(() => { const app = globalThis.tailwater; return app && (${condition}); })()`, { timeout: milliseconds, polling: 50 });
 }
+
+/** What a bar of `milliseconds` on a quiet machine is on this one now: as much more as a request and a picture take here,
+ * the longest of five. */
+export async function allowed(page: Page, milliseconds: number): Promise<number> {
+  const taken = (await page.evaluate(`(async () => {
+    let longest = 0;
+    for (let i = 0; i < 5; ++i) {
+      const began = performance.now();
+      await (await fetch("api/state")).json();
+      await new Promise(requestAnimationFrame);
+      longest = Math.max(longest, performance.now() - began);
+    }
+    return longest;
+  })()`)) as number;
+  return milliseconds * Math.max(1, taken / 25);
+}

@@ -152,7 +152,10 @@ export class Mock {
     }
     if (parts[4] === "file") {
       const text = run.files[parts.slice(5).join("/")];
-      if (text === undefined) return missing();
+      if (text === undefined) {
+        response.statusCode = 204;
+        return void response.end();
+      }
       const range = /^bytes=(\d+)-$/.exec(request.headers.range ?? "");
       if (!range) return send(text, "text/plain");
       response.statusCode = Number(range[1]) < text.length ? 206 : 416;
