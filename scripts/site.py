@@ -23,7 +23,7 @@ LINK = re.compile(r"(?<=\]\()([^)\s#]+)(?=[)#])")
 
 def pages():
     """Documents of the tree, relative to it."""
-    return sorted(path.relative_to(ROOT) for pattern in ("*.md", "docs/**/*.md", "cases/*/README.md")
+    return sorted(path.relative_to(ROOT) for pattern in ("*.md", "web/*.md", "docs/**/*.md", "cases/*/README.md")
                   for path in ROOT.glob(pattern))
 
 
