@@ -8,10 +8,9 @@ template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   if (boundary.plates.empty() || !traits_of(spec).walls.on_wall) return {};
   return {Finding::error(
-      "{} is a plate, and scheme.formulation = \"{}\" puts particles on the wall itself, which both sides would feel: "
-      "set scheme.formulation = \"{}\", or draw a wall with two faces",
-      wall_label(boundary, boundary.plates.front().wall), name_of(spec.scheme.formulation),
-      name_of(Formulation::robust))};
+      "{} is a plate, and the formulation puts particles on the wall itself, which both sides would feel: choose "
+      "scheme.formulation = \"robust\", or draw a wall with two faces",
+      wall_label(boundary, boundary.plates.front().wall))};
 }
 
 template Findings check_plates(const CaseSpec&, const Boundary<2>&);

@@ -20,11 +20,11 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
         // The message begins with the wall that moves.
         const auto [moving, near] = std::minmax(
             face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
-        return {Finding::error(
-            "{} is {:.3g} m from {} at {}, and scheme.formulation = \"{}\" puts particles on both: draw it {:.6g} m "
-            "away, or choose \"{}\"",
-            wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner),
-            name_of(spec.scheme.formulation), dx, name_of(Formulation::robust))};
+        return {
+            Finding::error("{} is {:.3g} m from {} at {}, and the formulation puts particles on both: draw it {:.6g} m "
+                           "away, or choose "
+                           "scheme.formulation = \"robust\"",
+                           wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner), dx)};
       }
     }
   }

@@ -278,9 +278,9 @@ void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
   if (why.empty()) return;
   throw InputError(
-      fmt::format("{}: type = \"force\" does not go with scheme.formulation = \"{}\": {}; choose \"{}\", or measure "
-                  "with type = \"wall-pressure-mean\"",
-                  label(probe), name_of(spec.scheme.formulation), why, name_of(Formulation::robust)));
+      fmt::format("{}: type = \"force\" does not go with this formulation: {}; choose scheme.formulation = \"robust\", "
+                  "or measure with type = \"wall-pressure-mean\"",
+                  label(probe), why));
 }
 
 }  // namespace
