@@ -130,7 +130,7 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, depth);
   make_published(spec.scheme);
   Flow<Dim> flow(spec);
-  hold_open_ends(flow, 0.0);
+  assign_roles(flow);
   const double dt = next_time_step(flow);
   const StepStart<Dim> start = remember(flow);
   locate(flow);
