@@ -103,9 +103,11 @@ class BitForBit(Resumed):
         assert_same_results(self, "part0", "whole0")
 
     def test_a_time_step_that_collapses_is_compared_with_the_first(self):
-        """The gate jumps away after the half; by what the step is there, it would never be too small."""
-        gate = ("--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
-                '{points=[[1, 0], [1, 2]], displacement=["0", "40*t^2 + 1e5*max(0, t - 0.3)"]}]')
+        """The gate gets faster, and jumps away; by what the step is at the half, it would never be too small: the first is
+        0.01 s, that at the half 2 ms, and the last 9 us."""
+        gate = ("--set", "particles.spacing=0.0025", "--set", "fluid[0].max=[0.02, 0.02]", "--set",
+                "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
+                '{points=[[1, 0], [1, 2]], displacement=["0", "2*t^2 + 149*max(0, t - 0.3)"]}]')
         self.run_case("part", "--set", HALF, *gate)
         self.call("resume", "part", "--set", WHOLE, "--quiet", expect=3)
         self.run_case("whole", "--set", WHOLE, *gate, expect=3)
