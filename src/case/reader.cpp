@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "case/across_tables.h"
 #include "case/driven_walls.h"
 #include "case/expression.h"
 #include "case/formulation.h"
@@ -272,133 +273,6 @@ toml::table parse(std::string_view text, const std::string& file) {
   }
 }
 
-/// A series must last to the end of the run; `start` [s] is the time of the run at which it begins.
-void check_end_of_series(const TimeSeries& series, double start, double end, std::string_view key,
-                         const toml::node* node, Problems& problems) {
-  const double last = series.empty() ? end : start + series.time.back();
-  if (node == nullptr || last >= end) return;
-  problems.add(
-      &node->source(),
-      fmt::format("{} = {}: {}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines "
-                  "(the last values again, if it then rests), or end the run before",
-                  key, value_text(*node), series.file, series.line.back(), last, end));
-}
-
-void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  for (std::size_t k = 0; k < spec.walls.size(); ++k) {
-    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, fmt::format("wall[{}].motion", k),
-                        root["wall"][k]["motion"].node(), problems);
-  }
-  for (std::size_t k = 0; k < spec.gates.size(); ++k) {
-    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, fmt::format("gate[{}].file", k),
-                        root["gate"][k]["file"].node(), problems);
-  }
-}
-
-/// A mistyped interval would fill the disk, or make the run crawl.
-void check_interval(double interval, double end, double most, std::string_view key, const toml::node* node,
-                    std::string_view what, std::string_view remedy, Problems& problems) {
-  if (node == nullptr || interval <= 0.0 || end / interval <= most) return;
-  problems.add(&node->source(), fmt::format("{} = {}: makes {:.3g} {} until time.end; give at least {:.3g} s, or 0: {}",
-                                            key, value_text(*node), end / interval, what, end / most, remedy));
-}
-
-void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  constexpr double most_lines = 1e8;
-  constexpr double most_files = 1e6;
-  check_interval(spec.output.fields_interval, spec.time.end, most_files, "output.fields_interval",
-                 root["output"]["fields_interval"].node(), "field files", "a hundred files", problems);
-  for (std::size_t i = 0; i < spec.probes.size(); ++i) {
-    check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
-                   root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
-  }
-}
-
-/// Messages tell walls, gates and wave makers apart by name.
-void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  std::set<std::string_view> names;
-  for (const WallTable& wall : spec.walls) names.insert(wall.name);
-  const auto add_names = [&](std::string_view table, const auto& tables) {
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-      if (names.insert(tables[k].name).second) continue;
-      problems.add(&root[table][k].node()->source(),
-                   fmt::format("{}[{}].name = \"{}\": a wall has this name too; give each a name of its own", table, k,
-                               tables[k].name));
-    }
-  };
-  add_names("gate", spec.gates);
-  add_names("wave_maker", spec.wave_makers);
-}
-
-/// A body is made of walls that nothing else moves.
-void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  std::map<std::string_view, std::string_view> body_of_wall;
-  for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
-    const BodyTable& body = spec.bodies[k];
-    const auto wrong = [&](const std::string& message) {
-      const toml::node& node = *root["body"][k]["walls"].node();
-      problems.add(&node.source(), fmt::format("body[{}].walls = {}: {}", k, value_text(node), message));
-    };
-    for (const std::string& name : body.walls) {
-      const auto wall = std::ranges::find(spec.walls, name, &WallTable::name);
-      if (wall == spec.walls.end()) {
-        std::vector<std::string_view> names;
-        for (const WallTable& other : spec.walls) names.push_back(other.name);
-        wrong(fmt::format("there is no wall \"{}\"; {}", name, unknown_name_hint(name, names)));
-        continue;
-      }
-      const auto varies = [](const Varying& value) { return value != Varying(0.0); };
-      const bool is_moved =
-          varies(wall->rotation) || std::ranges::any_of(wall->displacement, varies) || !wall->series.empty();
-      const bool is_closed = wall->shape == WallShape::polygon || wall->shape == WallShape::mesh ||
-                             (wall->shape == WallShape::box && wall->open.empty());
-      if (const auto [first, is_new] = body_of_wall.emplace(name, body.name); !is_new) {
-        wrong(fmt::format("wall '{}' is of body '{}' already; each wall is of one body", name, first->second));
-      } else if (is_moved) {
-        wrong(fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
-      } else if (!is_closed) {
-        wrong(fmt::format("wall '{}' is not closed; draw a polygon, a box without open faces, or a mesh", name));
-      } else if (wall->shape != WallShape::mesh && wall->fluid_side != FluidSide::outside) {
-        wrong(fmt::format("wall '{}' has the water inside; give it fluid_side = \"outside\"", name));
-      }
-    }
-  }
-  const std::string_view why_not = traits_of(spec).no_floating;
-  if (!spec.bodies.empty() && !why_not.empty()) {
-    problems.add(
-        &root["body"][0].node()->source(),
-        fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": {}; "
-                    "choose these, or give the walls a motion",
-                    name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
-  }
-}
-
-/// Studies change parts of the robust formulation; the published ones have none of these.
-void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  const toml::table* study = root["study"].as_table();
-  if (study == nullptr || spec.scheme.formulation == Formulation::robust) return;
-  for (const auto& [key, node] : *study) {
-    problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.formulation = \"{}\"; remove it",
-                                             key.str(), value_text(node), name_of(spec.scheme.formulation)));
-  }
-}
-
-/// Each table of `tables` must name one of `targets`, tables of another kind, under `key`; or none, if that is allowed.
-template <class Table, class Target>
-void check_names(const toml::table& root, std::string_view kind, const std::vector<Table>& tables, std::string_view key,
-                 std::string Table::*member, std::string_view target_kind, const std::vector<Target>& targets,
-                 bool may_be_none, Problems& problems) {
-  std::vector<std::string_view> names;
-  for (const Target& target : targets) names.push_back(target.name);
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    const std::string& name = tables[k].*member;
-    if ((may_be_none && name.empty()) || std::ranges::find(names, name) != names.end()) continue;
-    const toml::node& node = *root[kind][k][key].node();
-    problems.add(&node.source(), fmt::format("{}[{}].{} = {}: there is no such {}; {}", kind, k, key, value_text(node),
-                                             target_kind, unknown_name_hint(name, names)));
-  }
-}
-
 /// Where the tables and keys are that messages about shapes, probes and steps name.
 CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
   CaseSources sources;
@@ -448,17 +322,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   if (has_no_fluid && root.get("inlet") == nullptr) {
     context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]], or an [[inlet]]");
   }
-  if (context.problems.none()) {
-    check_amount_of_output(spec, root, context.problems);
-    check_ends_of_series(spec, root, context.problems);
-    check_names_of_driven_walls(spec, root, context.problems);
-    check_bodies(spec, root, context.problems);
-    check_study(spec, root, context.problems);
-    check_names(root, "mooring", spec.moorings, "body", &MooringTable::body, "body", spec.bodies, false,
-                context.problems);
-    check_names(root, "inlet", spec.inlets, "water_from", &InletTable::water_from, "outlet", spec.outlets, true,
-                context.problems);
-  }
+  if (context.problems.none()) check_across_tables(spec, root, context.problems);
   if (!context.problems.none()) {
     throw InputError(context.problems.text());
   }

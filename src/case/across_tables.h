@@ -1,0 +1,14 @@
+// Rules of a case that concern several of its tables, once each table is sound.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include "case/problems.h"
+#include "case/spec.h"
+
+namespace tailwater {
+
+/// Reports what does not go together in the case `spec`, which was read from `root`.
+void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems);
+
+}  // namespace tailwater

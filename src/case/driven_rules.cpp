@@ -1,0 +1,130 @@
+// Rules of what moves: gates, wave makers, bodies and their moorings; and of damping zones.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/key_rules.h"
+#include "case/table_rules.h"
+
+namespace tailwater {
+
+namespace {
+
+/// Checks that `from` and `to` span a flat axis-parallel plate with that side; `what` is its name in messages.
+void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection side, std::string_view what,
+                 TableReader& reader) {
+  if (from.size() != to.size() || reader.is_wrong("from") || reader.is_wrong("to") || from.empty()) return;
+  const auto axis = static_cast<std::size_t>(side) / 2;
+  std::string flat;
+  for (std::size_t d = 0; d < from.size(); ++d) {
+    if (from[d] == to[d]) flat += "xyz"[d];
+  }
+  if (flat.size() != 1) {
+    reader.wrong("to", *reader.given("to"),
+                 fmt::format("differs from `from` in {} coordinates, but {} is a flat {}: give two points that have "
+                             "exactly one coordinate in common",
+                             from.size() - flat.size(), what,
+                             from.size() == 2 ? "upright or level segment" : "axis-parallel rectangle"));
+  } else if (axis >= from.size() || flat[0] != "xyz"[axis]) {
+    const std::string message = fmt::format(
+        "the plane through from and to is at one {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
+        flat, flat);
+    if (const toml::node* node = reader.given("side")) {
+      reader.wrong("side", *node, message);
+    } else {
+      reader.missing("side", message);
+    }
+  }
+}
+
+/// No solitary wave is higher than this share of the depth (McCowan 1894), nor is any periodic one.
+constexpr double highest_over_depth = 0.78;
+
+}  // namespace
+
+void check(const WaveMakerTable& maker, TableReader& reader) {
+  check_plate(maker.from, maker.to, maker.side, "a wave maker", reader);
+  if (maker.waves == WaveKind::none && maker.absorption == Absorption::none && !reader.is_wrong("absorption")) {
+    reader.missing("absorption",
+                   "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
+  }
+  const bool has_period = maker.waves == WaveKind::regular || maker.waves == WaveKind::jonswap;
+  if (has_period && maker.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
+    reader.wrong("period", *reader.given("period"), "waves need a period; give a number above 0 in s");
+  }
+  if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
+    reader.wrong("type", *reader.given("type"), "a solitary wave moves the water evenly over the depth; use a piston");
+  }
+  if (const toml::node* node = reader.given("order");
+      node != nullptr && maker.type == MakerType::flap && maker.order == 2) {
+    reader.wrong("order", *node, "the theory of second order is for pistons; give 1, or type = \"piston\"");
+  }
+  if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
+      !reader.is_wrong("ramp")) {
+    reader.wrong("ramp", *reader.given("ramp"), "irregular waves do not begin at rest; give a time above 0 s");
+  }
+  if (maker.height > highest_over_depth * maker.depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
+    reader.wrong("height", *reader.given("height"),
+                 fmt::format("such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
+                             highest_over_depth, highest_over_depth * maker.depth));
+  }
+}
+
+void check(const BodyTable& body, TableReader& reader) {
+  if (body.walls.empty() && !reader.is_wrong("walls")) {
+    reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
+  }
+  const bool is_flat = reader.dimension() == 2;
+  for (const std::string& way : body.free) {
+    const bool is_turn = way.starts_with("rotation");
+    if (way.find('z') != std::string::npos ? is_flat : is_turn && (way == "rotation") != is_flat) {
+      reader.wrong("free", *reader.given("free"),
+                   fmt::format("\"{}\" is none of the ways in {} dimensions; choose from {}", way, reader.dimension(),
+                               is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
+      return;
+    }
+  }
+  const bool turns = std::ranges::any_of(body.free, [](const std::string& way) { return way.starts_with("rotation"); });
+  const std::size_t needed = is_flat ? 1 : 3;
+  if (reader.is_wrong("inertia") || reader.is_wrong("free")) return;
+  if (body.inertia.empty()) {
+    if (turns) {
+      reader.missing("inertia",
+                     fmt::format("a body that is free to turn needs its moment{} of inertia; give {}, or leave the "
+                                 "rotation out of `free`",
+                                 is_flat ? "" : "s", is_flat ? "[I]" : "[Ixx, Iyy, Izz]"));
+    }
+  } else if (body.inertia.size() != needed ||
+             std::ranges::any_of(body.inertia, [](double moment) { return moment <= 0.0; })) {
+    reader.wrong(
+        "inertia", *reader.given("inertia"),
+        fmt::format("give {} above 0 in {} dimensions", is_flat ? "one number" : "three numbers", reader.dimension()));
+  }
+}
+
+void check(const MooringTable& mooring, TableReader& reader) {
+  if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
+    reader.wrong("anchor", *reader.given("anchor"),
+                 "is where the line is fastened to the body, so it has no direction; give another place");
+  }
+}
+
+void check(const DampingTable& damping, TableReader& reader) {
+  check_box(damping.min, damping.max, reader);
+  if (const toml::node* node = reader.given("towards");
+      node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
+    reader.wrong("towards", *node, "a case of two dimensions has no z; give a direction in x or y");
+  }
+}
+
+void check(const GateTable& gate, TableReader& reader) {
+  check_plate(gate.from, gate.to, gate.side, "a gate", reader);
+  if (gate.motion == GateMotion::falling_weight && gate.weight > 0.0 && gate.weight <= gate.gate_mass &&
+      !reader.is_wrong("weight") && !reader.is_wrong("gate_mass")) {
+    reader.wrong("weight", *reader.given("weight"),
+                 fmt::format("does not lift a gate of {} kg; give a weight above gate_mass", gate.gate_mass));
+  }
+}
+
+}  // namespace tailwater

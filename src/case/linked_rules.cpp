@@ -1,0 +1,160 @@
+// Tables that name files: what is read from them, and what they exclude.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "base/error.h"
+#include "case/key_rules.h"
+#include "case/linked_files.h"
+#include "case/table_rules.h"
+
+namespace tailwater {
+
+namespace {
+
+/// Calls body, which reads the file that `key` names, and reports what is wrong with it at that key.
+template <class Body>
+void read_linked(std::string_view key, TableReader& reader, Body&& body) {
+  const toml::node* node = reader.given(key);
+  if (node == nullptr || reader.is_wrong(key)) return;
+  try {
+    body();
+  } catch (const UserError& error) {
+    reader.wrong(key, *node, error.what());
+  }
+}
+
+/// Makes the name of a file absolute and takes its checksum; a file that is not the one of the checksum is refused.
+void keep_linked(std::string& file, std::string& checksum, std::string_view checksum_key, TableReader& reader) {
+  const std::filesystem::path path = reader.linked(file);
+  const std::string found = checksum_of_file(path);
+  if (!checksum.empty() && checksum != found) {
+    throw InputError(
+        fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
+                    "was made for, or start a new run without {}",
+                    path.string(), found, checksum, checksum_key));
+  }
+  file = path.string();
+  checksum = found;
+}
+
+/// A run begins at t = 0. That the series lasts to its end is checked when the end has been read.
+void require_start(const TimeSeries& series) {
+  if (series.time.front() <= 0.0) return;
+  throw InputError(fmt::format("{}:{}: begins at t = {:.9g} s, but the motion begins at 0; add a line for t = 0",
+                               series.file, series.line.front(), series.time.front()));
+}
+
+/// A series that is too short for the run is found by the room checks, when the end of the run is known.
+void read_series(std::string& file, std::string& checksum, std::span<const SeriesColumn> columns, TimeSeries& series,
+                 TableReader& reader) {
+  if (file.empty()) return;
+  read_linked("file", reader, [&] {
+    keep_linked(file, checksum, "checksum", reader);
+    series = read_time_series(file, columns);
+  });
+}
+
+/// The keys of those that have a value, in the case or in a file.
+struct Given {
+  std::string_view key;
+  bool in_case;
+  bool in_file;
+  bool anywhere() const { return in_case || in_file; }
+};
+
+/// No quantity may come from the case and from a file.
+void check_given_once(std::span<const Given> quantities, TableReader& reader) {
+  for (const Given& quantity : quantities) {
+    if (!quantity.in_case || !quantity.in_file) continue;
+    reader.wrong(quantity.key, *reader.given(quantity.key),
+                 fmt::format("the file has a column {} as well; remove one of the two", quantity.key));
+  }
+}
+
+Given given(std::string_view key, const std::optional<Varying>& value, const TimeSeries& series, std::size_t column) {
+  return {key, value.has_value(), column < series.columns.size() && !series.columns[column].empty()};
+}
+
+}  // namespace
+
+void read_linked_files(FluidTable& fluid, TableReader& reader) {
+  if (fluid.shape != BlockShape::mesh || reader.is_wrong("shape")) return;
+  read_linked("file", reader, [&] { keep_linked(fluid.file, fluid.checksum, "checksum", reader); });
+}
+
+void read_linked_files(WallTable& wall, TableReader& reader) {
+  if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
+    read_linked("points_file", reader, [&] {
+      wall.points = read_points_file(reader.linked(wall.points_file));
+      const std::size_t least = least_corners(wall.shape, reader.dimension());
+      if (wall.points.size() < least) {
+        throw InputError(fmt::format("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
+                                     wall.points.size(), least));
+      }
+      wall.points_file.clear();
+    });
+  }
+  const bool is_mesh = wall.shape == WallShape::mesh || (wall.shape == WallShape::plate && !wall.file.empty());
+  if (is_mesh && !reader.is_wrong("shape")) {
+    read_linked("file", reader, [&] { keep_linked(wall.file, wall.checksum, "checksum", reader); });
+  }
+  if (wall.motion.empty()) return;
+  read_linked("motion", reader, [&] {
+    constexpr std::array<SeriesColumn, 4> columns{{{"x"}, {"y"}, {"z"}, {"angle", Measure::angle}}};
+    keep_linked(wall.motion, wall.motion_checksum, "motion_checksum", reader);
+    wall.series = read_time_series(wall.motion, columns);
+    require_start(wall.series);
+    if (reader.dimension() == 2 && !wall.series.columns[2].empty()) {
+      throw InputError(fmt::format("{} has a column z, but case.dimension = 2; remove it", wall.motion));
+    }
+  });
+  if (reader.dimension() == 3 && !reader.is_wrong("motion") && !wall.series.columns[3].empty()) {
+    check_turning_in_3d(wall, "motion", reader);
+  }
+}
+
+void read_linked_files(GateTable& gate, TableReader& reader) {
+  if (gate.motion != GateMotion::file || gate.file.empty()) return;
+  read_linked("file", reader, [&] {
+    constexpr std::array<SeriesColumn, 1> columns{{{"way"}}};
+    keep_linked(gate.file, gate.checksum, "checksum", reader);
+    gate.series = read_time_series(gate.file, columns);
+    require_start(gate.series);
+  });
+}
+
+void read_linked_files(InletTable& inlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 3> columns{
+      {{"discharge", Measure::discharge}, {"velocity", Measure::speed}, {"level"}}};
+  read_series(inlet.file, inlet.checksum, columns, inlet.series, reader);
+  if (reader.is_wrong("file")) return;
+  const Given discharge = given("discharge", inlet.discharge, inlet.series, 0);
+  const Given velocity = given("velocity", inlet.velocity, inlet.series, 1);
+  const Given level = given("level", inlet.level, inlet.series, 2);
+  check_given_once(std::array{discharge, velocity, level}, reader);
+  const bool has_wrong_key = reader.is_wrong("discharge") || reader.is_wrong("velocity") || reader.is_wrong("level");
+  if (!has_wrong_key && !discharge.anywhere() && !velocity.anywhere() && !level.anywhere()) {
+    reader.missing("discharge", "say what enters: give a discharge, a velocity or a level, or a file with one of them");
+  }
+  if (discharge.anywhere() && velocity.anywhere()) {
+    const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
+    reader.wrong(key, *reader.given(key), "an inlet has a discharge or a velocity; remove one of the two");
+  }
+  if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
+    reader.wrong("profile", *reader.given("profile"),
+                 "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
+  }
+}
+
+void read_linked_files(OutletTable& outlet, TableReader& reader) {
+  static constexpr std::array<SeriesColumn, 1> columns{{{"level"}}};
+  read_series(outlet.file, outlet.checksum, columns, outlet.series, reader);
+  if (!reader.is_wrong("file")) check_given_once(std::array{given("level", outlet.level, outlet.series, 0)}, reader);
+}
+
+}  // namespace tailwater
