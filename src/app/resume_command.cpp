@@ -81,8 +81,8 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
       "Goes on from the newest checkpoint in DIR/checkpoints, or from the start if there is none yet. Tables and "
       "field\n"
       "files are cut back to it, so that the run leaves what it would have left without a break: bit for bit on the\n"
-      "number of ranks that wrote the checkpoint. --set may change time.end, output.fields_interval and\n"
-      "output.checkpoint_interval.");
+      "number of ranks that wrote the checkpoint. --set may change time.end, output.fields_interval,\n"
+      "output.view_interval and output.checkpoint_interval.");
   command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
 }
 

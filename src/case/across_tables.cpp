@@ -50,6 +50,8 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
   constexpr double most_files = 1e6;
   check_interval(spec.output.fields_interval, spec.time.end, most_files, "output.fields_interval",
                  root["output"]["fields_interval"].node(), "field files", "a hundred files", problems);
+  check_interval(spec.output.view_interval, spec.time.end, most_files, "output.view_interval",
+                 root["output"]["view_interval"].node(), "frames", "four hundred frames", problems);
   for (std::size_t i = 0; i < spec.probes.size(); ++i) {
     check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
                    root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);

@@ -716,6 +716,7 @@ struct LimitsTable {
 
 struct OutputTable {
   double fields_interval = 0.0;
+  double view_interval = 0.0;
   std::vector<std::string> fields = {"pressure", "velocity", "density_error", "id"};
   double checkpoint_interval = 900.0;
 
@@ -725,6 +726,8 @@ struct OutputTable {
   static void describe(Self& self, Visitor& v) {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between field files; 0: a hundredth of the end time");
+    v.number("view_interval", self.view_interval, "s", Range::at_least(0.0),
+             "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time");
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.number(
         "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
@@ -847,7 +850,7 @@ struct CaseSpec {
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
     v.table("parallel", self.parallel, "Runs on several ranks (-n)");
     v.table("limits", self.limits, "When a run warns of its own errors, or gives up");
-    v.table("output", self.output, "Field files for ParaView, and checkpoints");
+    v.table("output", self.output, "Field files for ParaView, frames for `tailwater view`, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
     v.table("study", self.study, "For studies: the robust formulation without one of its parts");
   }

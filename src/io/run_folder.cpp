@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 2> failure_files{"last_good.vtp", "report
 constexpr std::array<std::string_view, 3> series_names{"fields", "walls", "surface"};
 constexpr std::array<std::string_view, 2> usual_folders{"probes", "fields"};
 /// Folders that are made only when there is something to put into them.
-constexpr std::array<std::string_view, 3> rare_folders{"failure", "checkpoints", "pictures"};
+constexpr std::array<std::string_view, 4> rare_folders{"failure", "checkpoints", "pictures", "view"};
 constexpr std::string_view checkpoint_start = "step_";
 constexpr std::string_view checkpoint_ending = ".h5";
 
@@ -89,6 +89,11 @@ bool is_picture(const fs::path& name) {
   return name.extension() == ".png" && is_numbered(name.stem().string(), "picture_", 5);
 }
 
+/// scene.json, 00012.frame
+bool is_view_file(const fs::path& name) {
+  return name == scene_name || (name.extension() == frame_ending && is_numbered(name.stem().string(), "", 5));
+}
+
 /// step_000000000012.h5
 bool is_checkpoint(const fs::path& name) {
   return name.extension() == checkpoint_ending && is_numbered(name.stem().string(), checkpoint_start, 1);
@@ -129,6 +134,7 @@ std::vector<fs::path> earlier_results(const fs::path& folder) {
       [&](const fs::path& name) { return std::find(probes.begin(), probes.end(), name.string()) != probes.end(); },
       found);
   add_files(folder / "fields", is_field_file, found);
+  add_files(folder / "view", is_view_file, found);
   add_files(
       folder / "failure", [](const fs::path& name) { return is_one_of(failure_files, name); }, found);
   add_files(folder / "checkpoints", is_checkpoint, found);

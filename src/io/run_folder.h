@@ -16,6 +16,9 @@ inline constexpr std::string_view stop_file_name = "STOP";
 inline constexpr std::string_view checkpoint_file_name = "CHECKPOINT";
 inline constexpr std::string_view effective_case_name = "case.effective.toml";
 inline constexpr std::string_view summary_name = "summary.json";
+/// In the folder of the stream for viewers.
+inline constexpr std::string_view scene_name = "scene.json";
+inline constexpr std::string_view frame_ending = ".frame";
 
 class RunFolder {
  public:
@@ -43,6 +46,8 @@ class RunFolder {
   std::filesystem::path probe(const std::string& name) const { return path_ / "probes" / (name + ".csv"); }
   std::filesystem::path probe_map(const std::string& name) const { return path_ / "probes" / (name + ".vtp"); }
   std::filesystem::path fields() const { return path_ / "fields"; }
+  /// The folder of the stream for viewers, made with the first file in it.
+  std::filesystem::path view() const { return path_ / "view"; }
   /// The files by which a user asks the run to end or to write a checkpoint (run/requests.h).
   std::filesystem::path stop() const { return path_ / stop_file_name; }
   std::filesystem::path checkpoint_request() const { return path_ / checkpoint_file_name; }

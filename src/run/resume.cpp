@@ -23,12 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view changeable_keys = "time.end, output.fields_interval and output.checkpoint_interval";
+constexpr std::string_view changeable_keys =
+    "time.end, output.fields_interval, output.view_interval and output.checkpoint_interval";
 
 /// The case with the keys that a run may change on its way taken from `other`.
 CaseSpec with_changeable_keys_of(const CaseSpec& other, CaseSpec spec) {
   spec.time.end = other.time.end;
   spec.output.fields_interval = other.output.fields_interval;
+  spec.output.view_interval = other.output.view_interval;
   spec.output.checkpoint_interval = other.output.checkpoint_interval;
   return spec;
 }

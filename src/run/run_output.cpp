@@ -84,6 +84,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       folder_(make_folder(flow, kept != nullptr)),
       series_(folder_.fields(), "fields"),
       wall_series_(folder_.fields(), "walls"),
+      frames_(spec, folder_, flow),
       rank_log_(ranks_, folder_.ranks(), kept_bytes(kept, "ranks")),
       probes_(std::move(probe_list_), folder_, ranks_, kept ? std::optional(marks_of(*kept)) : std::nullopt),
       progress_(spec.time.end, kept ? kept->at("cost").at("wall_seconds").get<double>() : 0.0),
@@ -121,6 +122,7 @@ nlohmann::json RunOutput<Dim>::saved() const {
             {"interval", fields_interval_},
             {"next", next_fields_},
             {"last", last_fields_time_}}},
+          {"view", frames_.saved()},
           {"statistics", statistics_.saved()},
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
           {"warnings", warnings()},
@@ -142,6 +144,7 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   last_fields_time_ = fields.at("last");
   next_fields_ = fields.at("next");
   if (fields.at("interval") != fields_interval_) next_fields_ = fields_due_after(last_fields_time_);
+  frames_.take_up(kept.at("view"), ranks_);
   statistics_.restore(kept.at("statistics"));
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
   recall_warnings(kept.at("warnings"));
@@ -174,10 +177,12 @@ template <int Dim>
 void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
   write_summary(flow, "running", std::nullopt,
                 fmt::format("The run goes on, or it was killed; then: tailwater resume {}", options_.out.string()));
+  frames_.begin(spec_, flow);
 }
 
 template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
+  frames_.write_due(flow);
   if (flow.state.time < next_fields_) return;
   write_fields(flow);
   probes_.write_maps(folder_, flow.state.time, ranks_);
@@ -251,6 +256,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
     limits_.check(flow.state.time, statistics_.energy_rise(), measures);
   } catch (const SolverError&) {
     write_fields(flow);
+    frames_.write(flow);
     throw;
   }
 }
@@ -277,6 +283,7 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
 template <int Dim>
 void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   write_fields(flow);
+  frames_.write(flow);
   probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");

@@ -16,6 +16,7 @@
 #include "io/run_folder.h"
 #include "probes/probe_set.h"
 #include "run/end_watch.h"
+#include "run/frame_output.h"
 #include "run/probe_results.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
@@ -52,7 +53,7 @@ class RunOutput {
   /// Writes the summary of a run that goes on, which stays if the program is killed.
   void begin(const Flow<Dim>& flow);
 
-  /// Writes fields if they are due.
+  /// Writes fields, and a frame for viewers, if they are due.
   void write_due_fields(const Flow<Dim>& flow);
   /// Records the probes that are due after a step of dt [s]; 0 at the start.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt = 0.0);
@@ -89,7 +90,8 @@ class RunOutput {
   std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
   RunFolder folder_;
   PvdSeries series_;
-  PvdSeries wall_series_;            ///< only when a wall moves
+  PvdSeries wall_series_;  ///< only when a wall moves
+  FrameOutput<Dim> frames_;
   std::optional<StepLog> step_log_;  ///< on the root
   RankLog rank_log_;
   ProbeSet<Dim> probes_;

@@ -6,6 +6,7 @@ import subprocess
 import time
 import unittest
 
+from frames import read_frames
 from processes import command_line, processes_of
 from program import PATIENCE, PROGRAM, ProgramTest, environment
 
@@ -50,6 +51,14 @@ class RanksTest(ProgramTest):
     def test_starts_its_ranks(self):
         self.call("run", "small.toml", "--out", "two", "-n", "2", "--quiet")
         self.assertEqual(self.summary("two")["status"], "done")
+
+    def test_write_frames_together(self):
+        for run, ranks in (("one", "1"), ("two", "2")):
+            self.call("run", "small.toml", "--out", run, "-n", ranks, "--quiet")
+        one, two = (self.folder / run / "view" for run in ("one", "two"))
+        self.assertEqual((one / "scene.json").read_bytes(), (two / "scene.json").read_bytes())
+        frames = [read_frames(self.folder / run) for run in ("one", "two")]
+        self.assertEqual(*([(frame.count, round(frame.time, 6)) for frame in of_run] for of_run in frames))
 
     def test_read_a_depth_beside_a_plate(self):
         (self.folder / "plate.toml").write_text("""

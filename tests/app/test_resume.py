@@ -14,7 +14,7 @@ from program import PATIENCE, ProgramTest
 from resumed import assert_same_results
 
 HALF, WHOLE = "time.end=0.2", "time.end=0.4"
-FIELDS = ("--set", "output.fields_interval=0.02")
+FIELDS = ("--set", "output.fields_interval=0.02", "--set", "output.view_interval=0.01")
 OFTEN = ("--set", "output.checkpoint_interval=0.001")
 GATE = ("--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
         '{points=[[1, 0], [1, 2]], displacement=["0", "1.5*t"]}]')
@@ -78,7 +78,7 @@ class Resumed(ProgramTest):
     def start_endless_run(self, *arguments):
         """A run with a checkpoint on the disk and a few field files."""
         process = self.start("run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=1000", "--set",
-                             "output.fields_interval=0.05", *arguments)
+                             "output.fields_interval=0.05", "--set", "output.view_interval=0.01", *arguments)
         self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
         return process
 
@@ -123,7 +123,8 @@ class BitForBit(Resumed):
         end = ("--set", f"time.end={self.summary('run')['time_s']['reached'] + 0.1}")
         self.call("resume", "run", *end, "--quiet")
         self.assertTrue((self.folder / "run/log.txt").read_text().startswith(f"{log}going on from step "))
-        self.call("run", "small.toml", "--out", "whole", "--quiet", *end, "--set", "output.fields_interval=0.05")
+        self.call("run", "small.toml", "--out", "whole", "--quiet", *end, "--set", "output.fields_interval=0.05",
+                  "--set", "output.view_interval=0.01")
         assert_same_results(self, "run", "whole")
         self.assertEqual(self.summary("run")["cost"]["runs"], 2)
 

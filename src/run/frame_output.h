@@ -1,0 +1,38 @@
+// The stream of a run for viewers: view/scene.json, and view/00000.frame, ... when they are due.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "case/spec.h"
+#include "flow/flow.h"
+#include "io/run_folder.h"
+#include "view/frame_series.h"
+
+namespace tailwater {
+
+template <int Dim>
+class FrameOutput {
+ public:
+  FrameOutput(const CaseSpec& spec, const RunFolder& folder, const Flow<Dim>& flow);
+
+  /// Writes the scene. Collective; throws IoError, on all ranks, as all functions that write.
+  void begin(const CaseSpec& spec, const Flow<Dim>& flow);
+  /// Writes a frame if it is due.
+  void write_due(const Flow<Dim>& flow);
+  /// Writes a frame of this moment unless it is written.
+  void write(const Flow<Dim>& flow);
+
+  /// How far the stream has come, for a checkpoint, and going on from it.
+  nlohmann::json saved() const;
+  void take_up(const nlohmann::json& saved, const Communicator& ranks);
+
+ private:
+  double due_after(double time) const;
+
+  FrameSeries<Dim> series_;
+  double interval_;          ///< s
+  double next_ = 0.0;        ///< s
+  double last_time_ = -1.0;  ///< s; of the last frame
+};
+
+}  // namespace tailwater

@@ -1,0 +1,283 @@
+#include "view/frame_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/for_each.h"
+#include "io/run_folder.h"
+#include "io/write_file.h"
+#include "parallel/together.h"
+
+namespace tailwater {
+namespace {
+
+/// A viewer that jumps to a frame decodes those since the last key frame.
+constexpr int frames_per_key = 10;
+
+/// A place is known to this share of dx: less is not seen, and more costs bytes.
+constexpr double least_quantum_over_spacing = 1.0 / 128.0;
+
+/// What the box leaves around the water and the walls, as a share of their extent.
+constexpr double room_in_box = 0.05;
+
+/// What the range of a scalar leaves beyond its values now, as a share of their extent.
+constexpr double room_in_range = 0.25;
+
+constexpr double largest_place = 65535.0;
+constexpr double largest_scalar = 255.0;
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<double> numbers_of(const AffineMap<2>& pose) {
+  return {pose.constant[0], pose.constant[1], std::atan2(pose.linear(1, 0), pose.linear(0, 0))};
+}
+std::vector<double> numbers_of(const AffineMap<3>& pose) {
+  const Eigen::Quaterniond turn(pose.linear);
+  return {pose.constant[0], pose.constant[1], pose.constant[2], turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
+/// The least values and the negatives of the largest ones, over all ranks: of each coordinate, then of each scalar.
+template <int Dim>
+std::vector<double> extremes_of(const WaterNow<Dim>& water, const Communicator& ranks) {
+  std::vector<double> extremes;
+  const auto add = [&](auto&& value) {
+    double least = std::numeric_limits<double>::max();
+    double largest = std::numeric_limits<double>::lowest();
+    for (std::size_t i = 0; i < water.id.size(); ++i) {
+      least = std::min(least, value(i));
+      largest = std::max(largest, value(i));
+    }
+    extremes.insert(extremes.end(), {least, -largest});
+  };
+  for (int d = 0; d < Dim; ++d) add([&](std::size_t i) { return water.position[i][d]; });
+  for (const std::span<const double> scalar : water.scalars) add([&](std::size_t i) { return scalar[i]; });
+  ranks.least_of_each(extremes);
+  return extremes;
+}
+
+/// Whether what has these extremes fits into the scale.
+bool fits(const FrameScale& scale, std::span<const double> extremes) {
+  const std::size_t dimension = scale.low.size();
+  for (std::size_t d = 0; d < dimension; ++d) {
+    if (extremes[2 * d] < scale.low[d] || -extremes[2 * d + 1] > scale.high[d]) return false;
+  }
+  for (std::size_t s = 0; s < scale.ranges.size(); ++s) {
+    const std::size_t k = 2 * (dimension + s);
+    if (extremes[k] < scale.ranges[s][0] || -extremes[k + 1] > scale.ranges[s][1]) return false;
+  }
+  return true;
+}
+
+/// The range of a scalar: of its values now, and of some that will come.
+std::array<float, 2> range_around(double least, double largest) {
+  if (least > largest) return {0.0F, 1.0F};  // there is no water
+  const double room = room_in_range * (largest - least);
+  // Rounded outwards: what the frame holds is in its range.
+  const auto low = std::nextafter(static_cast<float>(least - room), -1e30F);
+  const auto high = std::nextafter(static_cast<float>(largest + room), 1e30F);
+  return {low, high};
+}
+
+/// The order of ascending ids, which are unique. Ids of water have few gaps: then a table by id is made in a tenth of
+/// the time that comparing them takes.
+template <class Particle>
+std::vector<std::uint32_t> order_by_id(const std::vector<Particle>& particles) {
+  const std::size_t count = particles.size();
+  if (count == 0) return {};
+  const auto by_id = [](const Particle& a, const Particle& b) { return a.id < b.id; };
+  const auto [low, high] = std::minmax_element(particles.begin(), particles.end(), by_id);
+  const std::int64_t first = low->id;
+  const auto width = static_cast<std::size_t>(high->id - first) + 1;
+  std::vector<std::uint32_t> order;
+  if (width <= 4 * count) {
+    constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+    order.assign(width, nobody);
+    for (std::size_t i = 0; i < count; ++i) {
+      order[static_cast<std::size_t>(particles[i].id - first)] = static_cast<std::uint32_t>(i);
+    }
+    std::erase(order, nobody);
+    return order;
+  }
+  order.resize(count);
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return by_id(particles[a], particles[b]); });
+  return order;
+}
+
+}  // namespace
+
+template <int Dim>
+FrameSeries<Dim>::FrameSeries(std::filesystem::path folder, double spacing, const Eigen::AlignedBox<double, Dim>& walls)
+    : folder_(std::move(folder)), spacing_(spacing), walls_(walls) {}
+
+template <int Dim>
+std::filesystem::path FrameSeries<Dim>::file_of(std::size_t index) const {
+  return folder_ / fmt::format("{:05}{}", index, frame_ending);
+}
+
+template <int Dim>
+void FrameSeries<Dim>::make_folder() const {
+  std::error_code ignored;  // the file that is written next tells what is wrong
+  std::filesystem::create_directory(folder_, ignored);
+}
+
+template <int Dim>
+void FrameSeries<Dim>::write_beside(std::string_view name, const std::string& text, const Communicator& ranks) const {
+  do_on_root(ranks, [&] {
+    make_folder();
+    write_text_file(folder_ / name, text);
+  });
+}
+
+template <int Dim>
+FrameScale FrameSeries<Dim>::scale_for(std::span<const double> extremes, std::size_t scalars) const {
+  FrameScale scale;
+  for (int d = 0; d < Dim; ++d) {
+    double low = extremes[2 * d];
+    double high = -extremes[2 * d + 1];
+    if (!walls_.isEmpty()) {
+      low = std::min(low, walls_.min()[d]);
+      high = std::max(high, walls_.max()[d]);
+    }
+    if (low > high) low = high = 0.0;  // there is neither water nor a wall
+    const double quantum =
+        std::max((1.0 + 2.0 * room_in_box) * (high - low) / largest_place, least_quantum_over_spacing * spacing_);
+    const double middle = 0.5 * (low + high);
+    scale.low.push_back(middle - 0.5 * largest_place * quantum);
+    scale.high.push_back(middle + 0.5 * largest_place * quantum);
+  }
+  for (std::size_t s = 0; s < scalars; ++s) {
+    scale.ranges.push_back(range_around(extremes[2 * (Dim + s)], -extremes[2 * (Dim + s) + 1]));
+  }
+  return scale;
+}
+
+template <int Dim>
+FrameParticles FrameSeries<Dim>::gather(const WaterNow<Dim>& water, const Communicator& ranks) const {
+  const std::size_t scalars = water.scalars.size();
+  std::vector<Stored> stored(water.id.size());
+  std::array<double, Dim> per_metre;
+  for (int d = 0; d < Dim; ++d) per_metre[d] = largest_place / (scale_.high[d] - scale_.low[d]);
+  for_each(water.id.size(), [&](std::size_t i) {
+    stored[i].id = water.id[i];
+    for (int d = 0; d < Dim; ++d) {
+      stored[i].place[d] = static_cast<std::uint16_t>((water.position[i][d] - scale_.low[d]) * per_metre[d] + 0.5);
+    }
+    stored[i].scalar = {};
+    for (std::size_t s = 0; s < scalars; ++s) {
+      const auto [low, high] = scale_.ranges[s];
+      stored[i].scalar[s] =
+          static_cast<std::uint8_t>((water.scalars[s][i] - low) / (high - low) * largest_scalar + 0.5);
+    }
+  });
+  stored = ranks.gather(stored);
+  const std::vector<std::uint32_t> order = order_by_id(stored);
+  FrameParticles particles;
+  const std::size_t count = stored.size();
+  particles.id.resize(count);
+  particles.place.assign(Dim, std::vector<std::uint16_t>(count));
+  particles.scalar.assign(scalars, std::vector<std::uint8_t>(count));
+  for_each(count, [&](std::size_t i) {
+    const Stored& particle = stored[order[i]];
+    particles.id[i] = particle.id;
+    for (int d = 0; d < Dim; ++d) particles.place[d][i] = particle.place[d];
+    for (std::size_t s = 0; s < scalars; ++s) particles.scalar[s][i] = particle.scalar[s];
+  });
+  return particles;
+}
+
+template <int Dim>
+void FrameSeries<Dim>::write(const WaterNow<Dim>& water, const Communicator& ranks) {
+  TAILWATER_ASSERT(water.scalars.size() <= std::tuple_size_v<decltype(Stored::scalar)>,
+                   "there is room for the scalars");
+  const std::vector<double> extremes = extremes_of(water, ranks);
+  const bool is_key = since_key_ < 0 || since_key_ + 1 >= frames_per_key || !fits(scale_, extremes);
+  if (is_key) scale_ = scale_for(extremes, water.scalars.size());
+  since_key_ = is_key ? 0 : since_key_ + 1;
+  Frame frame{{.order = std::min(since_key_, 2),
+               .index = static_cast<std::uint32_t>(count_),
+               .time = water.time,
+               .scale = scale_,
+               .poses = {}},
+              gather(water, ranks)};
+  for (const AffineMap<Dim>& pose : water.poses) frame.head.poses.push_back(numbers_of(pose));
+  do_on_root(ranks, [&] {
+    make_folder();
+    write_text_file(file_of(count_), encode_frame(frame, before_));
+  });
+  before_.last_but_one = std::exchange(before_.last, std::move(frame.particles));
+  ++count_;
+}
+
+/// The frame before the next one, decoded from the last key frame on; nothing if that cannot be.
+template <int Dim>
+std::optional<Frame> FrameSeries<Dim>::read_back(std::size_t count) {
+  try {
+    std::size_t first = count;
+    std::vector<std::string> files;  // the last one first
+    int order = 1;
+    while (order != 0) {
+      if (first == 0 || files.size() == frames_per_key) return std::nullopt;
+      files.push_back(read_file(file_of(--first)));
+      order = read_frame_head(files.back()).head.order;
+    }
+    Frame frame;
+    for (auto file = files.rbegin(); file != files.rend(); ++file) {
+      frame = decode_frame(*file, before_);
+      if (frame.head.dimension() != Dim) return std::nullopt;
+      before_.last_but_one = std::exchange(before_.last, frame.particles);
+    }
+    since_key_ = static_cast<int>(files.size()) - 1;
+    return frame;
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+}
+
+template <int Dim>
+void FrameSeries<Dim>::go_on(std::size_t count, const Communicator& ranks) {
+  count_ = count;
+  std::vector<double> known;  // of the last frame, for all ranks: the frames since its key frame, and its scale
+  do_on_root(ranks, [&] {
+    std::error_code error;
+    for (std::size_t i = count; std::filesystem::exists(file_of(i), error); ++i) remove_file(file_of(i));
+    const std::optional<Frame> last = read_back(count);
+    if (!last) return;
+    const FrameScale& scale = last->head.scale;
+    known = {static_cast<double>(since_key_)};
+    known.insert(known.end(), scale.low.begin(), scale.low.end());
+    known.insert(known.end(), scale.high.begin(), scale.high.end());
+    for (const std::array<float, 2>& range : scale.ranges) known.insert(known.end(), range.begin(), range.end());
+  });
+  const std::string bytes =
+      ranks.broadcast({reinterpret_cast<const char*>(known.data()), known.size() * sizeof(double)});
+  known.resize(bytes.size() / sizeof(double));
+  bytes.copy(reinterpret_cast<char*>(known.data()), bytes.size());
+  since_key_ = known.empty() ? -1 : static_cast<int>(known[0]);
+  if (known.empty()) return;
+  scale_.low.assign(known.begin() + 1, known.begin() + 1 + Dim);
+  scale_.high.assign(known.begin() + 1 + Dim, known.begin() + 1 + 2 * Dim);
+  scale_.ranges.clear();
+  for (std::size_t k = 1 + 2 * Dim; k + 1 < known.size(); k += 2) {
+    scale_.ranges.push_back({static_cast<float>(known[k]), static_cast<float>(known[k + 1])});
+  }
+}
+
+template class FrameSeries<2>;
+template class FrameSeries<3>;
+
+}  // namespace tailwater

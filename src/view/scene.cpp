@@ -1,0 +1,277 @@
+#include "view/scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+#include "probes/probe_set.h"
+#include "view/frame.h"
+
+namespace tailwater {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As many digits as a picture needs: a mesh has a hundred thousand coordinates.
+double rounded(double number) { return std::strtod(fmt::format("{:.7g}", number).c_str(), nullptr); }
+
+template <int Dim>
+Json point(const Vec<Dim>& x) {
+  Json numbers = Json::array();
+  for (const double coordinate : x) numbers.push_back(rounded(coordinate));
+  return numbers;
+}
+
+/// The faces of a wall, of a plate those at the front alone.
+template <int Dim>
+std::vector<std::size_t> faces_of(const Boundary<Dim>& boundary, int wall) {
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    if (boundary.faces[f].wall == wall) faces.push_back(f);
+  }
+  for (const WallPlate& plate : boundary.plates) {
+    if (plate.wall != wall) continue;
+    const auto first_back = static_cast<std::size_t>(plate.first_face + plate.pieces);
+    std::erase_if(faces, [&](std::size_t f) { return f >= first_back && f < first_back + plate.pieces; });
+  }
+  return faces;
+}
+
+using Chain = std::deque<Vec<2>>;
+
+/// Makes one chain of two where one ends at the start of the other.
+bool join(Chain& chain, Chain& other) {
+  if (chain.back() == other.front()) {
+    chain.insert(chain.end(), other.begin() + 1, other.end());
+  } else if (other.back() == chain.front()) {
+    chain.insert(chain.begin(), other.begin(), other.end() - 1);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// The faces of a wall as chains of points, as long as can be. Faces mostly follow each other, forwards, or backwards
+/// where the water is on the right; those of a box come in another order.
+Json polylines_of(const Boundary<2>& boundary, int wall) {
+  std::vector<Chain> chains;
+  for (const std::size_t f : faces_of(boundary, wall)) {
+    const auto& [from, to] = boundary.faces[f].corners;
+    Chain face{from, to};
+    if (chains.empty() || !join(chains.back(), face)) chains.push_back(std::move(face));
+  }
+  for (std::size_t k = 0; k < chains.size(); ++k) {
+    for (std::size_t other = k + 1; other < chains.size(); ++other) {
+      if (!join(chains[k], chains[other])) continue;
+      chains.erase(chains.begin() + static_cast<std::ptrdiff_t>(other));
+      other = k;  // its ends are other ones now
+    }
+  }
+  Json all = Json::array();
+  for (const Chain& chain : chains) {
+    Json points = Json::array();
+    for (const Vec<2>& x : chain) points.push_back(point<2>(x));
+    all.push_back(std::move(points));
+  }
+  return all;
+}
+
+/// Triangles with corners in common: {positions: [x, y, z, ...], indices: [a, b, c, ...]}.
+Json triangles_of(const Boundary<3>& boundary, int wall) {
+  std::map<std::array<double, 3>, std::size_t> number_of;
+  Json positions = Json::array();
+  Json indices = Json::array();
+  for (const std::size_t f : faces_of(boundary, wall)) {
+    for (const Vec<3>& corner : boundary.faces[f].corners) {
+      const auto [entry, is_new] = number_of.try_emplace({corner[0], corner[1], corner[2]}, number_of.size());
+      if (is_new) {
+        for (const double coordinate : corner) positions.push_back(rounded(coordinate));
+      }
+      indices.push_back(entry->second);
+    }
+  }
+  return {{"positions", std::move(positions)}, {"indices", std::move(indices)}};
+}
+
+template <int Dim>
+Json walls_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const std::vector<int> poses = pose_of_walls(boundary);
+  Json walls = Json::array();
+  for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
+    const WallProperties& properties = boundary.walls[w];
+    const bool is_of_body = w < spec.walls.size() && spec.walls[w].drive.by == Drive::By::body;
+    Json wall{{"name", properties.name},
+              {"kind", is_of_body ? "body" : properties.kind},
+              {"plate", properties.is_plate},
+              {"moving", poses[w] < 0 ? Json() : Json(poses[w])}};
+    if constexpr (Dim == 2) {
+      wall["polylines"] = polylines_of(boundary, static_cast<int>(w));
+    } else {
+      wall["triangles"] = triangles_of(boundary, static_cast<int>(w));
+    }
+    walls.push_back(std::move(wall));
+  }
+  return walls;
+}
+
+Json bodies_json(const CaseSpec& spec, const std::vector<int>& poses) {
+  Json bodies = Json::array();
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    Json body{{"name", spec.bodies[b].name}, {"pose", nullptr}, {"centre", spec.bodies[b].centre}};
+    for (std::size_t w = 0; w < std::min(poses.size(), spec.walls.size()); ++w) {
+      if (spec.walls[w].drive == Drive{Drive::By::body, b} && poses[w] >= 0) body["pose"] = poses[w];
+    }
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+/// Inlets or outlets, with the corners of their faces: two in 2D, four in 3D.
+template <int Dim>
+Json open_ends_json(const std::vector<Opening<Dim>>& ends, OpeningKind kind) {
+  Json all = Json::array();
+  for (const Opening<Dim>& end : ends) {
+    if (end.kind != kind) continue;
+    Json corners = Json::array({point<Dim>(end.corner), point<Dim>(end.corner + end.edges[0])});
+    if constexpr (Dim == 3) {
+      corners.push_back(point<Dim>(end.corner + end.edges[0] + end.edges[1]));
+      corners.push_back(point<Dim>(end.corner + end.edges[1]));
+    }
+    all.push_back({{"name", end.name}, {"corners", std::move(corners)}, {"direction", point<Dim>(end.way())}});
+  }
+  return all;
+}
+
+/// Where a probe measures: a point, the ends of a line, the corners of an outline; none for one that looks everywhere.
+/// A height that the case leaves out is that of the lowest wall.
+std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimension, double lowest) {
+  std::vector<Coordinates> places;
+  for (Coordinates x : {probe.at, probe.from, probe.to}) {
+    if (x.size() + 1 < dimension || x.empty()) continue;
+    x.resize(dimension, lowest);
+    places.push_back(std::move(x));
+  }
+  if (!places.empty()) return places;
+  if (!probe.region_points.empty()) return probe.region_points;
+  const Coordinates& low = probe.region_min;
+  const Coordinates& high = probe.region_max;
+  if (low.size() != dimension || high.size() != dimension) return {};
+  if (dimension == 3) return {low, high};
+  return {low, {high[0], low[1]}, high, {low[0], high[1]}};
+}
+
+/// The columns of each probe's table after the time; none where it cannot measure, which is told of elsewhere.
+template <int Dim>
+std::vector<std::vector<std::string>> columns_of_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<std::vector<std::string>> columns(spec.probes.size());
+  try {
+    const std::vector<Probe<Dim>> probes = make_probes<Dim>(spec, boundary);
+    for (std::size_t p = 0; p < probes.size(); ++p) columns[p] = probes[p].reading.columns;
+  } catch (const InputError&) {
+    columns.assign(spec.probes.size(), {});
+  }
+  return columns;
+}
+
+template <int Dim>
+Json probes_json(const CaseSpec& spec, const Boundary<Dim>& boundary, const Json& box) {
+  const double lowest = box.is_null() ? 0.0 : box["min"][Dim - 1].template get<double>();
+  const std::vector<std::vector<std::string>> columns = columns_of_probes(spec, boundary);
+  Json probes = Json::array();
+  for (std::size_t p = 0; p < spec.probes.size(); ++p) {
+    const ProbeTable& table = spec.probes[p];
+    probes.push_back({{"name", table.name},
+                      {"type", name_of(table.type)},
+                      {"file", fmt::format("probes/{}.csv", table.name)},
+                      {"points", places_of(table, Dim, lowest)},
+                      {"columns", columns[p]},
+                      {"walls", table.walls},
+                      {"body", table.body}});
+  }
+  return probes;
+}
+
+Json periodic_json(const CaseSpec& spec) {
+  Json periodic = Json::array();
+  for (int axis = 0; axis < spec.general.dimension; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    if (range.size() == 2) periodic.push_back({{"axis", axis}, {"low", range[0]}, {"high", range[1]}});
+  }
+  return periodic;
+}
+
+/// The open ends that can be made; a wrong one is told of elsewhere.
+template <int Dim>
+std::vector<Opening<Dim>> sound_open_ends(const CaseSpec& spec) {
+  try {
+    return make_open_ends<Dim>(spec);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// The box around what is drawn; null where there is nothing.
+template <int Dim>
+Json box_json(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
+  Eigen::AlignedBox<double, Dim> box;
+  const auto include = [&](const std::vector<WallFace<Dim>>& faces) {
+    for (const WallFace<Dim>& face : faces) {
+      for (const Vec<Dim>& corner : face.corners) box.extend(corner);
+    }
+  };
+  include(boundary.faces);
+  for (const Opening<Dim>& end : ends) include(end.as_faces());
+  if (box.isEmpty()) return {};
+  return {{"min", point<Dim>(box.min())}, {"max", point<Dim>(box.max())}};
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<int> pose_of_walls(const Boundary<Dim>& boundary) {
+  std::vector<int> poses;
+  std::map<int, int> pose_of_body;
+  for (const WallProperties& wall : boundary.walls) {
+    poses.push_back(wall.moves() ? pose_of_body.try_emplace(wall.body, pose_of_body.size()).first->second : -1);
+  }
+  return poses;
+}
+
+template <int Dim>
+Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const std::vector<Opening<Dim>> ends = sound_open_ends<Dim>(spec);
+  const Json box = box_json(boundary, ends);
+  Json scalars = Json::array();
+  for (const FrameScalar& scalar : frame_scalars) scalars.push_back({{"name", scalar.name}, {"unit", scalar.unit}});
+  return {{"format", frame_format},
+          {"title", spec.general.title},
+          {"dimension", Dim},
+          {"spacing", spec.particles.spacing},
+          {"gravity", spec.physics.gravity},
+          {"density", spec.physics.density},
+          {"end", spec.time.end},
+          {"box", box},
+          {"periodic", periodic_json(spec)},
+          {"walls", walls_json(spec, boundary)},
+          {"bodies", bodies_json(spec, pose_of_walls(boundary))},
+          {"inlets", open_ends_json(ends, OpeningKind::inlet)},
+          {"outlets", open_ends_json(ends, OpeningKind::outlet)},
+          {"probes", probes_json(spec, boundary, box)},
+          {"scalars", std::move(scalars)}};
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                               \
+  template std::vector<int> pose_of_walls(const Boundary<Dim>&); \
+  template Json scene_json(const CaseSpec&, const Boundary<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,30 @@
+// What stands still in the pictures of a run, as a viewer draws it: walls, bodies, open ends, probes and the frame of
+// the page around them (docs/reference/view.md).
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <vector>
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+
+namespace tailwater {
+
+/// A quantity of the particles that frames hold.
+struct FrameScalar {
+  std::string_view name;
+  std::string_view unit;
+};
+inline constexpr std::array<FrameScalar, 2> frame_scalars{{{"pressure", "Pa"}, {"speed", "m/s"}}};
+
+/// Of each wall the number of the pose that moves it, counted by the first wall of each; -1 for walls at rest.
+template <int Dim>
+std::vector<int> pose_of_walls(const Boundary<Dim>& boundary);
+
+/// The scene of a case whose walls are where they are drawn.
+template <int Dim>
+nlohmann::ordered_json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+}  // namespace tailwater

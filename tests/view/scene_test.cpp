@@ -1,0 +1,137 @@
+// The scene of a case: what a viewer needs to draw all that is not water.
+#include "view/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "case/reader.h"
+
+namespace tailwater {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* start = R"(
+[particles]
+spacing = 0.1
+[time]
+end = 2
+)";
+
+template <int Dim>
+Json scene_of(const std::string& text) {
+  const CaseSpec spec = read_case_text(start + text, "case");
+  return scene_json<Dim>(spec, make_boundary<Dim>(spec));
+}
+
+TEST(Scene, OfAFlume) {
+  const Json scene = scene_of<2>(R"(
+[[fluid]]
+min = [0, 0]
+max = [1, 0.5]
+[[wall]]
+name = "bed"
+points = [[0, 2], [0, 0], [4, 0]]
+[[gate]]
+name = "lock"
+from = [1, 0]
+to = [1, 0.6]
+speed = 1
+[[wall]]
+name = "hull"
+shape = "box"
+min = [2, 0.3]
+max = [2.4, 0.6]
+fluid_side = "outside"
+[[body]]
+name = "barge"
+walls = ["hull"]
+mass = 60
+centre = [2.2, 0.4]
+inertia = [1]
+[[outlet]]
+name = "end"
+from = [4, 0]
+to = [4, 2]
+[[probe]]
+name = "gauge"
+type = "depth"
+at = [0.5, 0]
+)");
+  EXPECT_EQ(scene["dimension"], 2);
+  EXPECT_EQ(scene["end"], 2.0);
+  ASSERT_EQ(scene["walls"].size(), 3U);
+  const Json& bed = scene["walls"][0];
+  EXPECT_EQ(bed["name"], "bed");
+  EXPECT_EQ(bed["kind"], "wall");
+  EXPECT_EQ(bed["moving"], nullptr);
+  EXPECT_EQ(bed["polylines"], Json::parse("[[[0.0, 2.0], [0.0, 0.0], [4.0, 0.0]]]"));
+  // The hull is closed; hull and gate move, each by a pose of its own.
+  const Json& hull = scene["walls"][1];
+  EXPECT_EQ(hull["kind"], "body");
+  ASSERT_EQ(hull["polylines"].size(), 1U);
+  EXPECT_EQ(hull["polylines"][0].size(), 5U);
+  EXPECT_EQ(hull["polylines"][0].front(), hull["polylines"][0].back());
+  const Json& gate = scene["walls"][2];
+  EXPECT_EQ(gate["kind"], "gate");
+  EXPECT_EQ(gate["name"], "lock");
+  EXPECT_EQ(hull["moving"], 0);
+  EXPECT_EQ(gate["moving"], 1);
+  EXPECT_EQ(scene["bodies"][0]["name"], "barge");
+  EXPECT_EQ(scene["bodies"][0]["pose"], 0);
+  EXPECT_EQ(scene["outlets"][0]["name"], "end");
+  EXPECT_EQ(scene["outlets"][0]["direction"], Json::parse("[1.0, 0.0]"));
+  EXPECT_EQ(scene["probes"][0]["file"], "probes/gauge.csv");
+  EXPECT_EQ(scene["probes"][0]["points"], Json::parse("[[0.5, 0.0]]"));
+  EXPECT_EQ(scene["probes"][0]["columns"], Json::parse(R"(["depth_m"])"));
+  EXPECT_EQ(scene["box"]["max"], Json::parse("[4.0, 2.0]"));
+}
+
+TEST(Scene, APlateIsDrawnOnce) {
+  const Json scene = scene_of<2>(R"(
+[[fluid]]
+min = [0, 0]
+max = [1, 0.5]
+[[wall]]
+points = [[0, 2], [0, 0], [4, 0], [4, 2]]
+[[wall]]
+name = "sheet"
+shape = "plate"
+points = [[2, 0], [2, 0.5], [2.5, 0.8]]
+)");
+  EXPECT_TRUE(scene["walls"][1]["plate"]);
+  EXPECT_EQ(scene["walls"][1]["polylines"], Json::parse("[[[2.0, 0.0], [2.0, 0.5], [2.5, 0.8]]]"));
+}
+
+TEST(Scene, TrianglesOfABoxShareTheirCorners) {
+  const Json scene = scene_of<3>(R"(
+[case]
+dimension = 3
+[[fluid]]
+min = [0, 0, 0]
+max = [0.5, 0.5, 0.5]
+[[wall]]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 1, 1]
+open = ["+z"]
+[domain]
+)");
+  const Json& triangles = scene["walls"][0]["triangles"];
+  EXPECT_EQ(triangles["positions"].size(), 3 * 8U);
+  ASSERT_EQ(triangles["indices"].size(), 3 * 10U);  // five faces of two
+  // Counter-clockwise as the water in the middle sees them.
+  for (std::size_t k = 0; k < 10; ++k) {
+    std::array<Vec<3>, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto first = 3 * triangles["indices"][3 * k + c].get<std::size_t>();
+      for (std::size_t d = 0; d < 3; ++d) corners[c][d] = triangles["positions"][first + d].get<double>();
+    }
+    const Vec<3> normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    EXPECT_GT(normal.dot(Vec<3>::Constant(0.5) - corners[0]), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace tailwater
