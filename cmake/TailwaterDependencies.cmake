@@ -13,6 +13,7 @@ pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 # That with which PETSc is linked: a process cannot hold two builds of HDF5.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 find_path(ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos REQUIRED)
 find_library(ZOLTAN_LIBRARY trilinos_zoltan REQUIRED)
 if(NOT TARGET Zoltan::zoltan)

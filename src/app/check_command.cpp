@@ -1,13 +1,18 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "app/check_json.h"
 #include "app/commands.h"
 #include "app/files_of_others.h"
 #include "app/pictures.h"
@@ -31,6 +36,7 @@ struct CheckOptions {
   std::vector<std::string> overrides;
   std::filesystem::path preview;
   bool draws_nothing = false;
+  bool as_json = false;
 };
 
 /// Where the preview goes. Its own name is free for it; under a name that was asked for only another preview is
@@ -50,6 +56,20 @@ std::filesystem::path preview_file(const CheckOptions& options) {
     }
   }
   return preview;
+}
+
+/// The text of a case file, "-" for that on standard input.
+std::string text_of_case(const std::filesystem::path& path) {
+  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void print_as_json(const CheckOptions& options) {
+  const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
+  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, options.overrides)
+                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 /// Writes the previews, with the places that are wrong marked, and says where they are.
@@ -163,7 +183,16 @@ void add_check_command(CLI::App& app, ExitCode&) {
       ->type_name("FILE");
   command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
   command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
-  command->callback([options] { check_case(*options); });
+  command->add_flag("--json", options->as_json,
+                    "Print findings, drawing and size as JSON, for programs, without trial steps; the case \"-\" is read "
+                    "from standard input");
+  command->callback([options] {
+    if (options->as_json) {
+      print_as_json(*options);
+    } else {
+      check_case(*options);
+    }
+  });
 }
 
 }  // namespace tailwater

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,9 +8,8 @@
 #include "app/sweep_plan.h"
 #include "app/sweep_table.h"
 #include "base/text.h"
-#include "io/run_folder.h"
-#include "run/progress.h"
 #include "run/provenance.h"
+#include "run/run_info.h"
 
 namespace tailwater {
 namespace {
@@ -27,66 +25,10 @@ void show_program() {
 
 using Json = nlohmann::ordered_json;
 
-Json read_summary(const std::filesystem::path& run) {
-  const std::filesystem::path path = run / "summary.json";
-  std::ifstream file(path);
-  if (!file) {
-    throw IoError(
-        fmt::format("cannot read '{}'; is '{}' the folder of a run that has ended?", path.string(), run.string()));
-  }
-  Json summary = Json::parse(file, nullptr, false);
-  if (summary.is_discarded()) throw IoError(fmt::format("'{}' is not valid JSON", path.string()));
-  return summary;
-}
-
 /// What an engineer wants to know before the numbers of a run are used.
 void show_digest(const Json& summary) {
-  const auto number = [](const Json& block, const char* key) { return block.at(key).get<double>(); };
-  const auto text = [](const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); };
-  fmt::print("{}\nstatus:    {}\n", text(summary, "title"), text(summary, "status"));
-  if (!text(summary, "message").empty()) fmt::print("message:   {}\n", text(summary, "message"));
-  const Json& warnings = summary.at("warnings");
-  fmt::print("warnings:  {}\n", warnings.empty() ? "none" : fmt::format("{}", warnings.size()));
-  for (const Json& warning : warnings) fmt::print("  {}\n", printable(warning.get<std::string>()));
-
-  // Runs of earlier versions have none.
-  if (const auto results = summary.find("results"); results != summary.end()) {
-    for (const auto& [probe, result] : results->items()) {
-      fmt::print("{:<10} {}\n", printable(probe) + ":", text(result, "words"));
-    }
-  }
-  const Json& time = summary.at("time_s");
-  const Json& steps = summary.at("steps");
-  fmt::print("time:      {:.6g} of {:.6g} s, {:.0f} steps of {:.3g} s ({:.3g} to {:.3g})\n", number(time, "reached"),
-             number(time, "end"), number(steps, "count"), number(steps, "dt_mean_s"), number(steps, "dt_least_s"),
-             number(steps, "dt_largest_s"));
-  const Json& particles = summary.at("particles");
-  fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", number(particles, "fluid"),
-             number(particles, "wall"), number(summary, "spacing_m"));
-  const Json& water = summary.at("water_balance");
-  fmt::print("water:     {:.6g} kg at the start", number(water.at("start"), "mass_kg"));
-  for (const char* part : {"in", "inside", "outside", "out"}) {
-    fmt::print(", {:.6g} {}", number(water.at(part), "mass_kg"), part);
-  }
-  const Json& energy = summary.at("energy");
-  const Json& volume = summary.at("volume");
-  fmt::print("\nenergy:    {:.6g} J at the start, {:.6g} J at the end, largest rise {:.2g} J\n",
-             number(energy, "start_J"), number(energy, "end_J"), number(energy, "largest_rise_J"));
-  fmt::print("density:   error {:.2g} in the mean, {:.2g} rms\n", number(volume, "density_error_mean"),
-             number(volume, "density_error_rms"));
-  const Json& solver = summary.at("pressure_solver");
-  const Json& interventions = summary.at("interventions");
-  fmt::print(
-      "solver:    {:.3g} iterations per solve, {:.0f} restarted; {:.0f} particles put back from walls, {:.0f} capped "
-      "shifts\n",
-      number(solver, "iterations_per_solve"), number(interventions, "restarted_solves"),
-      number(interventions, "put_back_from_walls"), number(interventions, "capped_shifts"));
-  const Json& cost = summary.at("cost");
-  fmt::print("cost:      {}, {:.3g} CPU s per simulated s, {:.0f} MB on {:.0f} rank(s)\n",
-             readable_duration(number(cost, "wall_clock_s")), number(cost, "cpu_s_per_simulated_s"),
-             number(cost, "peak_memory_bytes") / 1e6, number(summary.at("ranks"), "count"));
-  fmt::print("program:   tailwater {} (commit {}), {}, on {}\n", text(summary, "version"), text(summary, "commit"),
-             text(summary, "libraries"), text(summary.at("machine"), "name"));
+  fmt::print("{}\n", printable(summary.at("title").get<std::string>()));
+  for (const auto& [label, text] : summary_digest(summary)) fmt::print("{:<10} {}\n", label + ":", text);
 }
 
 void show_run(const std::filesystem::path& run, bool as_json) {

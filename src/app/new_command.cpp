@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/case_templates.h"
 #include "app/commands.h"
 #include "app/files_of_others.h"
 #include "io/write_file.h"
@@ -82,6 +83,8 @@ void write_new_case(const NewOptions& options) {
 }
 
 }  // namespace
+
+const std::map<std::string, const char*>& case_templates() { return templates_by_name; }
 
 void add_new_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<NewOptions>();

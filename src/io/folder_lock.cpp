@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -27,6 +29,18 @@ std::string this_process() {
                      gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown machine");
 }
 
+/// Takes the lock. Others may look at it for an instant (is_held), which is no reason to give up.
+bool take_lock(int file) {
+  constexpr int attempts = 5;
+  for (int k = 0; k < attempts; ++k) {
+    if (k > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK) return false;
+  }
+  errno = EWOULDBLOCK;
+  return false;
+}
+
 /// Throws the error that another run is going, with what that run has written into the locked file.
 [[noreturn]] void throw_busy(int file, const fs::path& folder) {
   std::array<char, 300> text{};
@@ -37,6 +51,14 @@ std::string this_process() {
                   "(touch {0}/STOP)",
                   folder.string(), size > 0 ? text.data() : "its process is unknown"));
 }
+
+/// The lock file of a folder; -1 if there is none.
+int open_lock(const fs::path& folder) {
+  return open((folder / lock_file_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+}
+
+/// Whether somebody else has locked it.
+bool is_locked(int file) { return flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
 
 /// Whether the file that is open is still the one of that name: the run that held it may just have removed it.
 bool is_file(int file, const fs::path& path) {
@@ -53,7 +75,7 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_file_name) 
     if (file_ >= 0) close(file_);
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file_ < 0) throw_io_error("write", path_, errno);
-    if (flock(file_, LOCK_EX | LOCK_NB) == 0) continue;
+    if (take_lock(file_)) continue;
     if (errno == EWOULDBLOCK) throw_busy(std::exchange(file_, -1), folder);
     warn(fmt::format("the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
                      folder.string(), std::generic_category().message(errno)));
@@ -83,10 +105,18 @@ FolderLock::~FolderLock() {
   close(file_);
 }
 
+bool FolderLock::is_held(const fs::path& folder) {
+  const int file = open_lock(folder);
+  if (file < 0) return false;
+  const bool is_busy = is_locked(file);
+  close(file);
+  return is_busy;
+}
+
 void FolderLock::require_free(const fs::path& folder) {
-  const int file = open((folder / lock_file_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int file = open_lock(folder);
   if (file < 0) return;
-  if (flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) throw_busy(file, folder);
+  if (is_locked(file)) throw_busy(file, folder);
   close(file);
 }
 

@@ -23,6 +23,9 @@ class FolderLock {
   /// Holds nothing: a rank that is not the root.
   FolderLock() = default;
 
+  /// Whether a run holds the lock. A run that begins at this very moment waits for the answer.
+  static bool is_held(const std::filesystem::path& folder);
+
   /// Throws as the constructor does while a run holds the lock; takes nothing.
   static void require_free(const std::filesystem::path& folder);
 

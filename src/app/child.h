@@ -1,0 +1,29 @@
+// Processes that the server behind `tailwater view` starts: a check that it waits for, and runs that outlive it.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tailwater {
+
+struct ChildEnd {
+  int code = 0;  ///< exit code, or 128 and the number of the signal that ended it
+  std::string output;
+  std::string errors;
+};
+
+/// Runs a program in a folder with `input` on its standard input, and waits for it; after `patience` it is killed.
+/// Throws IoError if it cannot be started. May be called by several threads at once, as all functions here.
+ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                   const std::string& input, std::chrono::milliseconds patience);
+
+/// Starts a program in a folder that goes on when this one ends, in a session of its own. Waits until it `is_ready`, has
+/// ended, or `patience` is over. Throws InputError with what it said if it has ended before it was ready; IoError if it
+/// cannot be started.
+void start_apart(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                 const std::function<bool()>& is_ready, std::chrono::milliseconds patience);
+
+}  // namespace tailwater

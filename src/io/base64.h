@@ -1,0 +1,11 @@
+// Bytes as letters, for texts that must hold them (RFC 4648).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tailwater {
+
+std::string base64(std::string_view bytes);
+
+}  // namespace tailwater

@@ -1,0 +1,36 @@
+// Reads back the VTP files that vtp_writer.h writes, those of several ranks too; no others.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tailwater {
+
+struct VtpFile {
+  /// A field, or the points: all values of the first point, then of the next.
+  struct Array {
+    std::size_t components = 1;
+    std::vector<double> values;
+  };
+  double time = 0.0;  ///< s
+  std::size_t count = 0;
+  Array points;  ///< m; three coordinates each
+  std::map<std::string, Array> fields;
+};
+
+/// Throws IoError, which names the file, if it cannot be read or is not whole.
+VtpFile read_vtp(const std::filesystem::path& path);
+/// The same for the bytes of a file that messages call `name`.
+VtpFile read_vtp_bytes(std::string_view bytes, const std::string& name);
+
+/// Files and times [s] of a list that pvd_series.h has written. Throws IoError.
+struct PvdEntry {
+  double time;
+  std::string file;  ///< name in the folder of the list
+};
+std::vector<PvdEntry> read_pvd(std::string_view bytes);
+
+}  // namespace tailwater

@@ -1,0 +1,210 @@
+#include "run/run_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/folder_lock.h"
+#include "io/run_folder.h"
+#include "run/progress.h"
+
+namespace tailwater {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string plural(std::size_t count) { return count == 0 ? "none" : fmt::format("{}", count); }
+
+double number(const Json& block, const char* key) { return block.at(key).get<double>(); }
+std::string text(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
+
+std::string water_line(const Json& water) {
+  std::string line = fmt::format("{:.6g} kg at the start", number(water.at("start"), "mass_kg"));
+  for (const char* part : {"in", "inside", "outside", "out"}) {
+    line += fmt::format(", {:.6g} {}", number(water.at(part), "mass_kg"), part);
+  }
+  return line;
+}
+
+/// The last whole line of steps.csv by the names of its columns; empty if there is none.
+std::map<std::string, double> last_step(const fs::path& run) {
+  constexpr std::streamoff enough = 4096;
+  std::ifstream file(run / "steps.csv", std::ios::binary);
+  std::string head;
+  if (!std::getline(file, head)) return {};
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(static_cast<std::streamoff>(head.size()), size - enough));
+  const std::string tail(std::istreambuf_iterator<char>(file), {});
+  const std::size_t end = tail.rfind('\n');
+  if (end == tail.npos || end == 0) return {};
+  const std::size_t before = tail.rfind('\n', end - 1);
+  if (before == tail.npos) return {};
+  std::string_view line = std::string_view(tail).substr(before + 1, end - before - 1);
+  std::string_view names = head;
+  const auto take_field = [](std::string_view& rest) {
+    const std::string_view field = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), field.size() + 1));
+    return field;
+  };
+  std::map<std::string, double> values;
+  while (!names.empty()) {
+    const std::string name(take_field(names));
+    const std::string_view field = take_field(line);
+    double value = 0.0;
+    if (std::from_chars(field.data(), field.data() + field.size(), value).ec == std::errc{}) values[name] = value;
+  }
+  return values;
+}
+
+/// Seconds until a run that goes on is done, from how fast it went since it began; nothing if that is not known.
+Json time_left(const fs::path& run, const Json& summary, double time, double end) {
+  std::error_code error;
+  const auto began = fs::last_write_time(run / summary_name, error);
+  if (error) return {};
+  const std::chrono::duration<double> gone = fs::file_time_type::clock::now() - began;
+  const double way = time - number(summary.at("time_s"), "reached");
+  if (!(way > 0.0) || !(gone.count() > 0.0)) return {};
+  return std::max(0.0, (end - time) / way * gone.count());
+}
+
+/// What there is to say of a run that goes on, whose summary is of its start.
+std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::string, double>& step) {
+  const auto value = [&](const char* name) {
+    const auto found = step.find(name);
+    return found == step.end() ? 0.0 : found->second;
+  };
+  std::vector<InfoLine> lines;
+  if (!step.empty()) {
+    lines.push_back({"step", fmt::format("{:.0f}, of {:.3g} s", value("step"), value("dt_s"))});
+    lines.push_back({"speed", fmt::format("{:.3g} m/s at most", value("speed_max_m_per_s"))});
+    lines.push_back({"energy", fmt::format("{:.6g} J kinetic, {:.6g} J potential", value("kinetic_J"),
+                                           value("potential_J"))});
+    lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
+                                            value("density_error_rms"))});
+    lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
+    lines.push_back({"water", fmt::format("{:.6g} kg at the start, {:.6g} m3 in, {:.6g} m3 out",
+                                          number(summary.at("water_balance").at("start"), "mass_kg"),
+                                          value("volume_in_m3"), value("volume_out_m3"))});
+  }
+  const Json& particles = summary.at("particles");
+  lines.push_back({"particles", fmt::format("{:.0f} fluid at the start, {:.0f} wall, spacing {:g} m",
+                                            number(particles, "fluid"), number(particles, "wall"),
+                                            number(summary, "spacing_m"))});
+  lines.push_back({"ranks", fmt::format("{:.0f}", number(summary.at("ranks"), "count"))});
+  return lines;
+}
+
+/// As viewers call it; a summary that says "running" where nobody is at work is of a run that was killed.
+std::string state_of(const std::string& status, bool is_at_work) {
+  if (is_at_work) return status == "running" ? "running" : "waiting";  // it has not begun its steps yet
+  if (status == "done" || status == "failed") return status;
+  return status.empty() ? "waiting" : "stopped";
+}
+
+Json info_from(const fs::path& run, const Json& summary) {
+  const bool is_at_work = FolderLock::is_held(run);
+  const std::string status = summary.value("status", "");
+  const std::string state = state_of(status, is_at_work);
+  const bool is_live = status == "running";
+  const std::map<std::string, double> step = is_live ? last_step(run) : std::map<std::string, double>();
+  const double end = number(summary.at("time_s"), "end");
+  const double time = step.contains("time_s") ? step.at("time_s") : number(summary.at("time_s"), "reached");
+  std::vector<InfoLine> lines = is_live ? live_digest(summary, step) : summary_digest(summary);
+  if (is_live && !is_at_work) {
+    lines.insert(lines.begin(), {"status", fmt::format("killed; to go on: tailwater resume {}", run.string())});
+  }
+  Json shown = Json::array();
+  for (const InfoLine& line : lines) shown.push_back({{"label", line.label}, {"text", line.text}});
+  return {{"state", state},
+          {"time", time},
+          {"end", end},
+          {"progress", end > 0.0 ? std::min(1.0, time / end) : 0.0},
+          {"time_left", state == "running" ? time_left(run, summary, time, end) : Json()},
+          {"particles", summary.at("particles").at("fluid")},
+          {"lines", std::move(shown)},
+          {"warnings", summary.at("warnings")},
+          {"controls", is_at_work ? Json{"stop", "checkpoint"} : Json{"resume"}}};
+}
+
+}  // namespace
+
+Json read_summary(const fs::path& run) {
+  const fs::path path = run / summary_name;
+  std::ifstream file(path);
+  if (!file) {
+    throw IoError(
+        fmt::format("cannot read '{}'; is '{}' the folder of a run that has ended?", path.string(), run.string()));
+  }
+  Json summary = Json::parse(file, nullptr, false);
+  if (summary.is_discarded()) throw IoError(fmt::format("'{}' is not valid JSON", path.string()));
+  return summary;
+}
+
+std::vector<InfoLine> summary_digest(const Json& summary) {
+  std::vector<InfoLine> lines{{"status", text(summary, "status")}};
+  if (!text(summary, "message").empty()) lines.push_back({"message", text(summary, "message")});
+  std::string warnings = plural(summary.at("warnings").size());
+  for (const Json& warning : summary.at("warnings")) warnings += fmt::format("\n  {}", printable(warning.get<std::string>()));
+  lines.push_back({"warnings", warnings});
+  if (const auto results = summary.find("results"); results != summary.end()) {  // runs of earlier versions have none
+    for (const auto& [probe, result] : results->items()) lines.push_back({printable(probe), text(result, "words")});
+  }
+  const Json& time = summary.at("time_s");
+  const Json& steps = summary.at("steps");
+  lines.push_back({"time", fmt::format("{:.6g} of {:.6g} s, {:.0f} steps of {:.3g} s ({:.3g} to {:.3g})",
+                                       number(time, "reached"), number(time, "end"), number(steps, "count"),
+                                       number(steps, "dt_mean_s"), number(steps, "dt_least_s"),
+                                       number(steps, "dt_largest_s"))});
+  const Json& particles = summary.at("particles");
+  lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number(particles, "fluid"),
+                                            number(particles, "wall"), number(summary, "spacing_m"))});
+  lines.push_back({"water", water_line(summary.at("water_balance"))});
+  const Json& energy = summary.at("energy");
+  lines.push_back({"energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, largest rise {:.2g} J",
+                                         number(energy, "start_J"), number(energy, "end_J"),
+                                         number(energy, "largest_rise_J"))});
+  const Json& volume = summary.at("volume");
+  lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", number(volume, "density_error_mean"),
+                                          number(volume, "density_error_rms"))});
+  const Json& solver = summary.at("pressure_solver");
+  const Json& interventions = summary.at("interventions");
+  lines.push_back({"solver", fmt::format("{:.3g} iterations per solve, {:.0f} restarted; {:.0f} particles put back from "
+                                         "walls, {:.0f} capped shifts",
+                                         number(solver, "iterations_per_solve"),
+                                         number(interventions, "restarted_solves"),
+                                         number(interventions, "put_back_from_walls"),
+                                         number(interventions, "capped_shifts"))});
+  const Json& cost = summary.at("cost");
+  lines.push_back({"cost", fmt::format("{}, {:.3g} CPU s per simulated s, {:.0f} MB on {:.0f} rank(s)",
+                                       readable_duration(number(cost, "wall_clock_s")),
+                                       number(cost, "cpu_s_per_simulated_s"), number(cost, "peak_memory_bytes") / 1e6,
+                                       number(summary.at("ranks"), "count"))});
+  lines.push_back({"program", fmt::format("tailwater {} (commit {}), {}, on {}", text(summary, "version"),
+                                          text(summary, "commit"), text(summary, "libraries"),
+                                          text(summary.at("machine"), "name"))});
+  return lines;
+}
+
+Json run_info(const fs::path& run) {
+  try {
+    return info_from(run, read_summary(run));
+  } catch (const IoError&) {
+  } catch (const nlohmann::json::exception&) {
+  }
+  return {{"state", "waiting"}, {"time", 0.0},     {"end", nullptr},        {"progress", 0.0},
+          {"time_left", nullptr}, {"particles", nullptr}, {"lines", Json::array()}, {"warnings", Json::array()},
+          {"controls", Json::array()}};
+}
+
+}  // namespace tailwater

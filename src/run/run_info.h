@@ -1,0 +1,28 @@
+// What is known of a run from its folder, whether it goes on or has ended.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace tailwater {
+
+/// A line of a digest: "cost" and what there is to say about it.
+struct InfoLine {
+  std::string label;
+  std::string text;
+};
+
+/// The summary that a run has left in its folder. Throws IoError.
+nlohmann::ordered_json read_summary(const std::filesystem::path& run);
+
+/// What an engineer wants to know before the numbers of a run are used. Throws nlohmann::json::exception if the summary
+/// is not of this version.
+std::vector<InfoLine> summary_digest(const nlohmann::ordered_json& summary);
+
+/// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, controls}
+/// (docs/reference/view.md). What cannot be read is left out: never throws for what is in the folder.
+nlohmann::ordered_json run_info(const std::filesystem::path& run);
+
+}  // namespace tailwater

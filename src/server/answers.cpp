@@ -1,0 +1,71 @@
+#include "server/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <utility>
+
+#include "server/guard.h"
+
+namespace tailwater {
+
+using Json = nlohmann::ordered_json;
+using httplib::Request;
+using httplib::Response;
+
+std::vector<std::string> segments_of(std::string_view path) {
+  std::vector<std::string> segments;
+  while (!path.empty()) {
+    path.remove_prefix(1);  // '/'
+    segments.emplace_back(path.substr(0, path.find('/')));
+    path.remove_prefix(segments.back().size());
+  }
+  return segments;
+}
+
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+void answer_json(Response& response, const Json& json, int status) {
+  response.status = status;
+  response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+}
+
+void answer_error(Response& response, int status, std::string_view message) {
+  answer_json(response, {{"error", message}}, status);
+}
+
+void answer_file(const Request& request, Response& response, OpenFile opened, const char* type) {
+  ByteRange range{0, opened.size() - 1};
+  const RangeAnswer asked = range_of(request.get_header_value("Range"), opened.size(), range);
+  response.set_header("Accept-Ranges", "bytes");
+  if (asked == RangeAnswer::impossible) {
+    response.set_header("Content-Range", fmt::format("bytes */{}", opened.size()));
+    return answer_error(response, 416, "there are no such bytes");
+  }
+  response.status = 200;
+  if (asked == RangeAnswer::part) {
+    response.status = 206;
+    response.set_header("Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.last, opened.size()));
+  }
+  const auto length = static_cast<std::size_t>(range.last - range.first + 1);
+  if (length == 0) return response.set_content("", type);
+  const auto file = std::make_shared<OpenFile>(std::move(opened));
+  response.set_content_provider(length, type,
+                                [file, first = range.first](std::size_t offset, std::size_t count, auto& sink) {
+                                  constexpr std::size_t piece = std::size_t{1} << 18U;
+                                  const std::string bytes = file->read(first + static_cast<std::int64_t>(offset),
+                                                                       static_cast<std::int64_t>(std::min(count, piece)));
+                                  // A file that has become shorter meanwhile: the connection ends, and whoever asked
+                                  // sees that bytes are missing.
+                                  return !bytes.empty() && sink.write(bytes.data(), bytes.size());
+                                });
+}
+
+}  // namespace tailwater

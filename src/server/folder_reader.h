@@ -1,0 +1,64 @@
+// Files of a run's folder as others may see them: whatever name is asked for, nothing outside of the folder is opened,
+// and no link in it is followed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tailwater {
+
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor, std::int64_t size) : descriptor_(descriptor), size_(size) {}
+  OpenFile(OpenFile&& other) noexcept;
+  OpenFile& operator=(OpenFile&& other) noexcept;
+  ~OpenFile();
+
+  /// Bytes, when it was opened.
+  std::int64_t size() const { return size_; }
+  /// At most so many bytes from a place on; fewer where the file ends, or cannot be read any more.
+  std::string read(std::int64_t begin, std::int64_t count) const;
+  std::string read() const { return read(0, size_); }
+
+ private:
+  int descriptor_;
+  std::int64_t size_;
+};
+
+/// What tells a file from another one that later has its name.
+struct FileMark {
+  std::uint64_t inode = 0;
+  std::int64_t changed = 0;  ///< ns
+  std::int64_t size = 0;     ///< bytes
+
+  bool operator==(const FileMark&) const = default;
+};
+
+class FolderReader {
+ public:
+  explicit FolderReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  const std::filesystem::path& path() const { return folder_; }
+  bool exists() const;
+  /// A regular file by its names from the folder on, as in {"probes", "H1.csv"}; nothing if there is none, or one of
+  /// the names is no plain name.
+  std::optional<OpenFile> open(const std::vector<std::string>& names) const;
+  /// The text of such a file; empty if there is none.
+  std::string text_of(const std::vector<std::string>& names) const;
+  std::optional<FileMark> mark_of(const std::vector<std::string>& names) const;
+  /// The names in a folder of the folder, in order; none if it is not there.
+  std::vector<std::string> names_in(const std::string& folder) const;
+  /// Makes an empty file unless it is there. Returns whether it could.
+  bool touch(const std::string& name) const;
+
+ private:
+  int open_at(const std::vector<std::string>& names, int flags) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,58 @@
+// Which frames a run has, while it writes them and when it is resumed: those of its stream, or, of a run that has none,
+// those of its field files.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/folder_reader.h"
+
+namespace tailwater {
+
+struct FrameEntry {
+  double time = 0.0;  ///< s
+  bool is_key = true;
+  std::int64_t bytes = 0;
+  FileMark mark;
+  std::string field_file;  ///< of a run without a stream
+};
+
+class FrameIndex {
+ public:
+  explicit FrameIndex(const FolderReader& folder) : folder_(folder) {}
+
+  /// What has happened since the last look.
+  struct News {
+    bool is_cut = false;      ///< known frames are gone or have changed, as when a run is resumed
+    double cut_time = -1.0;   ///< s; of the last frame before them; -1: there is none
+    std::vector<std::uint32_t> added;
+  };
+  /// Looks at the folder. A frame that is not whole is not there.
+  News look();
+
+  const std::map<std::uint32_t, FrameEntry>& frames() const { return frames_; }
+
+  /// The bytes of a frame; nothing if it cannot be read. A field file becomes a key frame.
+  std::optional<std::string> bytes_of(std::uint32_t index) const;
+
+ private:
+  using Found = std::map<std::uint32_t, std::string>;  ///< names of files
+
+  Found list_stream() const;
+  std::optional<FrameEntry> read_entry(const std::string& name) const;
+  News look_at_stream(const Found& found);
+  News look_at_fields();
+  News cut_from(std::uint32_t index);
+
+  FolderReader folder_;
+  std::map<std::uint32_t, FrameEntry> frames_;
+  std::optional<FileMark> field_list_;
+};
+
+/// A field file as a key frame. Throws IoError.
+std::string frame_of_fields(std::string_view bytes, const std::string& name, std::uint32_t index, std::size_t dimension);
+
+}  // namespace tailwater

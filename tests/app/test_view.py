@@ -1,0 +1,371 @@
+"""tailwater view: the server behind it, as its page and others meet it."""
+
+import base64
+import concurrent.futures
+import http.client
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import time
+import unittest
+
+from frames import read_frames
+from program import PATIENCE, PROGRAM, ProgramTest, environment
+
+PAGE = {"X-Tailwater": "page"}
+
+
+class Viewed(ProgramTest):
+    def view(self, *arguments):
+        """Starts the server; self.ask then asks it."""
+        self.server = self.start("view", *arguments, "--no-browser")
+        address = self.server.stdout.readline()
+        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", address)
+        self.assertIsNotNone(found, address)
+        self.port, self.token = int(found[1]), found[2]
+
+    def ask(self, path, method="GET", body=None, headers=None, token=None):
+        """(status, headers, bytes) of an answer; the path is behind the token."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
+        try:
+            connection.request(method, f"/{self.token if token is None else token}/{path}", body, headers or {})
+            answer = connection.getresponse()
+            return answer.status, answer.headers, answer.read()
+        finally:
+            connection.close()
+
+    def json(self, path, expect=200, **options):
+        status, _, text = self.ask(path, **options)
+        self.assertEqual(status, expect, text)
+        return json.loads(text)
+
+    def post(self, path, body="", expect=200):
+        return self.json(path, expect, method="POST", body=body, headers=PAGE)
+
+    def raw(self, text):
+        """The status of a request as it is written."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE) as connection:
+            connection.sendall(text.encode())
+            answer = connection.makefile("rb").readline()
+        return int(answer.split()[1]) if answer else 0
+
+    def assert_lives(self):
+        self.assertEqual(self.json("api/state")["mode"], "run")
+        self.assertIsNone(self.server.poll())
+
+    def start_endless_run(self, *arguments):
+        process = self.start("run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=1000", "--set",
+                             "output.view_interval=0.02", *arguments)
+        self.wait_for((self.folder / "run/view/00001.frame").exists, process)
+        return process
+
+
+class OfADoneRun(Viewed):
+    def setUp(self):
+        super().setUp()
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+
+    def test_tells_what_the_run_has_left(self):
+        self.view("run")
+        state = self.json("api/state")
+        self.assertEqual([run["name"] for run in state["runs"]], ["run"])
+        self.assertEqual(self.json("api/run/0/scene"), json.loads((self.folder / "run/view/scene.json").read_text()))
+        frames = self.json("api/run/0/frames")
+        written = read_frames(self.folder / "run")
+        self.assertTrue(frames["done"])
+        self.assertEqual([frame["time"] for frame in frames["frames"]], [frame.time for frame in written])
+        self.assertEqual([frame["key"] for frame in frames["frames"]], [frame.order == 0 for frame in written])
+        later = self.json("api/run/0/frames?from=3")["frames"]
+        self.assertEqual([frame["index"] for frame in later], list(range(3, len(written))))
+        self.assertEqual(self.ask("api/run/0/frame/2")[2], (self.folder / "run/view/00002.frame").read_bytes())
+        info = self.json("api/run/0/info")
+        self.assertEqual((info["state"], info["progress"], info["controls"]), ("done", 1.0, ["resume"]))
+        digest = self.call("info", "run").stdout
+        for line in info["lines"]:
+            self.assertIn(line["text"], digest)
+        status, headers, page = self.ask("")
+        self.assertEqual(status, 200)
+        self.assertIn(b"<!-- tailwater-data -->", page)
+        self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+        self.assertIn("frame-ancestors 'none'", headers["Content-Security-Policy"])
+        names = [template["name"] for template in self.json("api/templates")]
+        self.assertIn("dam-break", names)
+        self.assertIn(b"[case]", self.ask("api/template/dam-break")[2])
+        tables = self.json("api/spec")["tables"]
+        self.assertIn("wall", [table["name"] for table in tables])
+
+    def test_serves_parts_of_files(self):
+        self.view("run")
+        table = (self.folder / "run/steps.csv").read_bytes()
+        status, headers, part = self.ask("api/run/0/file/steps.csv", headers={"Range": "bytes=10-19"})
+        self.assertEqual((status, part), (206, table[10:20]))
+        self.assertEqual(headers["Content-Range"], f"bytes 10-19/{len(table)}")
+        self.assertEqual(self.ask("api/run/0/file/steps.csv", headers={"Range": f"bytes={len(table) - 5}-"})[2],
+                         table[-5:])
+        for wanted, expected in ((f"bytes={len(table)}-", 416), ("bytes=99999999999999999999-", 200),
+                                 ("bytes=0-1,4-5", 200), ("bytes=5-2", 200), ("nonsense", 200)):
+            status, _, whole = self.ask("api/run/0/file/steps.csv", headers={"Range": wanted})
+            # The library refuses what it cannot read, before this program sees it.
+            self.assertIn(status, (expected, 416), wanted)
+            if status == 200:
+                self.assertEqual(whole, table)
+        for path in ("api/run/0/info", "", "api/run/0/frame/0"):
+            status, _, text = self.ask(path, headers={"Range": "bytes=100000000-200000000"})
+            self.assertEqual(status, 200)
+            self.assertEqual(len(text), len(self.ask(path)[2]))
+        self.assert_lives()
+
+    def test_answers_nobody_else(self):
+        self.view("run")
+        own = f"127.0.0.1:{self.port}"
+        for token in ("", "0" * 32, self.token[:-1], self.token + "0", self.token.upper() + "g", "a" * 5000):
+            self.assertEqual(self.ask("api/state", token=token)[0], 403)
+        for headers in ({"Host": "example.org"}, {"Host": f"evil.example:{self.port}"}, {"Origin": "http://example.org"},
+                        {"Origin": "null"}, {"Origin": f"http://localhost:{self.port}"}):
+            self.assertEqual(self.ask("api/state", headers=headers)[0], 403, headers)
+        self.assertEqual(self.ask("api/state", headers={"Origin": f"http://{own}"})[0], 200)
+        # As through ssh -L with another port.
+        self.assertEqual(self.ask("api/state", headers={"Host": "localhost:9999"})[0], 200)
+        # A form of another page cannot send the header.
+        self.assertEqual(self.ask("api/run/0/stop", method="POST")[0], 403)
+        for method in ("PUT", "DELETE", "PATCH", "OPTIONS"):
+            self.assertIn(self.ask("api/state", method=method)[0], (403, 404, 405))
+        # Only this machine can connect.
+        listening = open("/proc/net/tcp").read()
+        local = f"0100007F:{self.port:04X} 00000000:0000 0A"
+        self.assertIn(local, listening)
+        self.assertNotIn(f"00000000:{self.port:04X} 00000000:0000 0A", listening)
+        self.assert_lives()
+
+    def test_no_path_leads_out_of_the_folder(self):
+        (self.folder / "secret.csv").write_text("secret")
+        (self.folder / "run/probes/link.csv").symlink_to(self.folder / "secret.csv")
+        (self.folder / "run/view/99999.frame").symlink_to(self.folder / "secret.csv")
+        self.view("run")
+        for path in ("../secret.csv", "..%2fsecret.csv", "%2e%2e/secret.csv", "probes/../../secret.csv",
+                     "probes/%2e%2e/%2e%2e/secret.csv", "probes/..%2f..%2fsecret.csv", "probes/link.csv",
+                     "//etc/passwd", "/etc/passwd", "checkpoints", ".lock", "probes/", "probes", "", "%00", "steps.csv%00",
+                     "view/scene.json", "fields/fields.pvd", "%ff%fe"):
+            self.assertEqual(self.ask(f"api/run/0/file/{path}")[0], 404, path)
+        for path in ("api/run/1/info", "api/run/-1/info", "api/run/x/info", "api/run/99999999999/info", "api/run/0/frame/x",
+                     "api/run/0/frame/99999", "api/run/0/frame/1e9", "api/run/0", "api/run", "api/template/../new", "api",
+                     "x/y/z", "api/case"):
+            self.assertEqual(self.ask(path)[0], 404, path)
+        for request in ("GET\r\n\r\n", "GET / HTTP/1.1\r\n\r\n", f"GET /{'x' * 9000} HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                        "\0" * 100, f"POST /{self.token}/api/check HTTP/1.1\r\nHost: localhost\r\nX-Tailwater: page\r\n"
+                        f"Content-Length: 99999999999\r\n\r\n"):
+            self.assertNotEqual(self.raw(request), 200)
+        self.assert_lives()
+
+    def test_lives_through_many_requests_at_once(self):
+        self.view("run")
+
+        def ask(k):
+            try:
+                return self.ask("api/run/0/frame/1" if k % 2 else "api/state", token=None if k % 3 else "wrong")[0]
+            except OSError:
+                return 0
+
+        with concurrent.futures.ThreadPoolExecutor(64) as pool:
+            answers = list(pool.map(ask, range(2000)))
+        self.assertEqual(answers.count(403), len(range(0, 2000, 3)))
+        self.assertEqual(answers.count(200), 2000 - len(range(0, 2000, 3)))
+        # Connections that say nothing do not keep others out for long.
+        silent = [socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE) for _ in range(200)]
+        self.assert_lives()
+        for connection in silent:
+            connection.close()
+        self.assertLess(len(os.listdir(f"/proc/{self.server.pid}/fd")), 200)
+
+    def test_a_folder_that_goes_away_is_told(self):
+        self.view("run")
+        events = self.events()
+        self.assertEqual(next(events)[0], "info")
+        shutil.rmtree(self.folder / "run")
+        self.assertIn("gone", (name for name, _ in events))
+        self.assertEqual(self.json("api/run/0/info")["state"], "waiting")
+        self.assertEqual(self.ask("api/run/0/frame/0")[0], 404)
+        self.post("api/run/0/stop", expect=409)
+        self.assert_lives()
+
+    def events(self, path="api/run/0/events"):
+        """(name, data) of each event, as they come."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
+        self.addCleanup(connection.close)
+        connection.request("GET", f"/{self.token}/{path}")
+        answer = connection.getresponse()
+        self.assertEqual(answer.headers["Content-Type"], "text/event-stream")
+        name = None
+        for line in answer:
+            text = line.decode().rstrip("\n")
+            if text.startswith("event: "):
+                name = text[7:]
+            elif text.startswith("data: "):
+                yield name, json.loads(text[6:])
+
+    def test_old_runs_are_shown_from_their_field_files(self):
+        shutil.rmtree(self.folder / "run/view")
+        self.view("run")
+        self.assertEqual(self.json("api/run/0/scene")["walls"][0]["name"], "tank")
+        frames = self.json("api/run/0/frames")["frames"]
+        self.assertEqual(len(frames), len(list((self.folder / "run/fields").glob("fields_*.vtp"))))
+        status, _, data = self.ask("api/run/0/frame/1")
+        self.assertEqual((status, data[:4]), (200, b"TWVF"))
+
+    def test_export_holds_all(self):
+        self.call("view", "run", "--export", "run.html")
+        page = (self.folder / "run.html").read_text()
+        text = re.search(r'<script type="application/json" id="tailwater-data">([^<]*)</script>', page)[1]
+        data = json.loads(text)
+        run = data["runs"]["0"]
+        self.assertEqual([run["id"] for run in data["state"]["runs"]], ["0"])
+        self.assertEqual(run["files"]["probes/depth.csv"], (self.folder / "run/probes/depth.csv").read_text())
+        self.assertEqual(base64.b64decode(run["frames"][3]["data"]), (self.folder / "run/view/00003.frame").read_bytes())
+        self.assertEqual(run["scene"]["title"], "Small dam break")
+        self.assertEqual(run["info"]["controls"], [])
+        self.assertNotIn("<!-- tailwater-data -->", page)
+
+    def test_two_runs_and_a_sweep(self):
+        self.call("run", "small.toml", "--out", "other", "--quiet", "--set", "particles.spacing=0.05")
+        self.view("run", "other")
+        self.assertEqual([run["name"] for run in self.json("api/state")["runs"]], ["run", "other"])
+        self.server.send_signal(signal.SIGINT)
+        self.assertEqual(self.server.wait(timeout=PATIENCE), 0)
+        self.call("run", "small.toml", "--out", "sweep", "--quiet", "--sweep", "particles.spacing=0.1,0.05")
+        self.view("sweep")
+        state = self.json("api/state")
+        self.assertEqual(state["mode"], "sweep")
+        self.assertEqual([run["parameters"] for run in state["runs"]],
+                         [{"particles.spacing": "0.1"}, {"particles.spacing": "0.05"}])
+
+    def test_says_what_cannot_be_viewed(self):
+        for words, part in ((("nothing",), "neither the folder of a run nor a case file"),
+                            ((".",), "is not the folder of a run"), (("small.toml", "run"), "a case is shown alone"),
+                            (("small.toml", "--export", "x.html"), "nothing to show before it has run")):
+            self.assertIn(part, self.call("view", *words, expect=2).stderr)
+        self.view("run")
+        self.assertIn("cannot be listened to", self.call("view", "run", "--port", self.port, expect=4).stderr)
+
+
+class OfALiveRun(Viewed):
+    events = OfADoneRun.events
+
+    def test_events_tell_of_frames_tables_and_the_end(self):
+        process = self.start_endless_run()
+        self.view("run")
+        self.assertEqual(self.json("api/run/0/info")["state"], "running")
+        seen = {}
+        for name, data in self.events("api/run/0/events?from=1"):
+            seen.setdefault(name, []).append(data)
+            if len(seen.get("frame", [])) > 3 and len(seen.get("table", [])) > 6:
+                break
+        indices = [frame["index"] for frame in seen["frame"]]
+        self.assertEqual(indices, list(range(1, 1 + len(indices))))
+        self.assertEqual(seen["info"][0]["controls"], ["stop", "checkpoint"])
+        self.assertIn("steps.csv", [table["path"] for table in seen["table"]])
+        self.assertEqual(self.post("api/run/0/resume", expect=409)["error"], "the run is at work")
+        self.post("api/run/0/checkpoint")
+        self.wait_for(lambda: list((self.folder / "run").glob("checkpoints/*.h5")), process)
+        self.post("api/run/0/stop")
+        self.assertEqual(process.wait(timeout=PATIENCE), 130)
+        for name, data in self.events():
+            if name == "info" and data["state"] == "stopped":
+                break
+        self.assertEqual(self.post("api/run/0/stop", expect=409)["error"], "nobody is at work in this folder")
+
+    def test_a_run_that_is_resumed_is_told_as_cut(self):
+        process = self.start_endless_run("--set", "output.checkpoint_interval=0.001")
+        self.wait_for(lambda: list((self.folder / "run").glob("checkpoints/*.h5")), process)
+        process.kill()
+        process.wait(timeout=PATIENCE)
+        last = read_frames(self.folder / "run")[-1]
+        # What a run that was killed later would have left.
+        shutil.copy(self.folder / f"run/view/{last.index:05}.frame", self.folder / f"run/view/{last.index + 1:05}.frame")
+        self.view("run")
+        self.assertEqual(self.json("api/run/0/info")["state"], "stopped")
+        events = self.events()
+        self.wait_for_frame(events, last.index + 1)
+        self.post("api/run/0/resume")
+        self.assertIn("cut", (name for name, _ in events))
+        self.assertIn("frame", (name for name, _ in events))
+        self.assertEqual(self.json("api/run/0/info")["state"], "running")
+        # The run does not end with the server.
+        self.server.send_signal(signal.SIGTERM)
+        self.assertEqual(self.server.wait(timeout=PATIENCE), 0)
+        count = len(list((self.folder / "run/view").glob("*.frame")))
+        self.wait_until(lambda: len(list((self.folder / "run/view").glob("*.frame"))) > count)
+        (self.folder / "run/STOP").touch()
+        self.wait_until(lambda: self.summary("run")["status"] == "interrupted")
+
+    def wait_for_frame(self, events, index):
+        for name, data in events:
+            if name == "frame" and data["index"] == index:
+                return
+
+    def wait_until(self, condition):
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, "nothing has happened")
+            time.sleep(0.05)
+
+
+class OfACase(Viewed):
+    def assert_lives(self):
+        self.assertEqual(self.json("api/state")["mode"], "case")
+
+    def test_checks_saves_and_runs(self):
+        self.view("small.toml")
+        state = self.json("api/state")
+        self.assertEqual((state["mode"], state["out"], state["runs"]), ("case", "small_run", []))
+        text = self.ask("api/case")[2].decode()
+        self.assertEqual(text, (self.folder / "small.toml").read_text())
+        answer = self.post("api/check", text)
+        self.assertEqual(answer["findings"], [])
+        drawing = answer["drawing"]
+        self.assertEqual(drawing["particles"]["count"], 50)
+        self.assertEqual(len(base64.b64decode(drawing["particles"]["positions"])), 50 * 2 * 4)
+        lines = text.splitlines()
+        self.assertEqual(lines[drawing["walls"][0]["lines"][0] - 1], "[[wall]]")
+        self.assertEqual([lines[probe["lines"][0]] for probe in drawing["probes"]][1], 'name = "wall_pressure"')
+        # Wrong in the reader's eyes, in those of the geometry, and not TOML at all.
+        wrong = self.post("api/check", text.replace("spacing = 0.1", "spacing = -1"))["findings"]
+        self.assertEqual([(one["severity"], one["line"]) for one in wrong], [("error", 4)])
+        self.assertIn("particles.spacing = -1", wrong[0]["message"])
+        wrong = self.post("api/check", text.replace("max = [1, 0.5]", "max = [4, 0.5]"))
+        self.assertEqual(wrong["findings"][0]["severity"], "error")
+        self.assertIsNotNone(wrong["drawing"])
+        self.assertEqual(self.post("api/check", "[case")["findings"][0]["line"], 1)
+        self.post("api/check", "\0\xff" * 1000)
+        self.assertEqual((self.folder / "small.toml").read_text(), text)
+        longer = text.replace("end = 0.1", "end = 1000")
+        self.post("api/save", longer)
+        self.assertEqual((self.folder / "small.toml").read_text(), longer)
+        for out in ("../x", "", "-n", ".x", "a/b", "small.toml"):
+            self.post("api/start", json.dumps({"text": text, "out": out, "ranks": 1}), expect=400)
+        self.post("api/start", "not json", expect=400)
+        self.post("api/start", json.dumps({"text": "[case]", "out": "bad", "ranks": 1}), expect=400)
+        run = self.post("api/start", json.dumps({"text": longer, "out": "small_run", "ranks": 1}))["run"]
+        self.assertEqual(self.json(f"api/run/{run}/info")["state"], "running")
+        self.post(f"api/run/{run}/stop")
+        deadline = time.monotonic() + PATIENCE
+        while self.json(f"api/run/{run}/info")["state"] != "stopped":
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+        self.assert_lives()
+
+    def test_check_as_json(self):
+        result = self.call("check", "small.toml", "--json")
+        self.assertEqual(json.loads(result.stdout)["findings"], [])
+        result = subprocess.run([PROGRAM, "check", "-", "--json"], input="[case]\ntitel = 1\n", cwd=self.folder,
+                                env=environment(), capture_output=True, text=True, timeout=PATIENCE)
+        findings = json.loads(result.stdout)["findings"]
+        self.assertIn(2, [one["line"] for one in findings])
+
+
+if __name__ == "__main__":
+    unittest.main()
