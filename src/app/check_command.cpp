@@ -183,9 +183,10 @@ void add_check_command(CLI::App& app, ExitCode&) {
       ->type_name("FILE");
   command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
   command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
-  command->add_flag("--json", options->as_json,
-                    "Print findings, drawing and size as JSON, for programs, without trial steps; the case \"-\" is read "
-                    "from standard input");
+  command->add_flag(
+      "--json", options->as_json,
+      "Print findings, drawing and size as JSON, for programs, without trial steps; the case \"-\" is read "
+      "from standard input");
   command->callback([options] {
     if (options->as_json) {
       print_as_json(*options);

@@ -13,10 +13,10 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/check.h"
-#include "sampling/particle_count.h"
 #include "io/base64.h"
 #include "probes/probe_set.h"
 #include "run/estimate.h"
+#include "sampling/particle_count.h"
 #include "view/scene.h"
 
 namespace tailwater {
@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_drawn_particles = 20000;
 
-std::optional<int> take_number(std::string_view& text) {
+std::optional<int> take_place_number(std::string_view& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end == text.data() + text.size() || *end != ':') return std::nullopt;
@@ -42,8 +42,8 @@ Json finding_of(std::string_view line, const std::string& origin, std::string_vi
   if (message.starts_with(origin + ":")) {
     message.remove_prefix(origin.size() + 1);
     std::string_view rest = message;
-    const std::optional<int> first = take_number(rest);
-    const std::optional<int> second = first ? take_number(rest) : std::nullopt;
+    const std::optional<int> first = take_place_number(rest);
+    const std::optional<int> second = first ? take_place_number(rest) : std::nullopt;
     if (second) {
       row = *first;
       column = *second;
@@ -71,9 +71,8 @@ std::string table_in(std::string_view line) {
   const std::size_t end = line.find(']');
   if (end == line.npos) return "";
   const std::string_view name = line.substr(brackets, end - brackets);
-  const bool is_name = !name.empty() && std::ranges::all_of(name, [](char c) {
-    return c == '_' || (c >= 'a' && c <= 'z');
-  });
+  const bool is_name =
+      !name.empty() && std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
   return is_name ? std::string(name) : "";
 }
 
@@ -130,10 +129,7 @@ Json particles_json(const FluidParticles<Dim>& fluid) {
     }
     blocks += static_cast<char>(fluid.block[i]);
   }
-  return {{"count", count},
-          {"shown", blocks.size()},
-          {"positions", base64(positions)},
-          {"fluid", base64(blocks)}};
+  return {{"count", count}, {"shown", blocks.size()}, {"positions", base64(positions)}, {"fluid", base64(blocks)}};
 }
 
 template <int Dim>
@@ -148,7 +144,7 @@ Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fluid
 }
 
 template <int Dim>
-void check_in(const CaseSpec& spec, const std::string& text, const std::string& origin, Json& answer) {
+void check_sound(const CaseSpec& spec, const std::string& text, const std::string& origin, Json& answer) {
   const auto add = [&](const Finding& finding) {
     add_findings(answer["findings"], spec.sources.placed(finding.message), origin,
                  finding.severity == Severity::error ? "error" : "warning");
@@ -186,7 +182,7 @@ Json broken_drawing(const CaseSpec& spec, std::string_view text) {
 template <int Dim>
 void check_what_can_be(const CaseSpec& spec, const std::string& text, const std::string& origin, Json& answer) {
   try {
-    check_in<Dim>(spec, text, origin, answer);
+    check_sound<Dim>(spec, text, origin, answer);
   } catch (const InputError& error) {
     add_findings(answer["findings"], spec.sources.placed(error.what()), origin, "error");
     if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec, text);

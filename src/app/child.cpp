@@ -18,10 +18,9 @@
 namespace tailwater {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-[[noreturn]] void throw_cannot_start(const std::string& program) {
+[[noreturn]] void throw_no_start(const std::string& program) {
   throw IoError(fmt::format("cannot start {}: {}", program, std::generic_category().message(errno)));
 }
 
@@ -29,7 +28,7 @@ using std::chrono::milliseconds;
 class Pipe {
  public:
   explicit Pipe(const std::string& program) {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw_cannot_start(program);
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw_no_start(program);
   }
   ~Pipe() {
     close_end(0);
@@ -53,7 +52,7 @@ struct Streams {
 };
 
 /// In a new process, where only the simplest calls are allowed: becomes the program.
-[[noreturn]] void become(char* const* words, const char* folder, const Streams& streams) {
+[[noreturn]] void turn_into(char* const* words, const char* folder, const Streams& streams) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -74,8 +73,8 @@ std::vector<char*> words_of(std::vector<std::string>& command) {
 
 int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
-milliseconds until(Clock::time_point deadline) {
-  return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(deadline - Clock::now()));
+milliseconds until(std::chrono::steady_clock::time_point deadline) {
+  return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now()));
 }
 
 /// Appends what can be read now; closes the pipe at its end.
@@ -94,13 +93,13 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   const std::vector<char*> words = words_of(owned);
   Pipe in(owned[0]), out(owned[0]), errors(owned[0]);
   const pid_t child = fork();
-  if (child < 0) throw_cannot_start(owned[0]);
-  if (child == 0) become(words.data(), folder.c_str(), {in.reader(), out.writer(), errors.writer()});
+  if (child < 0) throw_no_start(owned[0]);
+  if (child == 0) turn_into(words.data(), folder.c_str(), {in.reader(), out.writer(), errors.writer()});
   in.close_end(0);
   out.close_end(1);
   errors.close_end(1);
   fcntl(in.writer(), F_SETFL, O_NONBLOCK);
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   ChildEnd end;
   std::size_t written = 0;
   while (out.reader() >= 0 || errors.reader() >= 0) {
@@ -133,18 +132,18 @@ void start_apart(const std::vector<std::string>& command, const std::filesystem:
   Pipe errors(owned[0]);
   // The child leaves at once; its own child belongs to nobody, and nobody need wait for its end.
   const pid_t child = fork();
-  if (child < 0) throw_cannot_start(owned[0]);
+  if (child < 0) throw_no_start(owned[0]);
   if (child == 0) {
     setsid();
-    if (fork() == 0) become(words.data(), folder.c_str(), {nothing, nothing, errors.writer()});
+    if (fork() == 0) turn_into(words.data(), folder.c_str(), {nothing, nothing, errors.writer()});
     _exit(0);
   }
   close(nothing);
   errors.close_end(1);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   std::string said;
-  while (Clock::now() < deadline && !is_ready()) {
+  while (std::chrono::steady_clock::now() < deadline && !is_ready()) {
     pollfd waiting{errors.reader(), POLLIN, 0};
     if (poll(&waiting, 1, 50) > 0) take(errors, said);
     if (errors.reader() < 0) {  // it has ended

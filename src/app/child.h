@@ -20,9 +20,9 @@ struct ChildEnd {
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                    const std::string& input, std::chrono::milliseconds patience);
 
-/// Starts a program in a folder that goes on when this one ends, in a session of its own. Waits until it `is_ready`, has
-/// ended, or `patience` is over. Throws InputError with what it said if it has ended before it was ready; IoError if it
-/// cannot be started.
+/// Starts a program in a folder that goes on when this one ends, in a session of its own. Waits until it `is_ready`,
+/// has ended, or `patience` is over. Throws InputError with what it said if it has ended before it was ready; IoError
+/// if it cannot be started.
 void start_apart(const std::vector<std::string>& command, const std::filesystem::path& folder,
                  const std::function<bool()>& is_ready, std::chrono::milliseconds patience);
 

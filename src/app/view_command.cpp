@@ -33,7 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using std::chrono::seconds;
 
 struct ViewOptions {
   std::vector<fs::path> paths;
@@ -145,12 +144,13 @@ ViewActions actions_for(const ViewContent& content) {
   };
   actions.spec = [] { return Json::parse(case_reference_json()); };
   actions.resume = [](const fs::path& run) {
-    start_apart({this_program(), "resume", run.string(), "--quiet"}, run.parent_path(), becomes_ready(run), seconds(20));
+    start_apart({this_program(), "resume", run.string(), "--quiet"}, run.parent_path(), becomes_ready(run),
+                std::chrono::seconds(20));
   };
   const auto one_at_a_time = std::make_shared<std::mutex>();
   actions.check = [folder, one_at_a_time](const std::string& text) {
     const std::lock_guard lock(*one_at_a_time);
-    const ChildEnd end = run_child({this_program(), "check", "-", "--json"}, folder, text, seconds(20));
+    const ChildEnd end = run_child({this_program(), "check", "-", "--json"}, folder, text, std::chrono::seconds(20));
     Json answer = Json::parse(end.output, nullptr, false);
     if (answer.is_object()) return answer;
     throw IoError(end.code == 128 + SIGKILL ? "the check takes more than 20 s; remedy: a larger particles.spacing"
@@ -168,7 +168,7 @@ ViewActions actions_for(const ViewContent& content) {
     }
     write_text_file(saved, text);
     start_apart({this_program(), "run", saved.string(), "--out", run.string(), "-n", std::to_string(ranks), "--quiet"},
-                folder, becomes_ready(run), seconds(20));
+                folder, becomes_ready(run), std::chrono::seconds(20));
     return run;
   };
   return actions;
@@ -189,7 +189,8 @@ class Browser {
                                                          "<meta http-equiv=\"refresh\" content=\"0; url={0}\">"
                                                          "<a href=\"{0}\">Tailwater</a>\n",
                                                          address));
-      start_apart({"xdg-open", (folder_ / "open.html").string()}, folder_, [] { return true; }, seconds(1));
+      start_apart(
+          {"xdg-open", (folder_ / "open.html").string()}, folder_, [] { return true; }, std::chrono::seconds(1));
     } catch (const UserError&) {
       // There is no browser here; the address is printed.
     }
@@ -210,9 +211,10 @@ void serve(const ViewContent& content, const ViewOptions& options) {
   ViewServer server(content, actions_for(content), options.port);
   fmt::print("{}\n", server.address());
   std::fflush(stdout);
-  tell(fmt::format("open this address in a browser; from another machine: ssh -L {0}:127.0.0.1:{0} ..., then the same "
-                   "address. Ctrl-C ends",
-                   server.port()));
+  tell(
+      fmt::format("open this address in a browser; from another machine: ssh -L {0}:127.0.0.1:{0} ..., then the same "
+                  "address. Ctrl-C ends",
+                  server.port()));
   std::thread serving([&server] { server.serve(); });
   std::optional<Browser> browser;
   if (!options.opens_no_browser) browser.emplace(server.address());
@@ -251,7 +253,8 @@ void add_view_command(CLI::App& app, ExitCode&) {
       "          tailwater view my_run other_run\n"
       "          tailwater view my.toml\n"
       "          tailwater view my_run --export my_run.html\n"
-      "The address that is printed has a secret in it: whoever knows it can look at these runs, and stop them, on this\n"
+      "The address that is printed has a secret in it: whoever knows it can look at these runs, and stop them, on "
+      "this\n"
       "machine. Nobody else is answered, and no other machine. Runs do not end with this program.");
   command->callback([options] { view(*options); });
 }

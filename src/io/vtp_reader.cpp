@@ -83,7 +83,7 @@ class Appended {
 };
 
 template <class Stored>
-void append_values(const std::string& data, std::vector<double>& values) {
+void add_values(const std::string& data, std::vector<double>& values) {
   for (std::size_t k = 0; k < data.size(); k += sizeof(Stored)) {
     Stored value;
     std::memcpy(&value, data.data() + k, sizeof(Stored));
@@ -91,16 +91,16 @@ void append_values(const std::string& data, std::vector<double>& values) {
   }
 }
 
-void append_array(std::string_view element, std::size_t count, const Appended& appended, VtpFile::Array& array) {
+void add_array(std::string_view element, std::size_t count, const Appended& appended, VtpFile::Array& array) {
   const std::string_view type = attribute(element, "type");
   array.components = number_in<std::size_t>(attribute(element, "NumberOfComponents"));
   const auto offset = number_in<std::size_t>(attribute(element, "offset"));
   const std::size_t size_of_value = type == "Float32" ? 4 : 8;
   if (array.components > 16) refuse("an array has too many components");
   const std::string data = appended.at(offset, count * array.components * size_of_value);
-  if (type == "Float32") return append_values<float>(data, array.values);
-  if (type == "Float64") return append_values<double>(data, array.values);
-  if (type == "Int64") return append_values<std::int64_t>(data, array.values);
+  if (type == "Float32") return add_values<float>(data, array.values);
+  if (type == "Float64") return add_values<double>(data, array.values);
+  if (type == "Int64") return add_values<std::int64_t>(data, array.values);
   refuse("an array has another type");
 }
 
@@ -134,10 +134,10 @@ VtpFile parsed(std::string_view bytes) {
     const std::size_t end_of_points = piece.find("</Points>");
     if (points == piece.npos || end_of_points == piece.npos) refuse("it has no points");
     for_each_element(piece.substr(0, points), "DataArray", [&](std::string_view element) {
-      append_array(element, count, appended, file.fields[std::string(attribute(element, "Name"))]);
+      add_array(element, count, appended, file.fields[std::string(attribute(element, "Name"))]);
     });
     for_each_element(piece.substr(points, end_of_points - points), "DataArray",
-                     [&](std::string_view element) { append_array(element, count, appended, file.points); });
+                     [&](std::string_view element) { add_array(element, count, appended, file.points); });
   });
   if (file.points.components != 3) refuse("its points are no points");
   return file;

@@ -25,13 +25,13 @@ using Json = nlohmann::ordered_json;
 
 std::string plural(std::size_t count) { return count == 0 ? "none" : fmt::format("{}", count); }
 
-double number(const Json& block, const char* key) { return block.at(key).get<double>(); }
-std::string text(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
+double number_of(const Json& block, const char* key) { return block.at(key).get<double>(); }
+std::string text_of_key(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
 
 std::string water_line(const Json& water) {
-  std::string line = fmt::format("{:.6g} kg at the start", number(water.at("start"), "mass_kg"));
+  std::string line = fmt::format("{:.6g} kg at the start", number_of(water.at("start"), "mass_kg"));
   for (const char* part : {"in", "inside", "outside", "out"}) {
-    line += fmt::format(", {:.6g} {}", number(water.at(part), "mass_kg"), part);
+    line += fmt::format(", {:.6g} {}", number_of(water.at(part), "mass_kg"), part);
   }
   return line;
 }
@@ -73,7 +73,7 @@ Json time_left(const fs::path& run, const Json& summary, double time, double end
   const auto began = fs::last_write_time(run / summary_name, error);
   if (error) return {};
   const std::chrono::duration<double> gone = fs::file_time_type::clock::now() - began;
-  const double way = time - number(summary.at("time_s"), "reached");
+  const double way = time - number_of(summary.at("time_s"), "reached");
   if (!(way > 0.0) || !(gone.count() > 0.0)) return {};
   return std::max(0.0, (end - time) / way * gone.count());
 }
@@ -88,20 +88,20 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
   if (!step.empty()) {
     lines.push_back({"step", fmt::format("{:.0f}, of {:.3g} s", value("step"), value("dt_s"))});
     lines.push_back({"speed", fmt::format("{:.3g} m/s at most", value("speed_max_m_per_s"))});
-    lines.push_back({"energy", fmt::format("{:.6g} J kinetic, {:.6g} J potential", value("kinetic_J"),
-                                           value("potential_J"))});
+    lines.push_back(
+        {"energy", fmt::format("{:.6g} J kinetic, {:.6g} J potential", value("kinetic_J"), value("potential_J"))});
     lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
     lines.push_back({"water", fmt::format("{:.6g} kg at the start, {:.6g} m3 in, {:.6g} m3 out",
-                                          number(summary.at("water_balance").at("start"), "mass_kg"),
+                                          number_of(summary.at("water_balance").at("start"), "mass_kg"),
                                           value("volume_in_m3"), value("volume_out_m3"))});
   }
   const Json& particles = summary.at("particles");
-  lines.push_back({"particles", fmt::format("{:.0f} fluid at the start, {:.0f} wall, spacing {:g} m",
-                                            number(particles, "fluid"), number(particles, "wall"),
-                                            number(summary, "spacing_m"))});
-  lines.push_back({"ranks", fmt::format("{:.0f}", number(summary.at("ranks"), "count"))});
+  lines.push_back(
+      {"particles", fmt::format("{:.0f} fluid at the start, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
+                                number_of(particles, "wall"), number_of(summary, "spacing_m"))});
+  lines.push_back({"ranks", fmt::format("{:.0f}", number_of(summary.at("ranks"), "count"))});
   return lines;
 }
 
@@ -118,11 +118,11 @@ Json info_from(const fs::path& run, const Json& summary) {
   const std::string state = state_of(status, is_at_work);
   const bool is_live = status == "running";
   const std::map<std::string, double> step = is_live ? last_step(run) : std::map<std::string, double>();
-  const double end = number(summary.at("time_s"), "end");
-  const double time = step.contains("time_s") ? step.at("time_s") : number(summary.at("time_s"), "reached");
+  const double end = number_of(summary.at("time_s"), "end");
+  const double time = step.contains("time_s") ? step.at("time_s") : number_of(summary.at("time_s"), "reached");
   std::vector<InfoLine> lines = is_live ? live_digest(summary, step) : summary_digest(summary);
   if (is_live && !is_at_work) {
-    lines.insert(lines.begin(), {"status", fmt::format("killed; to go on: tailwater resume {}", run.string())});
+    lines.insert(lines.begin(), InfoLine{"status", fmt::format("killed; to go on: tailwater resume {}", run.string())});
   }
   Json shown = Json::array();
   for (const InfoLine& line : lines) shown.push_back({{"label", line.label}, {"text", line.text}});
@@ -134,7 +134,7 @@ Json info_from(const fs::path& run, const Json& summary) {
           {"particles", summary.at("particles").at("fluid")},
           {"lines", std::move(shown)},
           {"warnings", summary.at("warnings")},
-          {"controls", is_at_work ? Json{"stop", "checkpoint"} : Json{"resume"}}};
+          {"controls", is_at_work ? Json::array({"stop", "checkpoint"}) : Json::array({"resume"})}};
 }
 
 }  // namespace
@@ -152,47 +152,50 @@ Json read_summary(const fs::path& run) {
 }
 
 std::vector<InfoLine> summary_digest(const Json& summary) {
-  std::vector<InfoLine> lines{{"status", text(summary, "status")}};
-  if (!text(summary, "message").empty()) lines.push_back({"message", text(summary, "message")});
+  std::vector<InfoLine> lines{{"status", text_of_key(summary, "status")}};
+  if (!text_of_key(summary, "message").empty()) lines.push_back({"message", text_of_key(summary, "message")});
   std::string warnings = plural(summary.at("warnings").size());
-  for (const Json& warning : summary.at("warnings")) warnings += fmt::format("\n  {}", printable(warning.get<std::string>()));
+  for (const Json& warning : summary.at("warnings"))
+    warnings += fmt::format("\n  {}", printable(warning.get<std::string>()));
   lines.push_back({"warnings", warnings});
   if (const auto results = summary.find("results"); results != summary.end()) {  // runs of earlier versions have none
-    for (const auto& [probe, result] : results->items()) lines.push_back({printable(probe), text(result, "words")});
+    for (const auto& [probe, result] : results->items())
+      lines.push_back({printable(probe), text_of_key(result, "words")});
   }
   const Json& time = summary.at("time_s");
   const Json& steps = summary.at("steps");
   lines.push_back({"time", fmt::format("{:.6g} of {:.6g} s, {:.0f} steps of {:.3g} s ({:.3g} to {:.3g})",
-                                       number(time, "reached"), number(time, "end"), number(steps, "count"),
-                                       number(steps, "dt_mean_s"), number(steps, "dt_least_s"),
-                                       number(steps, "dt_largest_s"))});
+                                       number_of(time, "reached"), number_of(time, "end"), number_of(steps, "count"),
+                                       number_of(steps, "dt_mean_s"), number_of(steps, "dt_least_s"),
+                                       number_of(steps, "dt_largest_s"))});
   const Json& particles = summary.at("particles");
-  lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number(particles, "fluid"),
-                                            number(particles, "wall"), number(summary, "spacing_m"))});
+  lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
+                                            number_of(particles, "wall"), number_of(summary, "spacing_m"))});
   lines.push_back({"water", water_line(summary.at("water_balance"))});
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, largest rise {:.2g} J",
-                                         number(energy, "start_J"), number(energy, "end_J"),
-                                         number(energy, "largest_rise_J"))});
+                                         number_of(energy, "start_J"), number_of(energy, "end_J"),
+                                         number_of(energy, "largest_rise_J"))});
   const Json& volume = summary.at("volume");
-  lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", number(volume, "density_error_mean"),
-                                          number(volume, "density_error_rms"))});
+  lines.push_back(
+      {"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", number_of(volume, "density_error_mean"),
+                              number_of(volume, "density_error_rms"))});
   const Json& solver = summary.at("pressure_solver");
   const Json& interventions = summary.at("interventions");
-  lines.push_back({"solver", fmt::format("{:.3g} iterations per solve, {:.0f} restarted; {:.0f} particles put back from "
-                                         "walls, {:.0f} capped shifts",
-                                         number(solver, "iterations_per_solve"),
-                                         number(interventions, "restarted_solves"),
-                                         number(interventions, "put_back_from_walls"),
-                                         number(interventions, "capped_shifts"))});
+  lines.push_back(
+      {"solver",
+       fmt::format("{:.3g} iterations per solve, {:.0f} restarted; {:.0f} particles put back from "
+                   "walls, {:.0f} capped shifts",
+                   number_of(solver, "iterations_per_solve"), number_of(interventions, "restarted_solves"),
+                   number_of(interventions, "put_back_from_walls"), number_of(interventions, "capped_shifts"))});
   const Json& cost = summary.at("cost");
-  lines.push_back({"cost", fmt::format("{}, {:.3g} CPU s per simulated s, {:.0f} MB on {:.0f} rank(s)",
-                                       readable_duration(number(cost, "wall_clock_s")),
-                                       number(cost, "cpu_s_per_simulated_s"), number(cost, "peak_memory_bytes") / 1e6,
-                                       number(summary.at("ranks"), "count"))});
-  lines.push_back({"program", fmt::format("tailwater {} (commit {}), {}, on {}", text(summary, "version"),
-                                          text(summary, "commit"), text(summary, "libraries"),
-                                          text(summary.at("machine"), "name"))});
+  lines.push_back(
+      {"cost", fmt::format("{}, {:.3g} CPU s per simulated s, {:.0f} MB on {:.0f} rank(s)",
+                           readable_duration(number_of(cost, "wall_clock_s")), number_of(cost, "cpu_s_per_simulated_s"),
+                           number_of(cost, "peak_memory_bytes") / 1e6, number_of(summary.at("ranks"), "count"))});
+  lines.push_back({"program", fmt::format("tailwater {} (commit {}), {}, on {}", text_of_key(summary, "version"),
+                                          text_of_key(summary, "commit"), text_of_key(summary, "libraries"),
+                                          text_of_key(summary.at("machine"), "name"))});
   return lines;
 }
 
@@ -202,8 +205,8 @@ Json run_info(const fs::path& run) {
   } catch (const IoError&) {
   } catch (const nlohmann::json::exception&) {
   }
-  return {{"state", "waiting"}, {"time", 0.0},     {"end", nullptr},        {"progress", 0.0},
-          {"time_left", nullptr}, {"particles", nullptr}, {"lines", Json::array()}, {"warnings", Json::array()},
+  return {{"state", "waiting"},       {"time", 0.0},          {"end", nullptr},         {"progress", 0.0},
+          {"time_left", nullptr},     {"particles", nullptr}, {"lines", Json::array()}, {"warnings", Json::array()},
           {"controls", Json::array()}};
 }
 

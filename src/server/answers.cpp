@@ -57,15 +57,15 @@ void answer_file(const Request& request, Response& response, OpenFile opened, co
   const auto length = static_cast<std::size_t>(range.last - range.first + 1);
   if (length == 0) return response.set_content("", type);
   const auto file = std::make_shared<OpenFile>(std::move(opened));
-  response.set_content_provider(length, type,
-                                [file, first = range.first](std::size_t offset, std::size_t count, auto& sink) {
-                                  constexpr std::size_t piece = std::size_t{1} << 18U;
-                                  const std::string bytes = file->read(first + static_cast<std::int64_t>(offset),
-                                                                       static_cast<std::int64_t>(std::min(count, piece)));
-                                  // A file that has become shorter meanwhile: the connection ends, and whoever asked
-                                  // sees that bytes are missing.
-                                  return !bytes.empty() && sink.write(bytes.data(), bytes.size());
-                                });
+  response.set_content_provider(
+      length, type, [file, first = range.first](std::size_t offset, std::size_t count, auto& sink) {
+        constexpr std::size_t piece = std::size_t{1} << 18U;
+        const std::string bytes =
+            file->read(first + static_cast<std::int64_t>(offset), static_cast<std::int64_t>(std::min(count, piece)));
+        // A file that has become shorter meanwhile: the connection ends, and whoever asked
+        // sees that bytes are missing.
+        return !bytes.empty() && sink.write(bytes.data(), bytes.size());
+      });
 }
 
 }  // namespace tailwater

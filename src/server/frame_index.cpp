@@ -56,7 +56,7 @@ std::pair<double, double> range_of(std::vector<double>& values) {
   return low > high ? std::pair(0.0, 1.0) : std::pair(low, high > low ? high : low + 1.0);
 }
 
-/// Every `stride`-th value from `first` on, in another order.
+/// One component of all points, in another order.
 std::vector<double> picked(const VtpFile::Array& array, std::size_t first, const std::vector<std::size_t>& order) {
   std::vector<double> values;
   values.reserve(order.size());
@@ -189,7 +189,8 @@ FrameIndex::News FrameIndex::look_at_fields() {
     const auto known = frames_.find(k);
     if (known != frames_.end() && known->second.mark == *mark) continue;
     if (known != frames_.end()) news = cut_from(k);
-    frames_[k] = {.time = entries[k].time, .is_key = true, .bytes = mark->size, .mark = *mark, .field_file = entries[k].file};
+    frames_[k] = {
+        .time = entries[k].time, .is_key = true, .bytes = mark->size, .mark = *mark, .field_file = entries[k].file};
     news.added.push_back(k);
   }
   if (!frames_.empty() && frames_.rbegin()->first >= entries.size()) {

@@ -26,8 +26,8 @@ class FrameIndex {
 
   /// What has happened since the last look.
   struct News {
-    bool is_cut = false;      ///< known frames are gone or have changed, as when a run is resumed
-    double cut_time = -1.0;   ///< s; of the last frame before them; -1: there is none
+    bool is_cut = false;     ///< known frames are gone or have changed, as when a run is resumed
+    double cut_time = -1.0;  ///< s; of the last frame before them; -1: there is none
     std::vector<std::uint32_t> added;
   };
   /// Looks at the folder. A frame that is not whole is not there.
@@ -53,6 +53,7 @@ class FrameIndex {
 };
 
 /// A field file as a key frame. Throws IoError.
-std::string frame_of_fields(std::string_view bytes, const std::string& name, std::uint32_t index, std::size_t dimension);
+std::string frame_of_fields(std::string_view bytes, const std::string& name, std::uint32_t index,
+                            std::size_t dimension);
 
 }  // namespace tailwater

@@ -79,16 +79,17 @@ class ViewServer::Service {
       return begin_answer(request, response) ? HttpServer::HandlerResponse::Unhandled
                                              : HttpServer::HandlerResponse::Handled;
     });
-    http_.Post("/[^]*", [this](const Request& request, Response& response) { guarded(request, response, true); });
+    http_.Post(R"(/[\s\S]*)", [this](const Request& request, Response& response) { guarded(request, response, true); });
     http_.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
       answer_error(response, 500, "the server could not answer");
     });
     const char* host = "127.0.0.1";
     port_ = port == 0 ? http_.bind_to_any_port(host) : (http_.bind_to_port(host, port) ? port : -1);
     if (port_ < 0) {
-      throw IoError(fmt::format("port {} of 127.0.0.1 cannot be listened to: it may be taken; remedy: another --port, "
-                                "or none",
-                                port));
+      throw IoError(
+          fmt::format("port {} of 127.0.0.1 cannot be listened to: it may be taken; remedy: another --port, "
+                      "or none",
+                      port));
     }
     http_.let_many_wait();
   }
@@ -249,7 +250,8 @@ class ViewServer::Service {
       response.set_header("Retry-After", "5");
       return answer_error(response, 503, "too many pages are open");
     }
-    const auto watch = std::make_shared<RunWatch>(run.what.path, whole_number(request.get_param_value("from")).value_or(0));
+    const auto watch =
+        std::make_shared<RunWatch>(run.what.path, whole_number(request.get_param_value("from")).value_or(0));
     auto last_word = std::make_shared<std::chrono::steady_clock::time_point>(std::chrono::steady_clock::now());
     response.status = 200;
     response.set_chunked_content_provider(

@@ -25,8 +25,8 @@ TEST(Guard, OnlyThisMachineIsAHost) {
   for (const char* host : {"127.0.0.1", "127.0.0.1:8080", "localhost:1", "localhost", "[::1]:99"}) {
     EXPECT_TRUE(is_own_host(host)) << host;
   }
-  for (const char* host : {"", "example.org", "localhost.example.org", "127.0.0.1.example.org", "127.0.0.1:",
-                           "localhost:x", "127.0.0.2", "evil:80"}) {
+  for (const char* host : {"", "example.org", "localhost.example.org", "127.0.0.1.example.org",
+                           "127.0.0.1:", "localhost:x", "127.0.0.2", "evil:80"}) {
     EXPECT_FALSE(is_own_host(host)) << host;
   }
 }
