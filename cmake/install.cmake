@@ -12,7 +12,12 @@ install(FILES benchmarks/dam_break_3d.toml DESTINATION ${data}/benchmarks COMPON
 install(FILES LICENSE NOTICE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
         COMPONENT documents)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+set(TAILWATER_SITE "" CACHE PATH "Site that scripts/site.py has built, to be installed in place of the documents")
+if(TAILWATER_SITE)
+  install(DIRECTORY ${TAILWATER_SITE}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT documents)
+else()
+  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+endif()
 
 # The manual page and what completes the command line, from the program's own text.
 set(help ${PROJECT_BINARY_DIR}/help)
@@ -30,6 +35,22 @@ install(FILES ${help}/tailwater.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-c
         COMPONENT program)
 install(FILES ${help}/_tailwater DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(FILES ${help}/tailwater.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+
+# The same program for processors with AVX2, built by itself (scripts/package.sh), which the installed one becomes.
+set(TAILWATER_FASTER_PROGRAM "" CACHE FILEPATH "Program built for x86-64-v3 to be installed beside this one")
+if(TAILWATER_FASTER_PROGRAM)
+  install(PROGRAMS ${TAILWATER_FASTER_PROGRAM} DESTINATION lib/tailwater RENAME tailwater-v3 COMPONENT program)
+endif()
+# What Debian asks of each package.
+if(TAILWATER_DEBIAN_FILES)
+  foreach(pair program:tailwater library:libtailwater-dev documents:tailwater-doc)
+    string(REPLACE ":" ";" pair ${pair})
+    list(GET pair 0 component)
+    list(GET pair 1 package)
+    install(FILES ${TAILWATER_DEBIAN_FILES}/copyright ${TAILWATER_DEBIAN_FILES}/changelog.Debian.gz
+            DESTINATION share/doc/${package} COMPONENT ${component})
+  endforeach()
+endif()
 
 get_property(rooms GLOBAL PROPERTY tailwater_rooms)
 foreach(room ${rooms})

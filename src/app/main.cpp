@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/fastest_build.h"
 #include "app/ranks.h"
 #include "base/fp_traps.h"
 #include "base/text.h"
@@ -156,6 +157,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
 
 int main(int argc, char** argv) {
   using namespace tailwater;
+  become_fastest_build(argv);
   survive_lost_terminal();
   const char* traps = std::getenv("TAILWATER_FP_TRAPS");
   if (traps != nullptr && std::string_view(traps) == "1") enable_fp_traps();

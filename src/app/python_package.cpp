@@ -20,16 +20,20 @@ namespace {
 
 constexpr const char* python = "/usr/bin/python3";
 
+/// share/tailwater/validation of the nearest folder above this program that has it.
 std::filesystem::path validation_folder(const std::string& module) {
-  const std::filesystem::path folder =
-      std::filesystem::path(this_program()).parent_path().parent_path() / "share" / "tailwater" / "validation";
-  if (!std::filesystem::exists(folder / "tailwater_validation" / (module + ".py"))) {
-    throw IoError(
-        fmt::format("the Python package that runs and scores cases is not in '{}', beside this program; "
-                    "remedy: install the program whole (cmake --install), or build it again",
-                    folder.string()));
+  const std::filesystem::path inside = std::filesystem::path("share") / "tailwater" / "validation";
+  std::filesystem::path above = std::filesystem::path(this_program()).parent_path();
+  while (!std::filesystem::exists(above / inside / "tailwater_validation" / (module + ".py"))) {
+    if (above == above.root_path()) {
+      throw IoError(
+          fmt::format("the Python package that runs and scores cases is not in {} above '{}'; remedy: install "
+                      "the program whole (cmake --install), or build it again",
+                      inside.string(), this_program()));
+    }
+    above = above.parent_path();
   }
-  return folder;
+  return above / inside;
 }
 
 /// The command line of a program of the package, which is found by PYTHONPATH from now on.

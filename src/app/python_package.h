@@ -5,8 +5,8 @@
 
 namespace tailwater {
 
-/// Becomes a program of the Python package in ../share/tailwater/validation, as seen from this program, so that signals
-/// and the exit code are its own. The package's program is told where this one is (`--program`). Throws IoError
+/// Becomes a program of the Python package in share/tailwater/validation of a folder above this program, so that
+/// signals and the exit code are its own. The package's program is told where this one is (`--program`). Throws IoError
 /// if the package or Python is not there.
 [[noreturn]] void become_python(const std::string& module, const std::vector<std::string>& options);
 
