@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "case/formulation.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/check.h"
@@ -160,7 +161,7 @@ void check_sound(const CaseSpec& spec, const std::string& text, const std::strin
   answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid, text);
   for (const Finding& finding : check_geometry(spec, boundary, fluid)) add(finding);
   const ParticleCount count = expected_particle_count(spec, boundary);
-  const double memory_bytes = memory_estimate<Dim>(count, neighbours_in_support<Dim>(spec.scheme.support));
+  const double memory_bytes = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));
   answer["cost"] = {{"fluid", fluid.position.size()}, {"wall", count.wall}, {"memory_bytes", memory_bytes}};
   answer["summary"].push_back(fmt::format("{} fluid particles and about {:.0f} of walls, {:g} m apart; about {:.0f} MB",
                                           fluid.position.size(), count.wall, spec.particles.spacing,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "case/formulation.h"
 #include "case/nearest_name.h"
 
 namespace tailwater {

@@ -12,7 +12,8 @@ namespace tailwater {
 
 namespace {
 
-constexpr std::string_view study_table = "study";
+/// Tables that no case needs: the reference does not list them.
+bool is_for_studies(const TableInfo& table) { return table.name == "study" || table.name == "parallel"; }
 
 /// The default of the Courant number with each formulation.
 std::string courant_text() {
@@ -164,7 +165,7 @@ std::string case_reference_markdown() {
       "The case that a run writes beside its results also has the `checksum` of each file that it names, and is "
       "refused with another file.\n");
   for (const TableInfo& table : case_tables()) {
-    if (table.name != study_table) text += markdown_of(table);
+    if (!is_for_studies(table)) text += markdown_of(table);
   }
   return text;
 }
@@ -176,9 +177,9 @@ std::string study_reference_markdown() {
       "page.\n\n"
       "The keys of [study] change parts of the robust formulations, so that a study can show what each is worth "
       "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
-      "The published formulations have none of them.\n");
+      "The published formulations have none of them. [parallel] is for who measures runs on several ranks.\n");
   for (const TableInfo& table : case_tables()) {
-    if (table.name == study_table) text += markdown_of(table);
+    if (is_for_studies(table)) text += markdown_of(table);
   }
   return text;
 }

@@ -84,7 +84,7 @@ at = [0.5, 0]
   EXPECT_EQ(scene["outlets"][0]["direction"], Json::parse("[1.0, 0.0]"));
   EXPECT_EQ(scene["probes"][0]["file"], "probes/gauge.csv");
   EXPECT_EQ(scene["probes"][0]["points"], Json::parse("[[0.5, 0.0]]"));
-  EXPECT_EQ(scene["probes"][0]["columns"], Json::parse(R"(["depth_m"])"));
+  EXPECT_EQ(scene["probes"][0]["columns"], Json::parse(R"(["connected_m", "highest_m", "wet_m"])"));
   EXPECT_EQ(scene["box"]["max"], Json::parse("[4.0, 2.0]"));
 }
 
