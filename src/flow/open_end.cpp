@@ -17,10 +17,9 @@ constexpr double least_depth_over_spacing = 0.1;
 /// long compared with the waves that must leave, because whatever the mean follows is let back in
 /// (docs/theory/open_ends.md).
 constexpr double memory = 100.0;
-/// The same where a level is prescribed, in times that a long wave takes for the depth. Shorter waves pass; longer ones
-/// meet the level (docs/theory/open_ends.md).
-constexpr double level_memory = 5.0;
-/// For so many of these times the level may be missed by more than dx before it is told.
+/// Depths that a long wave goes while the error of a prescribed level is averaged, and so many of these times the level
+/// may be missed by more than dx before it is told.
+constexpr double depths_of_watch = 5.0;
 constexpr double patience = 4.0;
 /// [dx]; rows of the entering lattice are one more or one less when they have become that much too high or too low
 /// together. Half of it would do; the rest keeps a level that trembles from changing them again and again.
@@ -105,7 +104,7 @@ double read_flow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Reading& 
   } else if (celerity > 0.0) {
     const double crossing = end.distance() / celerity;
     state.wet_time += dt;
-    const double longest = end.holds_level() ? level_memory * celerity / end.gravity : memory * crossing;
+    const double longest = end.holds_level() ? end.reach / celerity : memory * crossing;
     const double window = std::clamp(state.wet_time, crossing, std::max(crossing, longest));
     const double rate = 1.0 / window + std::max(0.0, speed - celerity) / end.gauge;
     state.invariant += (1.0 - std::exp(-rate * dt)) * (invariant - state.invariant);
@@ -140,7 +139,7 @@ struct LevelBeyond {
 template <int Dim>
 void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow, double dt, LevelMiss& miss) {
   const double depth = std::max(beyond.head, flow.setup.spacing);
-  const double window = level_memory * std::sqrt(depth / beyond.gravity);
+  const double window = depths_of_watch * std::sqrt(depth / beyond.gravity);
   miss.mean += (1.0 - std::exp(-dt / window)) * (error - miss.mean);
   miss.lasts = std::abs(miss.mean) > flow.setup.spacing ? miss.lasts + dt : 0.0;
   if (miss.lasts < patience * window) return;

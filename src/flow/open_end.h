@@ -63,9 +63,10 @@ struct OpenEnd : ChannelEnd<Dim> {
   /// `support` [m] is the kernel's radius.
   OpenEnd(ChannelEnd<Dim> end, double spacing, double support);
 
-  double stretch;  ///< m; length of the end stretch
-  double gauge;    ///< m; half the length of the gauge, the stretch before it where the flow is measured
-  int columns;     ///< of the lattice on which particles enter, across the opening
+  double stretch;      ///< m; length of the end stretch
+  double gauge;        ///< m; half the length of the gauge, the stretch before it where the flow is measured
+  double reach = 0.0;  ///< m; length of the case along the opening's normal
+  int columns;         ///< of the lattice on which particles enter, across the opening
 
   bool holds(const Vec<Dim>& x) const { return this->opening.beyond(x) > -stretch && this->opening.spans(x); }
   /// Distance [m] from the gauge to the middle of the end stretch.

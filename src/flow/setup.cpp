@@ -147,6 +147,14 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)},
       eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
       air_law(kernel, spacing) {
+  for (OpenEnd<Dim>& end : open_ends) {
+    const double at_end = end.opening.normal.dot(end.opening.corner);
+    for (const WallFace<Dim>& face : drawing.walls.boundary.faces) {
+      for (const Vec<Dim>& corner : face.corners) {
+        end.reach = std::max(end.reach, at_end - end.opening.normal.dot(corner));
+      }
+    }
+  }
   body_of_wall.assign(drawing.walls.boundary.walls.size(), -1);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
