@@ -74,7 +74,7 @@ export interface Scene {
 }
 
 export interface Drawing extends Scene {
-  fluids?: { name: string; lines?: Lines }[];
+  fluid?: { name: string; lines?: Lines }[];
   particles?: { count: number; shown: number; positions: string; fluid?: string };
 }
 
@@ -94,15 +94,20 @@ export interface SpecKey {
   name: string;
   type: string;
   unit?: string;
-  range?: string;
-  default?: string;
+  required?: boolean;
+  default?: unknown;
   choices?: string[];
-  text: string;
-  goes_with?: string;
+  minimum?: number;
+  maximum?: number;
+  minimum_is_excluded?: boolean;
+  maximum_is_excluded?: boolean;
+  documentation: string;
+  /** With which choices of another key it goes. */
+  goes_with?: { key: string; choices: string[] };
 }
 
 export interface Spec {
-  tables: { name: string; array: boolean; text: string; keys: SpecKey[] }[];
+  tables: { name: string; is_list: boolean; documentation: string; keys: SpecKey[] }[];
 }
 
 export interface Finding {

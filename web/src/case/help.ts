@@ -19,7 +19,7 @@ export function keyOf(spec: Spec, table: string, key: string): SpecKey | undefin
 export function offers(spec: Spec, place: Place): Offer[] {
   if (place.part === "comment") return [];
   if (place.part === "table") {
-    return spec.tables.map((t) => ({ label: t.name, detail: t.array ? "any number of times" : "once", info: t.text, insert: t.array ? `[[${t.name}]]` : `[${t.name}]` }));
+    return spec.tables.map((t) => ({ label: t.name, detail: t.is_list ? "any number of times" : "once", info: t.documentation, insert: t.is_list ? `[[${t.name}]]` : `[${t.name}]` }));
   }
   if (place.part === "key") {
     const keys = find(spec, place.table)?.keys ?? [];
@@ -37,14 +37,16 @@ export function offers(spec: Spec, place: Place): Offer[] {
 
 /** A key in words: what it is, its type, unit, range and default. */
 export function describe(key: SpecKey): string {
+  const has = (x: unknown) => x !== undefined && x !== null && x !== "";
   const facts = [
     key.type + (key.unit ? `, ${key.unit}` : ""),
-    key.range && `range ${key.range}`,
+    has(key.minimum) && `${key.minimum_is_excluded ? "above" : "at least"} ${key.minimum}`,
+    has(key.maximum) && `${key.maximum_is_excluded ? "below" : "at most"} ${key.maximum}`,
     key.choices && key.choices.length > 0 && `one of ${key.choices.join(", ")}`,
-    key.default !== undefined && key.default !== "" && `default ${key.default}`,
-    key.goes_with && `goes with ${key.goes_with}`,
+    key.required ? "required" : has(key.default) && `default ${String(key.default)}`,
+    key.goes_with && `goes with ${key.goes_with.key} = ${key.goes_with.choices.join(", ")}`,
   ].filter(Boolean);
-  return `${key.text}\n${facts.join("; ")}`;
+  return `${key.documentation}\n${facts.join("; ")}`;
 }
 
 /** What is told of the word under the pointer; null: nothing. */
@@ -52,7 +54,7 @@ export function hover(spec: Spec, place: Place): { title: string; text: string }
   if (place.part === "comment") return null;
   if (place.part === "table" || place.key === "") {
     const table = find(spec, place.table);
-    return table && place.part === "table" ? { title: table.array ? `[[${table.name}]]` : `[${table.name}]`, text: table.text } : null;
+    return table && place.part === "table" ? { title: table.is_list ? `[[${table.name}]]` : `[${table.name}]`, text: table.documentation } : null;
   }
   const key = keyOf(spec, place.table, place.key);
   return key ? { title: key.name, text: describe(key) } : null;

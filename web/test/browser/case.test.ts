@@ -22,8 +22,8 @@ at = [0.5, 0]
 `;
 const spec: Spec = {
   tables: [
-    { name: "wall", array: true, text: "A wall", keys: [{ name: "slip", type: "choice", choices: ["free-slip", "no-slip"], text: "What water does at the wall" }] },
-    { name: "probe", array: true, text: "A measurement", keys: [{ name: "interval", type: "number", unit: "s", default: "0.0", text: "Time between two readings" }] },
+    { name: "wall", is_list: true, documentation: "A wall", keys: [{ name: "slip", type: "choice", choices: ["free-slip", "no-slip"], documentation: "What water does at the wall" }] },
+    { name: "probe", is_list: true, documentation: "A measurement", keys: [{ name: "interval", type: "number", unit: "s", default: 0, documentation: "Time between two readings" }] },
   ],
 };
 

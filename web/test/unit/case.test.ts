@@ -9,14 +9,14 @@ import { toCsv } from "../../src/tables.ts";
 const text = ['[case]', 'title = "a # b" # the name', "", "[[wall]]", 'name = "tank"', "points = [[0, 1],", "  [0, 0]]", "sl", 'slip = "', "[[pro", "[[probe]] # a gauge"];
 const spec: Spec = {
   tables: [
-    { name: "case", array: false, text: "The case as a whole", keys: [{ name: "title", type: "text", default: '"untitled"', text: "Title of the case" }] },
+    { name: "case", is_list: false, documentation: "The case as a whole", keys: [{ name: "title", type: "text", default: "untitled", documentation: "Title of the case" }] },
     {
-      name: "wall", array: true, text: "A wall",
+      name: "wall", is_list: true, documentation: "A wall",
       keys: [
-        { name: "name", type: "text", text: "Its name" },
-        { name: "slip", type: "choice", choices: ["free-slip", '"no-slip"'], text: "What water does at the wall" },
-        { name: "both_sides", type: "true or false", text: "Water on both sides" },
-        { name: "roughness", type: "number", unit: "m", range: "at least 0", default: "0.0", text: "Height of the grains" },
+        { name: "name", type: "text", documentation: "Its name" },
+        { name: "slip", type: "choice", choices: ["free-slip", '"no-slip"'], documentation: "What water does at the wall" },
+        { name: "both_sides", type: "true or false", documentation: "Water on both sides" },
+        { name: "roughness", type: "number", unit: "m", minimum: 0, default: 0, goes_with: { key: "shape", choices: ["box"] }, documentation: "Height of the grains" },
       ],
     },
   ],
@@ -39,7 +39,7 @@ test("what is offered and told is what the program's description says", () => {
   assert.deepEqual(offers(spec, { table: "", part: "table", key: "", present: [] }).map((o) => o.insert), ["[case]", "[[wall]]"]);
   assert.deepEqual(offers(spec, { table: "wall", part: "comment", key: "", present: [] }), []);
   assert.deepEqual(offers(spec, { table: "none", part: "key", key: "", present: [] }), []);
-  assert.equal(hover(spec, { table: "wall", part: "value", key: "roughness", present: [] })?.text, "Height of the grains\nnumber, m; range at least 0; default 0.0");
+  assert.equal(hover(spec, { table: "wall", part: "value", key: "roughness", present: [] })?.text, "Height of the grains\nnumber, m; at least 0; default 0; goes with shape = box");
   assert.equal(hover(spec, { table: "wall", part: "table", key: "", present: [] })?.title, "[[wall]]");
   assert.equal(hover(spec, { table: "wall", part: "key", key: "unknown", present: [] }), null);
 });
