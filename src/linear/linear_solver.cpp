@@ -68,8 +68,11 @@ class Solve {
     MethodOutcome outcome = method.improve(system_, {asked_, asked_ * rhs_norm_, iterations}, iterate_);
     report_.iterations += outcome.iterations;
     const bool is_known = outcome.residual && tolerance_ >= least_sure_tolerance;
-    if (is_known) report_.residual = *outcome.residual / rhs_norm_;
-    if (!is_known || !is_done()) find_residual();
+    if (is_known) {
+      report_.residual = *outcome.residual / rhs_norm_;
+    } else {
+      find_residual();
+    }
     return outcome;
   }
 

@@ -107,7 +107,7 @@ class BitForBit(Resumed):
         0.01 s, that at the half 2 ms, and the last 9 us."""
         gate = ("--set", "particles.spacing=0.0025", "--set", "fluid[0].max=[0.02, 0.02]", "--set",
                 "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
-                '{points=[[1, 0], [1, 2]], displacement=["0", "2*t^2 + 149*max(0, t - 0.3)"]}]')
+                '{points=[[1, 0], [1, 2]], displacement=["0", "2*t^2 + 145*max(0, t - 0.3)"]}]')
         self.run_case("part", "--set", HALF, *gate)
         self.call("resume", "part", "--set", WHOLE, "--quiet", expect=3)
         self.run_case("whole", "--set", WHOLE, *gate, expect=3)

@@ -23,7 +23,7 @@ class OutputContract(ProgramTest):
         run = self.folder / "deep/below/run"
         self.assertEqual({path.name for path in run.iterdir()},
                          {"case.effective.toml", "steps.csv", "summary.json", "log.txt", "probes", "fields",
-                          "checkpoints"})
+                          "view", "checkpoints"})
         self.assertEqual({path.name for path in (run / "probes").iterdir()}, {f"{name}.csv" for name in PROBES})
         series = read_series(run / "fields/fields.pvd")
         self.assertEqual({path.name for path in (run / "fields").iterdir()},
@@ -175,7 +175,7 @@ class Outlet(ProgramTest):
                     "fluid[0].velocity=[4, 0]", "--set", "time.end=9", "--set",
                     "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge=2, level=0.5}]", "--set",
                     "outlet[0].level=0.9")
-        result = self.call("run", "small.toml", "--out", "run", "--quiet", *shooting)
+        result = self.call("run", "small.toml", "--out", "run", *shooting)
         said = "outlet 'end' does not hold its level: since t = "
         self.assertIn(said, result.stderr)
         self.assertIn(said, (self.folder / "run" / "log.txt").read_text())

@@ -52,7 +52,7 @@ def draw_page(run, frames):
     head.text(0.01, 0.15, f"Tailwater, dx = {run.spacing:.3g} m, {frames[0].position.shape[0]} particles, "
               f"{run.integrator} projection; the water's surface coloured by speed, 0 to 4 m/s", fontsize=9.5,
               color="#444444", va="center")
-    window = scene.Scene(pictures.bounds_of(frames, pictures.walls_at(run, 0.0)), LOOK_FROM, width=560)
+    window = scene.Scene(pictures.bounds_of(frames, [pictures.walls_at(run, 0.0)]), LOOK_FROM, width=560)
     for axes, frame in zip(scenes.subplots(1, len(frames)), frames):
         image = window.draw(water_surface(frame, run.spacing, ("velocity",)), pictures.walls_at(run, frame.time),
                             colours=matplotlib.colormaps[pictures.COLOURS], field="velocity", limits=(0, 4))

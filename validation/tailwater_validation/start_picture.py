@@ -32,7 +32,7 @@ def main(arguments):
     try:
         walls, particles = read_polydata(options.walls), read_polydata(options.water)
         water = to_frame(0.0, particles) if particles.GetNumberOfPoints() else None
-        bounds = bounds_of([water] if water else [], walls)
+        bounds = bounds_of([water] if water else [], [walls])
         surface = water_surface(water, options.spacing) if water else None
         image = scene.Scene(bounds).draw(surface, walls, options.mark)
         with matplotlib.rc_context(plots.STYLE):
