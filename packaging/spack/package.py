@@ -22,6 +22,7 @@ class Tailwater(CMakePackage):
     depends_on("eigen@3.4:")
     depends_on("fmt@9:")
     depends_on("cli11@2.1:")
+    depends_on("cpp-httplib@0.11:")
     depends_on("tomlplusplus@3.3:")
     depends_on("muparser@2.3:")
     depends_on("nlohmann-json@3.11:")

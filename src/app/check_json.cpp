@@ -138,7 +138,7 @@ Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fluid
                 std::string_view text) {
   Json drawing = scene_json<Dim>(spec, boundary);
   drawing["fluid"] = Json::array();
-  for (std::size_t b = 0; b < spec.fluid.size(); ++b) drawing["fluid"].push_back({{"name", spec.fluid[b].name}});
+  for (const FluidTable& block : spec.fluid) drawing["fluid"].push_back({{"name", block.name}});
   drawing["particles"] = particles_json(fluid);
   add_lines(drawing, text);
   return drawing;

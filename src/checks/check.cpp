@@ -28,7 +28,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_open_ends(spec, boundary, fluid));
   append(findings, check_end_flows(spec, boundary));
   append(findings, check_wave_makers(spec, fluid));
-  append(findings, check_speeds<Dim>(spec));
+  if (!has_error(findings)) append(findings, check_speeds<Dim>(spec));
   append(findings, check_moorings(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));

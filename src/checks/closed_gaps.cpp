@@ -21,7 +21,7 @@ constexpr double touches = 0.1;  // dx; nobody would draw as narrow an opening
 constexpr double least_rows_in_gap = 4.0;
 
 /// Walls that face each other within 45 degrees.
-constexpr double least_facing = 0.7;
+constexpr double least_facing_of_gap = 0.7;
 
 /// An opening between two walls that is too narrow for water.
 template <int Dim>
@@ -81,7 +81,7 @@ std::optional<Gap<Dim>> gap_beside(const Boundary<Dim>& boundary, int plate, con
 template <int Dim>
 std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Dim>& other, double dx) {
   const double facing = -face.normal.dot(other.normal);
-  if (facing < least_facing || face.box().exteriorDistance(other.box()) > closed * dx) return std::nullopt;
+  if (facing < least_facing_of_gap || face.box().exteriorDistance(other.box()) > closed * dx) return std::nullopt;
   const double tolerance = corner_tolerance * dx;
   const int samples = samples_along(face, dx);
   for (int k = 0; k < samples; ++k) {

@@ -56,7 +56,7 @@ struct SeveralPairs {
   }
 
   /// 1/m^(Dim+2); of the kernel, 0 in lanes left over.
-  Lanes F() const { return range.load(pairs.F.data()); }
+  Lanes F() const { return range.load(pairs.F.data()); }  // NOLINT(readability-identifier-naming): as in formulas
   /// 1/m^Dim; W at these differences.
   Lanes kernel_at(const VecLanes<Dim>& d) const { return kernel_value(pairs.kernel_in_lanes, sqrt_of(d.dot(d))); }
   /// 1/m^Dim; W_ij, and 0 with walls and in lanes left over.

@@ -192,11 +192,11 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 template <int Dim>
 void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, bool warns) {
   Boundary<Dim> boundary = make_boundary<Dim>(spec);
-  boundary.file_faces(reach_of_checks * spec.particles.spacing);
   // What a machine has for its ranks is enough for as many times more on all machines.
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
   std::vector<Finding> findings = check_memory(spec, boundary, ranks.least(available));
   if (findings.empty()) {
+    boundary.file_faces(reach_of_checks * spec.particles.spacing);
     // The velocities are found, and refused, when the flow is made.
     const auto fluid = make_fluid_particles(spec, boundary, ranks, 0, StartVelocities::left_out);
     findings = check_geometry(spec, boundary, fluid);

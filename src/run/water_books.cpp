@@ -19,7 +19,7 @@ nlohmann::ordered_json json_of(const Water& water, double density) {
 }
 
 /// By how much, since when and for how long a prescribed level was missed; null: it was held.
-nlohmann::ordered_json json_of(const LevelMiss& miss) {
+nlohmann::ordered_json json_of_miss(const LevelMiss& miss) {
   if (miss.since < 0.0) return nullptr;
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }
@@ -184,7 +184,7 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     const int circuit = flow.setup.open_ends[e].circuit;
     if (circuit >= 0 && is_inlet) json["steps_short_of_water"] = end.short_steps;
     if (flow.setup.open_ends[e].flow.feeds()) json["asked_for_m3"] = end.asked;
-    if (flow.setup.open_ends[e].holds_level()) json["level_missed"] = json_of(end.miss);
+    if (flow.setup.open_ends[e].holds_level()) json["level_missed"] = json_of_miss(end.miss);
     if (circuit == static_cast<int>(e)) {
       const Passed sump = sump_of(flow, circuit);
       json["waiting"] = json_of(Water{sump.particles, sump.volume}, density);

@@ -85,7 +85,7 @@ class Taker {
 // ---- Which particles there are.
 
 /// Where the particles of a frame are in an earlier one: `nowhere` for those that came since.
-std::vector<std::uint32_t> places_in(const std::vector<std::int64_t>& earlier, const std::vector<std::int64_t>& now) {
+std::vector<std::uint32_t> numbers_in(const std::vector<std::int64_t>& earlier, const std::vector<std::int64_t>& now) {
   std::vector<std::uint32_t> places(now.size(), nowhere);
   std::size_t k = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -164,8 +164,8 @@ class Predictor {
  public:
   Predictor(int order, const std::vector<std::int64_t>& now, const FramesBefore& before)
       : before_(before),
-        in_last_(order >= 1 ? places_in(before.last.id, now) : std::vector<std::uint32_t>()),
-        in_last_but_one_(order >= 2 ? places_in(before.last_but_one.id, now) : std::vector<std::uint32_t>()) {}
+        in_last_(order >= 1 ? numbers_in(before.last.id, now) : std::vector<std::uint32_t>()),
+        in_last_but_one_(order >= 2 ? numbers_in(before.last_but_one.id, now) : std::vector<std::uint32_t>()) {}
 
   std::uint16_t place(std::size_t d, std::size_t i) const {
     if (in_last_.empty() || in_last_[i] == nowhere) return 0;

@@ -236,7 +236,7 @@ std::optional<Frame> FrameSeries<Dim>::read_back(std::size_t count) {
       order = read_frame_head(files.back()).head.order;
     }
     Frame frame;
-    for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    for (auto file = files.rbegin(); file != files.rend(); ++file) {  // NOLINT(modernize-loop-convert): from the last
       frame = decode_frame(*file, before_);
       if (frame.head.dimension() != Dim) return std::nullopt;
       before_.last_but_one = std::exchange(before_.last, frame.particles);
