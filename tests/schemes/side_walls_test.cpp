@@ -54,7 +54,7 @@ TEST(SideWalls, ThatBringAllWaterToRestWithinAStepAreRefused) {
     } catch (const InputError& error) {
       const std::string message = error.what();
       const std::string remedy = fmt::format("give at least {:.3g} m", least);
-      for (const std::string& part : {std::string("[physics]: channel_width = "), remedy}) {
+      for (const std::string& part : {std::string("physics.channel_width = "), remedy}) {
         EXPECT_NE(message.find(part), std::string::npos) << message;
       }
     }
