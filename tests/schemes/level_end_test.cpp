@@ -47,9 +47,9 @@ TEST(OpenEnd, ATankComesToTheLevelBeyond) {
   }
 }
 
-/// A level that rises takes the water along. It lags by what lets the flow u = r L/h in, u c/g = r L/c, by what the level
-/// rises while the tank answers, in L/c, and while the end takes its mean over the time L/c, as much again each; and it is
-/// there when the level has come to rest.
+/// A level that rises takes the water along. It lags by what lets the flow u = r L/h in, u c/g = r L/c, by what the
+/// level rises while the tank answers, in L/c, and while the end takes its mean over the time L/c, as much again each;
+/// and it is there when the level has come to rest.
 TEST(OpenEnd, ATankFollowsARisingLevel) {
   Flow<2> flow(tank_with_level(0.4, Varying("0.4 + 0.3*min(1, t/3)")));
   start(flow);
