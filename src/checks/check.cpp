@@ -26,9 +26,10 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
   append(findings, check_open_ends(spec, boundary, fluid));
-  append(findings, check_end_flows(spec, boundary));
+  const Findings flows = check_end_flows(spec, boundary);
+  append(findings, flows);
   append(findings, check_wave_makers(spec, fluid));
-  if (!has_error(findings)) append(findings, check_speeds<Dim>(spec));
+  if (!has_error(flows)) append(findings, check_speeds<Dim>(spec));
   append(findings, check_moorings(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
