@@ -13,6 +13,7 @@
 #include "case/reader.h"
 #include "io/hdf5_image.h"
 #include "parallel/together.h"
+#include "run/checkpoint_text.h"
 #include "run/provenance.h"
 
 namespace tailwater {
@@ -74,158 +75,6 @@ void for_each_field(AnyParticles& particles, Body&& body) {
     };
     (visit(field), ...);
   });
-}
-
-nlohmann::json json_of(const Passed& passed) {
-  const auto& [particles, volume, energy] = passed;
-  return {{"particles", particles}, {"volume", volume}, {"energy", energy}};
-}
-
-Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), json.at("volume"), json.at("energy")}; }
-
-nlohmann::json json_of(const LevelMiss& miss) {
-  const auto& [mean, lasts, since, total, most] = miss;
-  return {{"mean", mean}, {"lasts", lasts}, {"since", since}, {"total", total}, {"most", most}};
-}
-
-LevelMiss miss_of(const nlohmann::json& json) {
-  return {json.at("mean"), json.at("lasts"), json.at("since"), json.at("total"), json.at("most")};
-}
-
-nlohmann::json json_of(const OpenEndState& end) {
-  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
-               entry_speed, gain, miss, asked, rows, departed, arrived, short_steps] = end;
-  return {{"is_wet", is_wet},
-          {"wet_time", wet_time},
-          {"speed", speed},
-          {"speed_beyond", speed_beyond},
-          {"invariant", invariant},
-          {"mean_speed", mean_speed},
-          {"depth", depth},
-          {"depth_at_gauge", depth_at_gauge},
-          {"depth_rate", depth_rate},
-          {"entry_speed", entry_speed},
-          {"gain", gain},
-          {"miss", json_of(miss)},
-          {"asked", asked},
-          {"rows", rows},
-          {"departed", json_of(departed)},
-          {"arrived", json_of(arrived)},
-          {"short_steps", short_steps}};
-}
-
-OpenEndState open_end_of(const nlohmann::json& json) {
-  return {json.at("is_wet"),
-          json.at("wet_time"),
-          json.at("speed"),
-          json.at("speed_beyond"),
-          json.at("invariant"),
-          json.at("mean_speed"),
-          json.at("depth"),
-          json.at("depth_at_gauge"),
-          json.at("depth_rate"),
-          json.at("entry_speed"),
-          json.at("gain"),
-          miss_of(json.at("miss")),
-          json.at("asked"),
-          json.at("rows"),
-          passed_of(json.at("departed")),
-          passed_of(json.at("arrived")),
-          json.at("short_steps")};
-}
-
-nlohmann::json json_of(const MakerState& maker) {
-  const auto& [correction, rate, time] = maker;
-  return {{"correction", correction}, {"rate", rate}, {"time", time}};
-}
-
-MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"), json.at("rate"), json.at("time")}; }
-
-void require_fit(bool condition, const char* part) {
-  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
-}
-
-template <class Numbers>
-std::vector<double> list_of(const Numbers& numbers) {
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
-template <class Numbers>
-void take_list(const nlohmann::json& json, Numbers& numbers) {
-  const auto list = json.get<std::vector<double>>();
-  require_fit(list.size() == static_cast<std::size_t>(numbers.size()) &&
-                  std::ranges::all_of(list, [](double number) { return std::isfinite(number); }),
-              "bodies");
-  std::ranges::copy(list, numbers.data());
-}
-
-template <int Dim>
-nlohmann::json json_of(const BodyState<Dim>& body) {
-  const auto& [time, placement, centre, velocity, acceleration, carried_over] = body;
-  return {{"time", time},
-          {"turn", list_of(placement.linear)},
-          {"shift", list_of(placement.constant)},
-          {"centre", list_of(centre)},
-          {"velocity", list_of(velocity)},
-          {"acceleration", list_of(acceleration)},
-          {"carried_over", list_of(carried_over)}};
-}
-
-template <int Dim>
-BodyState<Dim> body_of(const nlohmann::json& json) {
-  BodyState<Dim> body;
-  body.time = json.at("time");
-  take_list(json.at("turn"), body.placement.linear);
-  take_list(json.at("shift"), body.placement.constant);
-  take_list(json.at("centre"), body.centre);
-  take_list(json.at("velocity"), body.velocity);
-  take_list(json.at("acceleration"), body.acceleration);
-  take_list(json.at("carried_over"), body.carried_over);
-  return body;
-}
-
-/// Everything that is the same on all ranks and not an array of numbers.
-template <int Dim>
-std::string text_of(const Checkpoint<Dim>& checkpoint) {
-  // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
-               density_share, fallen] = checkpoint.state;
-  nlohmann::json json{{"time", time},
-                      {"step", step},
-                      {"approach", approach},
-                      {"energy_rise", energy_rise},
-                      {"density_share", density_share},
-                      {"fallen", json_of(fallen)},
-                      {"reference_step", checkpoint.reference_step},
-                      {"open_ends", nlohmann::json::array()},
-                      {"wave_makers", nlohmann::json::array()},
-                      {"bodies", nlohmann::json::array()},
-                      {"inertia", motion.bodies.inertia},
-                      {"section_volumes", section_volumes},
-                      {"output", checkpoint.output}};
-  for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
-  for (const MakerState& maker : motion.wave_makers) json["wave_makers"].push_back(json_of(maker));
-  for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(json_of(body));
-  return json.dump(1);
-}
-
-template <int Dim>
-void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
-  const nlohmann::json json = nlohmann::json::parse(text);
-  State<Dim>& state = checkpoint.state;
-  state.time = json.at("time");
-  state.step = json.at("step");
-  state.approach = json.at("approach");
-  state.energy_rise = json.at("energy_rise");
-  state.density_share = json.at("density_share");
-  state.fallen = passed_of(json.at("fallen"));
-  checkpoint.reference_step = json.at("reference_step");
-  for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
-  for (const nlohmann::json& maker : json.at("wave_makers")) state.motion.wave_makers.push_back(maker_of(maker));
-  for (const nlohmann::json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
-  json.at("inertia").get_to(state.motion.bodies.inertia);
-  json.at("section_volumes").get_to(state.section_volumes);
-  checkpoint.output = json.at("output");
 }
 
 /// Shares of `count` particles that are as equal as can be.
@@ -294,6 +143,46 @@ void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
   require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
 
+/// What the root reads and deals out to the ranks. Empty on the others.
+struct Dealt {
+  std::int64_t writers = 0;          ///< ranks that wrote it
+  std::vector<std::int64_t> shares;  ///< of the particles, by rank
+  std::vector<std::string> cuts;     ///< by rank; empty ones for another number of ranks than that of the writers
+  std::vector<double> rank_logs;
+};
+
+Dealt deal(const Hdf5Reader& image, std::size_t ranks) {
+  Dealt dealt{.shares = image.get<std::int64_t>("owned")};
+  dealt.cuts.resize(ranks);
+  const std::size_t writers = dealt.shares.size();
+  dealt.writers = static_cast<std::int64_t>(writers);
+  const auto count = static_cast<std::int64_t>(image.get<std::int64_t>("id").size());
+  const auto is_share = [count](std::int64_t share) { return share >= 0 && share <= count; };
+  require_fit(writers > 0 && std::ranges::all_of(dealt.shares, is_share), "owned");
+  dealt.rank_logs = share_rank_log(image.get<double>("rank_log"), writers, ranks);
+  if (writers != ranks) {
+    const std::int64_t all = std::accumulate(dealt.shares.begin(), dealt.shares.end(), std::int64_t{0});
+    dealt.shares = equal_shares(all, static_cast<int>(ranks));
+    return dealt;
+  }
+  const std::string all_cuts = image.text("cuts");
+  const std::vector<std::int64_t> cuts_size = image.get<std::int64_t>("cuts_size");
+  require_fit(cuts_size.size() == ranks, "cuts_size");
+  for (std::size_t q = 0, begin = 0; q < ranks; begin += cuts_size[q++]) {
+    require_fit(begin <= all_cuts.size(), "cuts");
+    dealt.cuts[q] = all_cuts.substr(begin, cuts_size[q]);
+  }
+  return dealt;
+}
+
+/// An array of the checkpoint whose values are those of a run that was going well.
+template <class Value>
+std::vector<Value> sound_values(const Hdf5Reader& image, const char* name) {
+  std::vector<Value> values = get<Value>(image, name);
+  require_fit(is_sound(name, values), name);
+  return values;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -337,65 +226,40 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   Checkpoint<Dim> checkpoint;
   std::optional<Hdf5Reader> image;
   std::string text;
-  std::vector<std::int64_t> shares;
-  std::vector<std::string> cuts(static_cast<std::size_t>(ranks.size()));
-  std::vector<double> rank_logs;
-  std::int64_t writers = 0;
+  Dealt dealt;
   do_on_root(ranks, [&] {
     expecting_a_checkpoint(file.path, [&] {
       image.emplace(file.body);
       text = image->text("run");
       take_text(text, checkpoint);
       require_sound_numbers(checkpoint);
-      shares = image->get<std::int64_t>("owned");
-      writers = static_cast<std::int64_t>(shares.size());
-      const auto count = static_cast<std::int64_t>(image->get<std::int64_t>("id").size());
-      require_fit(writers > 0 && std::all_of(shares.begin(), shares.end(),
-                                             [count](auto share) { return share >= 0 && share <= count; }),
-                  "owned");
-      rank_logs = share_rank_log(image->get<double>("rank_log"), shares.size(), cuts.size());
-      if (writers != ranks.size()) {
-        shares = equal_shares(std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), ranks.size());
-        return;
-      }
-      const std::string all_cuts = image->text("cuts");
-      const std::vector<std::int64_t> cuts_size = image->get<std::int64_t>("cuts_size");
-      require_fit(cuts_size.size() == cuts.size(), "cuts_size");
-      for (std::size_t q = 0, begin = 0; q < cuts.size(); begin += cuts_size[q++]) {
-        require_fit(begin <= all_cuts.size(), "cuts");
-        cuts[q] = all_cuts.substr(begin, cuts_size[q]);
-      }
+      dealt = deal(*image, static_cast<std::size_t>(ranks.size()));
     });
   });
   text = ranks.broadcast(text);
   if (!ranks.is_root()) take_text(text, checkpoint);
-  checkpoint.cuts = ranks.scatter(cuts);
-  const auto width = static_cast<std::int64_t>(rank_logs.size() / cuts.size());
-  checkpoint.rank_log = ranks.scatter(rank_logs, std::vector<std::int64_t>(cuts.size(), width));
+  dealt.cuts.resize(static_cast<std::size_t>(ranks.size()));
+  checkpoint.cuts = ranks.scatter(dealt.cuts);
+  const auto width = static_cast<std::int64_t>(dealt.rank_logs.size() / dealt.cuts.size());
+  checkpoint.rank_log = ranks.scatter(dealt.rank_logs, std::vector<std::int64_t>(dealt.cuts.size(), width));
 
   State<Dim>& state = checkpoint.state;
   for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
     std::vector<Value> all;
     do_on_root(ranks, [&] {
       expecting_a_checkpoint(file.path, [&] {
-        all = get<Value>(*image, name);
+        all = sound_values<Value>(*image, name);
         const auto count = static_cast<std::int64_t>(all.size());
-        require_fit(count == std::accumulate(shares.begin(), shares.end(), std::int64_t{0}), name);
-        require_fit(is_sound(name, all), name);
+        require_fit(count == std::accumulate(dealt.shares.begin(), dealt.shares.end(), std::int64_t{0}), name);
         if constexpr (std::is_same_v<Value, std::int64_t>) require_fit(are_unique(all), name);
       });
     });
-    field = ranks.scatter(all, shares);
+    field = ranks.scatter(all, dealt.shares);
   });
   state.particles.owned = state.particles.size();
   state.particles.resize(state.particles.owned);
   const auto give_to_all = [&]<class Value>(const char* name, std::vector<Value>& values) {
-    do_on_root(ranks, [&] {
-      expecting_a_checkpoint(file.path, [&] {
-        values = get<Value>(*image, name);
-        require_fit(is_sound(name, values), name);
-      });
-    });
+    do_on_root(ranks, [&] { expecting_a_checkpoint(file.path, [&] { values = sound_values<Value>(*image, name); }); });
     const std::string bytes =
         ranks.broadcast({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
     values.resize(bytes.size() / sizeof(Value));
@@ -404,7 +268,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   give_to_all("wall_velocity", state.wall_velocity);
   give_to_all("probe_memory", checkpoint.probe_memory);
 
-  checkpoint.is_shared_out = ranks.largest(writers) == ranks.size();
+  checkpoint.is_shared_out = ranks.largest(dealt.writers) == ranks.size();
   return checkpoint;
 }
 

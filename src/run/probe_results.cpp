@@ -26,74 +26,77 @@ struct Rule {
   Tell tell;
 };
 
+namespace rules {
+inline constexpr std::array depth{Rule{"depth", "", "connected_m", Tell::mean},
+                                  Rule{"highest water", "highest", "highest_m", Tell::largest}};
+inline constexpr std::array pressure{Rule{"pressure", "", "pressure_Pa", Tell::mean},
+                                     Rule{"largest pressure", "largest", "pressure_Pa", Tell::largest}};
+inline constexpr std::array front{Rule{"front", "", "front_connected_m", Tell::last}};
+inline constexpr std::array profile{Rule{"least depth", "depth from", "connected_m", Tell::least_of_last},
+                                    Rule{"largest depth", "to", "connected_m", Tell::largest_of_last}};
+inline constexpr std::array velocity{Rule{"u", "u", "u_m_s", Tell::mean}, Rule{"v", "v", "v_m_s", Tell::mean},
+                                     Rule{"w", "w", "w_m_s", Tell::mean}};
+inline constexpr std::array energy{Rule{"energy", "", "total_J", Tell::last}};
+inline constexpr std::array volume{Rule{"particles", "", "particles", Tell::last},
+                                   Rule{"volume in", "in", "volume_in_m3", Tell::last},
+                                   Rule{"volume out", "out", "volume_out_m3", Tell::last}};
+inline constexpr std::array discharge{Rule{"discharge", "", "volume_m3", Tell::rate},
+                                      Rule{"largest discharge", "largest", "discharge_m3_per_s", Tell::largest}};
+inline constexpr std::array force{
+    Rule{"force x", "x", "force_x", Tell::mean}, Rule{"force y", "y", "force_y", Tell::mean},
+    Rule{"force z", "z", "force_z", Tell::mean}, Rule{"largest force", "largest", magnitude_of_force, Tell::largest}};
+inline constexpr std::array pressure_map{Rule{"largest pressure", "largest", "largest_Pa", Tell::largest}};
+inline constexpr std::array motion{Rule{"displacement x", "x", "displacement_x_m", Tell::range},
+                                   Rule{"displacement y", "y", "displacement_y_m", Tell::range},
+                                   Rule{"displacement z", "z", "displacement_z_m", Tell::range},
+                                   Rule{"angle", "angle", "angle_rad", Tell::range},
+                                   Rule{"angle about x", "angle about x", "angle_x_rad", Tell::range},
+                                   Rule{"angle about y", "angle about y", "angle_y_rad", Tell::range},
+                                   Rule{"angle about z", "angle about z", "angle_z_rad", Tell::range}};
+inline constexpr std::array run_up{Rule{"run-up", "", "connected_m", Tell::largest},
+                                   Rule{"highest drop", "drops to", "highest_m", Tell::largest}};
+inline constexpr std::array level_map{Rule{"level", "", "mean_m", Tell::mean},
+                                      Rule{"highest level", "highest", "highest_m", Tell::largest}};
+inline constexpr std::array velocity_profile{
+    Rule{"mean u", "u", "mean_u_m_s", Tell::last}, Rule{"mean v", "v", "mean_v_m_s", Tell::last},
+    Rule{"mean w", "w", "mean_w_m_s", Tell::last}, Rule{"depth", "depth", "depth_m", Tell::last}};
+}  // namespace rules
+
 /// Columns that a probe does not have in the dimension of the case are left out.
 std::span<const Rule> rules_of(ProbeType type) {
-  static constexpr std::array depth{Rule{"depth", "", "connected_m", Tell::mean},
-                                    Rule{"highest water", "highest", "highest_m", Tell::largest}};
-  static constexpr std::array pressure{Rule{"pressure", "", "pressure_Pa", Tell::mean},
-                                       Rule{"largest pressure", "largest", "pressure_Pa", Tell::largest}};
-  static constexpr std::array front{Rule{"front", "", "front_connected_m", Tell::last}};
-  static constexpr std::array profile{Rule{"least depth", "depth from", "connected_m", Tell::least_of_last},
-                                      Rule{"largest depth", "to", "connected_m", Tell::largest_of_last}};
-  static constexpr std::array velocity{Rule{"u", "u", "u_m_s", Tell::mean}, Rule{"v", "v", "v_m_s", Tell::mean},
-                                       Rule{"w", "w", "w_m_s", Tell::mean}};
-  static constexpr std::array energy{Rule{"energy", "", "total_J", Tell::last}};
-  static constexpr std::array volume{Rule{"particles", "", "particles", Tell::last},
-                                     Rule{"volume in", "in", "volume_in_m3", Tell::last},
-                                     Rule{"volume out", "out", "volume_out_m3", Tell::last}};
-  static constexpr std::array discharge{Rule{"discharge", "", "volume_m3", Tell::rate},
-                                        Rule{"largest discharge", "largest", "discharge_m3_per_s", Tell::largest}};
-  static constexpr std::array force{
-      Rule{"force x", "x", "force_x", Tell::mean}, Rule{"force y", "y", "force_y", Tell::mean},
-      Rule{"force z", "z", "force_z", Tell::mean}, Rule{"largest force", "largest", magnitude_of_force, Tell::largest}};
-  static constexpr std::array pressure_map{Rule{"largest pressure", "largest", "largest_Pa", Tell::largest}};
-  static constexpr std::array motion{Rule{"displacement x", "x", "displacement_x_m", Tell::range},
-                                     Rule{"displacement y", "y", "displacement_y_m", Tell::range},
-                                     Rule{"displacement z", "z", "displacement_z_m", Tell::range},
-                                     Rule{"angle", "angle", "angle_rad", Tell::range},
-                                     Rule{"angle about x", "angle about x", "angle_x_rad", Tell::range},
-                                     Rule{"angle about y", "angle about y", "angle_y_rad", Tell::range},
-                                     Rule{"angle about z", "angle about z", "angle_z_rad", Tell::range}};
-  static constexpr std::array run_up{Rule{"run-up", "", "connected_m", Tell::largest},
-                                     Rule{"highest drop", "drops to", "highest_m", Tell::largest}};
-  static constexpr std::array level_map{Rule{"level", "", "mean_m", Tell::mean},
-                                        Rule{"highest level", "highest", "highest_m", Tell::largest}};
-  static constexpr std::array velocity_profile{
-      Rule{"mean u", "u", "mean_u_m_s", Tell::last}, Rule{"mean v", "v", "mean_v_m_s", Tell::last},
-      Rule{"mean w", "w", "mean_w_m_s", Tell::last}, Rule{"depth", "depth", "depth_m", Tell::last}};
   switch (type) {
     case ProbeType::depth:
-      return depth;
+      return rules::depth;
     case ProbeType::wall_pressure:
     case ProbeType::wall_pressure_mean:
     case ProbeType::pressure:
-      return pressure;
+      return rules::pressure;
     case ProbeType::front:
-      return front;
+      return rules::front;
     case ProbeType::profile:
-      return profile;
+      return rules::profile;
     case ProbeType::velocity:
-      return velocity;
+      return rules::velocity;
     case ProbeType::energy:
-      return energy;
+      return rules::energy;
     case ProbeType::volume:
-      return volume;
+      return rules::volume;
     case ProbeType::discharge:
-      return discharge;
+      return rules::discharge;
     case ProbeType::force:
-      return force;
+      return rules::force;
     case ProbeType::pressure_map:
-      return pressure_map;
+      return rules::pressure_map;
     case ProbeType::motion:
-      return motion;
+      return rules::motion;
     case ProbeType::run_up:
-      return run_up;
+      return rules::run_up;
     case ProbeType::level_map:
-      return level_map;
+      return rules::level_map;
     case ProbeType::velocity_profile:
       break;
   }
-  return velocity_profile;
+  return rules::velocity_profile;
 }
 
 /// The unit of a column by the end of its name. In 2D a force is per metre of width, as its column says; an energy and

@@ -254,6 +254,24 @@ bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, con
   return found;
 }
 
+/// Takes as many of the cut cells as hold the `water` [m^Dim] that whole cells leave over, and finds the share of it
+/// that each cell holds.
+template <int Dim>
+void take_cut_cells(const LatticeBlock<Dim>& lattice, const RowSums& all, double water, FittedCells<Dim>& fitted) {
+  take_cells<Dim>(lattice.axes, water - all.volume_whole, most_misfit * water, fitted.cut);
+  double of_cells = all.volume_whole;
+  double in_cells = all.volume_whole;
+  for (const auto& cut : fitted.cut) {
+    if (!cut.is_taken) continue;
+    const double volume = edges_of<Dim>(lattice.axes, cut.cell).prod();
+    of_cells += volume;
+    in_cells += cut.share * volume;
+    fitted.in_row[lattice.row_of(cut.cell)] += 1.0;
+  }
+  if (of_cells > 0.0) fitted.share = water / of_cells;
+  if (all.volume_of_water > 0.0) fitted.missed = 1.0 - in_cells / all.volume_of_water;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -310,18 +328,7 @@ FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, 
   double exact = 1.0;
   if (shape.has_surface()) exact = all.volume_in_shape > 0.0 ? shape.volume() / all.volume_in_shape : 0.0;
   const double water = exact * all.volume_of_water;
-  take_cells<Dim>(lattice.axes, water - all.volume_whole, most_misfit * water, fitted.cut);
-  double of_cells = all.volume_whole;
-  double in_cells = all.volume_whole;
-  for (const auto& cut : fitted.cut) {
-    if (!cut.is_taken) continue;
-    const double volume = edges_of<Dim>(lattice.axes, cut.cell).prod();
-    of_cells += volume;
-    in_cells += cut.share * volume;
-    fitted.in_row[lattice.row_of(cut.cell)] += 1.0;
-  }
-  if (of_cells > 0.0) fitted.share = water / of_cells;
-  if (all.volume_of_water > 0.0) fitted.missed = 1.0 - in_cells / all.volume_of_water;
+  take_cut_cells<Dim>(lattice, all, water, fitted);
   return fitted;
 }
 

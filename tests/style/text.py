@@ -1,13 +1,15 @@
 """What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, only notebooks
-name commits, and loops over particles go through base/for_each.h or say on their line why they are plain loops
-(`// in order: appends`).
-Usage: text.py markdown|citations|loops ROOT"""
+name commits, loops over particles go through base/for_each.h or say on their line why they are plain loops
+(`// in order: appends`), and files and functions are short.
+Usage: text.py markdown|citations|loops|lengths ROOT"""
 import pathlib
 import re
 import sys
 
 TEXTS = {".md", ".h", ".cpp", ".py", ".toml", ".txt", ".sh", ".csv"}
 LONGEST = 120
+LONGEST_FILE = 400
+LONGEST_FUNCTION = 60
 WRITTEN = {"bench.md", "speed.md"}  # by the program, beside its runs
 COMMIT = re.compile(r"\b(?=[0-9a-f]*[0-9])(?=[0-9a-f]*[a-f])[0-9a-f]{7,12}\b")
 NAMES_COMMITS = {"docs/validation.md"}  # the one that its results are of
@@ -67,9 +69,32 @@ def loops(root):
                                          "rows depend on each other: // in order: reason")
 
 
+def lengths(root):
+    """Blocks are those of clang-format: an end has the indentation of the line on which its block begins."""
+    for file in files(root):
+        if not file.is_relative_to(root / "src") or file.suffix not in {".h", ".cpp"} or file.name == "spec.h":
+            continue  # spec.h is the table of all keys
+        lines = file.read_text(encoding="utf-8").splitlines()
+        if len(lines) > LONGEST_FILE:
+            yield file, len(lines), f"{len(lines)} lines; at most {LONGEST_FILE}: split it"
+        begins = {}  # of a block that may be open, by its indentation
+        for number, line in enumerate(lines, 1):
+            indentation = len(line) - len(line.lstrip())
+            if indentation > 2 or not line.strip():
+                continue
+            if line.strip().startswith("}"):
+                first = begins.pop(indentation, number)
+                if number - first + 1 > LONGEST_FUNCTION:
+                    yield file, first, f"a function of {number - first + 1} lines; at most {LONGEST_FUNCTION}: split it"
+            elif re.match(r"\s*(namespace|struct|class|union|enum)\b", line):
+                begins.pop(indentation, None)
+            else:
+                begins[indentation] = number
+
+
 def main():
     root = pathlib.Path(sys.argv[2]).resolve()
-    found = list({"markdown": markdown, "citations": citations, "loops": loops}[sys.argv[1]](root))
+    found = list({"markdown": markdown, "citations": citations, "loops": loops, "lengths": lengths}[sys.argv[1]](root))
     print("\n".join(f"{file.relative_to(root)}:{number}: {what}" for file, number, what in found))
     if found:
         sys.exit(f"{len(found)} findings")

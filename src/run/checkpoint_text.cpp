@@ -1,0 +1,173 @@
+#include "run/checkpoint_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+
+namespace tailwater {
+namespace {
+
+nlohmann::json json_of(const Passed& passed) {
+  const auto& [particles, volume, energy] = passed;
+  return {{"particles", particles}, {"volume", volume}, {"energy", energy}};
+}
+
+Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), json.at("volume"), json.at("energy")}; }
+
+nlohmann::json json_of(const LevelMiss& miss) {
+  const auto& [mean, lasts, since, total, most] = miss;
+  return {{"mean", mean}, {"lasts", lasts}, {"since", since}, {"total", total}, {"most", most}};
+}
+
+LevelMiss miss_of(const nlohmann::json& json) {
+  return {json.at("mean"), json.at("lasts"), json.at("since"), json.at("total"), json.at("most")};
+}
+
+nlohmann::json json_of(const OpenEndState& end) {
+  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
+               entry_speed, gain, miss, asked, rows, departed, arrived, short_steps] = end;
+  return {{"is_wet", is_wet},
+          {"wet_time", wet_time},
+          {"speed", speed},
+          {"speed_beyond", speed_beyond},
+          {"invariant", invariant},
+          {"mean_speed", mean_speed},
+          {"depth", depth},
+          {"depth_at_gauge", depth_at_gauge},
+          {"depth_rate", depth_rate},
+          {"entry_speed", entry_speed},
+          {"gain", gain},
+          {"miss", json_of(miss)},
+          {"asked", asked},
+          {"rows", rows},
+          {"departed", json_of(departed)},
+          {"arrived", json_of(arrived)},
+          {"short_steps", short_steps}};
+}
+
+OpenEndState open_end_of(const nlohmann::json& json) {
+  return {json.at("is_wet"),
+          json.at("wet_time"),
+          json.at("speed"),
+          json.at("speed_beyond"),
+          json.at("invariant"),
+          json.at("mean_speed"),
+          json.at("depth"),
+          json.at("depth_at_gauge"),
+          json.at("depth_rate"),
+          json.at("entry_speed"),
+          json.at("gain"),
+          miss_of(json.at("miss")),
+          json.at("asked"),
+          json.at("rows"),
+          passed_of(json.at("departed")),
+          passed_of(json.at("arrived")),
+          json.at("short_steps")};
+}
+
+nlohmann::json json_of(const MakerState& maker) {
+  const auto& [correction, rate, time] = maker;
+  return {{"correction", correction}, {"rate", rate}, {"time", time}};
+}
+
+MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"), json.at("rate"), json.at("time")}; }
+
+template <class Numbers>
+std::vector<double> list_of(const Numbers& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+template <class Numbers>
+void take_list(const nlohmann::json& json, Numbers& numbers) {
+  const auto list = json.get<std::vector<double>>();
+  require_fit(list.size() == static_cast<std::size_t>(numbers.size()) &&
+                  std::ranges::all_of(list, [](double number) { return std::isfinite(number); }),
+              "bodies");
+  std::ranges::copy(list, numbers.data());
+}
+
+template <int Dim>
+nlohmann::json json_of(const BodyState<Dim>& body) {
+  const auto& [time, placement, centre, velocity, acceleration, carried_over] = body;
+  return {{"time", time},
+          {"turn", list_of(placement.linear)},
+          {"shift", list_of(placement.constant)},
+          {"centre", list_of(centre)},
+          {"velocity", list_of(velocity)},
+          {"acceleration", list_of(acceleration)},
+          {"carried_over", list_of(carried_over)}};
+}
+
+template <int Dim>
+BodyState<Dim> body_of(const nlohmann::json& json) {
+  BodyState<Dim> body;
+  body.time = json.at("time");
+  take_list(json.at("turn"), body.placement.linear);
+  take_list(json.at("shift"), body.placement.constant);
+  take_list(json.at("centre"), body.centre);
+  take_list(json.at("velocity"), body.velocity);
+  take_list(json.at("acceleration"), body.acceleration);
+  take_list(json.at("carried_over"), body.carried_over);
+  return body;
+}
+
+}  // namespace
+
+void require_fit(bool condition, const char* part) {
+  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
+}
+
+template <int Dim>
+std::string text_of(const Checkpoint<Dim>& checkpoint) {
+  // A member that is new in State does not compile here until it is saved.
+  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
+               density_share, fallen] = checkpoint.state;
+  nlohmann::json json{{"time", time},
+                      {"step", step},
+                      {"approach", approach},
+                      {"energy_rise", energy_rise},
+                      {"density_share", density_share},
+                      {"fallen", json_of(fallen)},
+                      {"reference_step", checkpoint.reference_step},
+                      {"open_ends", nlohmann::json::array()},
+                      {"wave_makers", nlohmann::json::array()},
+                      {"bodies", nlohmann::json::array()},
+                      {"inertia", motion.bodies.inertia},
+                      {"section_volumes", section_volumes},
+                      {"output", checkpoint.output}};
+  for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
+  for (const MakerState& maker : motion.wave_makers) json["wave_makers"].push_back(json_of(maker));
+  for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(json_of(body));
+  return json.dump(1);
+}
+
+template <int Dim>
+void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
+  const nlohmann::json json = nlohmann::json::parse(text);
+  State<Dim>& state = checkpoint.state;
+  state.time = json.at("time");
+  state.step = json.at("step");
+  state.approach = json.at("approach");
+  state.energy_rise = json.at("energy_rise");
+  state.density_share = json.at("density_share");
+  state.fallen = passed_of(json.at("fallen"));
+  checkpoint.reference_step = json.at("reference_step");
+  for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
+  for (const nlohmann::json& maker : json.at("wave_makers")) state.motion.wave_makers.push_back(maker_of(maker));
+  for (const nlohmann::json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
+  json.at("inertia").get_to(state.motion.bodies.inertia);
+  json.at("section_volumes").get_to(state.section_volumes);
+  checkpoint.output = json.at("output");
+}
+
+template std::string text_of<2>(const Checkpoint<2>&);
+template std::string text_of<3>(const Checkpoint<3>&);
+template void take_text<2>(const std::string&, Checkpoint<2>&);
+template void take_text<3>(const std::string&, Checkpoint<3>&);
+
+}  // namespace tailwater

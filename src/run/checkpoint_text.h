@@ -1,0 +1,20 @@
+// What a checkpoint tells as text (JSON): everything that is the same on all ranks and not an array of numbers.
+#pragma once
+
+#include <string>
+
+#include "run/checkpoint.h"
+
+namespace tailwater {
+
+template <int Dim>
+std::string text_of(const Checkpoint<Dim>& checkpoint);
+
+/// Throws nlohmann::json::exception or IoError for text that is not of a checkpoint.
+template <int Dim>
+void take_text(const std::string& text, Checkpoint<Dim>& checkpoint);
+
+/// Throws IoError, which names the `part`, unless the condition holds.
+void require_fit(bool condition, const char* part);
+
+}  // namespace tailwater
