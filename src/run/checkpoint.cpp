@@ -143,6 +143,8 @@ void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
   require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
 
+}  // namespace
+
 /// What the root reads and deals out to the ranks. Empty on the others.
 struct Dealt {
   std::int64_t writers = 0;          ///< ranks that wrote it
@@ -151,8 +153,11 @@ struct Dealt {
   std::vector<double> rank_logs;
 };
 
+namespace {
+
 Dealt deal(const Hdf5Reader& image, std::size_t ranks) {
-  Dealt dealt{.shares = image.get<std::int64_t>("owned")};
+  Dealt dealt;
+  dealt.shares = image.get<std::int64_t>("owned");
   dealt.cuts.resize(ranks);
   const std::size_t writers = dealt.shares.size();
   dealt.writers = static_cast<std::int64_t>(writers);
