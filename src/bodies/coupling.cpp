@@ -85,7 +85,8 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
     const BodyState<Dim>& state = flow_.state.motion.bodies.each[b];
     BodyState<Dim> before = state;  // the loads are those at the start of the step
     before.velocity = start_.body_velocity[b];
-    const Twist<Dim> load = body.load(before, flow_.setup.gravity) + frictions[b] + state.carried_over / dt_;
+    Twist<Dim> load = body.load(before, flow_.setup.gravity) + frictions[b] + state.carried_over / dt_;
+    if (!flow_.loads.on_bodies.empty()) load += flow_.loads.on_bodies[b];
     const auto k = static_cast<Eigen::Index>(w);
     loads[k] = std::max(std::abs(load[entry]), std::abs(pressures[b][entry]));
     g[k] = body.force_of(state, state.acceleration)[entry] - pressures[b][entry] - load[entry];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closures/surroundings.h"
+#include "flow/loads.h"
 #include "flow/role.h"
 #include "flow/setup.h"
 #include "flow/state.h"
@@ -44,6 +45,7 @@ struct Flow {
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
   std::vector<Role> role;            ///< of owned particles in this step
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
+  Loads<Dim> loads;                  ///< of a program, in the next step
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.

@@ -90,6 +90,12 @@ void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::ve
   });
 }
 
+/// Walls that were gathered after the loads were given stand behind all others, and feel none.
+template <int Dim>
+void add_loads(const Loads<Dim>& loads, std::vector<Vec<Dim>>& acceleration) {
+  for_each(loads.acceleration.size(), [&](std::size_t i) { acceleration[i] += loads.acceleration[i]; });
+}
+
 /// grad u of fluid particles, ghosts too.
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
@@ -133,6 +139,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
 
   damp(flow, start, dt, acceleration);
+  add_loads<Dim>(flow.loads, acceleration);
 
   const bool with_gravity = setup.wall_traits.gravity_in_prediction;
   const Vec<Dim> gravity = with_gravity ? setup.gravity : Vec<Dim>(Vec<Dim>::Zero());
