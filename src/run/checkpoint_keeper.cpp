@@ -41,12 +41,12 @@ void CheckpointKeeper<Dim>::go_on_from(std::int64_t step) {
 }
 
 template <int Dim>
-void CheckpointKeeper<Dim>::remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, const StepGuard<Dim>& guard) {
+void CheckpointKeeper<Dim>::remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, double reference_step) {
   if (!last_) last_.emplace();
   last_->state = flow.state;
   last_->output = output.saved();
   last_->probe_memory = output.probe_memory();
-  last_->reference_step = guard.reference_step();
+  last_->reference_step = reference_step;
   last_->rank_log = output.rank_log().saved();
 }
 

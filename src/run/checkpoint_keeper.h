@@ -10,7 +10,6 @@
 #include "io/run_folder.h"
 #include "run/checkpoint.h"
 #include "run/run_output.h"
-#include "run/step_guard.h"
 
 namespace tailwater {
 
@@ -25,7 +24,7 @@ class CheckpointKeeper {
   void go_on_from(std::int64_t step);
 
   /// Call right after particles were shared out and sorted.
-  void remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, const StepGuard<Dim>& guard);
+  void remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, double reference_step);
 
   /// Whether the interval of the case has passed since the last checkpoint was written. The root's clock counts.
   bool is_due() const;

@@ -11,152 +11,64 @@
 #include <optional>
 #include <utility>
 
-#include "base/for_each.h"
 #include "checks/check.h"
-#include "flow/verbs.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
 #include "parallel/at_start.h"
-#include "run/checkpoint_keeper.h"
 #include "run/estimate.h"
+#include "run/folder_output.h"
 #include "run/requests.h"
-#include "run/run_output.h"
-#include "run/step_guard.h"
+#include "run/simulation.h"
 #include "run/summary_file.h"
-#include "schemes/advance.h"
 
 namespace tailwater {
 namespace {
 
-/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and sharing them out at
-/// this interval costs next to nothing.
-constexpr std::int64_t steps_between_sorts = 10;
-
 /// dx; what is checked beside walls is nearer.
 constexpr double reach_of_checks = 3.0;
 
+/// A simulation with its folder, until it ends, fails or is asked to stop.
 template <int Dim>
 class Run {
  public:
   /// Goes on from the checkpoint if there is one.
   Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
       std::optional<Checkpoint<Dim>> checkpoint)
-      : end_(spec.time.end),
+      : goes_on_(checkpoint.has_value()),
         wall_time_(options.wall_time),
-        flow_(spec, ranks),
-        output_(spec, options, flow_, checkpoint ? &checkpoint->output : nullptr),
-        guard_(flow_, output_.folder()),
-        keeper_(spec, output_.folder(), ranks) {
-    if (!checkpoint) return;
-    go_on_from(*checkpoint);
-    tell(fmt::format("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time));
-  }
+        simulation_(spec, ranks),
+        output_(spec, options, simulation_, std::move(checkpoint)) {}
 
   ExitCode execute() {
     try {
-      output_.begin(flow_);
+      output_.begin();
       const ExitCode code = loop();
-      output_.finish(flow_, code);
+      output_.finish(code);
       return code;
     } catch (const UserError& error) {
-      output_.finish_failed(flow_, error.code(), error.what());
+      output_.finish_failed(error.code(), error.what());
       throw;
     }
   }
 
  private:
-  /// Whether walls, what drives them, and open ends of the state are those of the case.
-  bool fits(const State<Dim>& state) const {
-    const std::size_t misplaced = count_each(state.particles.owned, [&](std::size_t i) {
-      const std::int64_t number = state.particles.id[i] - flow_.setup.first_wall_id;
-      return !state.particles.is_fluid(i) && (number < 0 || number >= flow_.walls.particles.numbers);
-    });
-    std::size_t ways = 0;
-    for (const FloatingBody<Dim>& body : flow_.setup.bodies) ways += body.free.size();
-    const MotionState<Dim>& motion = state.motion;
-    const bool moves_alike = motion.wave_makers.size() == flow_.state.motion.wave_makers.size() &&
-                             motion.bodies.each.size() == flow_.setup.bodies.size() &&
-                             (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == ways * ways);
-    return misplaced == 0 && moves_alike && state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
-           state.open_ends.size() == flow_.state.open_ends.size() &&
-           state.section_volumes.size() == flow_.state.section_volumes.size();
-  }
-
-  void go_on_from(Checkpoint<Dim>& checkpoint) {
-    if (flow_.setup.ranks.any(!fits(checkpoint.state)) ||
-        !flow_.shared_rows.find_rows(flow_.walls, checkpoint.state.particles, 0, flow_.setup.first_wall_id)) {
-      throw IoError(fmt::format(
-          "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
-          "file in '{}', to go on from the one before",
-          output_.folder().checkpoints().string()));
-    }
-    keeper_.go_on_from(checkpoint.state.step);
-    flow_.restore(std::move(checkpoint.state));
-    output_.rank_log().restore(checkpoint.rank_log);
-    output_.restore_probe_memory(checkpoint.probe_memory);
-    guard_.restore_reference_step(checkpoint.reference_step);
-    goes_on_ = true;
-    if (!checkpoint.is_shared_out) return;
-    if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(checkpoint.cuts));
-    shared_out_step_ = flow_.state.step;
-  }
-
   ExitCode loop() {
-    Requests requests(output_.folder(), flow_.setup.ranks, wall_time_);
-    if (!goes_on_) begin();
-    while (flow_.state.time < end_) {
-      const Asked asked = requests.look(keeper_.is_due());
-      if ((asked.stop || asked.checkpoint) && keeper_.write(flow_, output_)) requests.fulfil_checkpoint();
+    Requests requests(output_.folder(), simulation_.flow().setup.ranks, wall_time_);
+    if (!goes_on_) simulation_.start();
+    while (!simulation_.has_ended()) {
+      const Asked asked = requests.look(output_.checkpoint_is_due());
+      if ((asked.stop || asked.checkpoint) && output_.write_checkpoint()) requests.fulfil_checkpoint();
       if (asked.stop) return ExitCode::interrupted;
-      output_.write_due_fields(flow_);
-      step();
+      simulation_.step();
     }
-    keeper_.write(flow_, output_);
+    output_.write_checkpoint();
     return ExitCode::done;
   }
 
-  void begin() {
-    guard_.remember_good();
-    locate(flow_);
-    guard_.require_sound_step(next_time_step(flow_));
-    guard_.attempt([&] { start(flow_); });
-    output_.record_probes(flow_, measure(flow_));
-  }
-
-  void step() {
-    guard_.remember_good();
-    const double dt = next_time_step(flow_);
-    guard_.require_sound_step(dt);
-    rearrange();
-    StepReport report;
-    // The last step is not cut to the end time: the density source is proportional to 1/dt^2, and a tiny step would
-    // kick the water.
-    guard_.attempt([&] { report = advance(flow_, std::min(dt, end_)); });
-    output_.record_step(flow_, report);
-  }
-
-  /// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
-  /// have passed an open end are removed, and new ones come in. A checkpoint is of the moment between: before water
-  /// that may have limited the time step has left.
-  void rearrange() {
-    const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
-    if (is_shared_out) {
-      if (flow_.state.step != shared_out_step_) output_.record_sharing(flow_, share_out(flow_));
-      keeper_.remember(flow_, output_, guard_);
-    }
-    const bool some_left = let_go(flow_);
-    const bool some_came = let_in(flow_);
-    if (some_left || some_came || is_shared_out) guard_.remember_good();
-  }
-
-  double end_;  ///< s
+  bool goes_on_;  ///< from a checkpoint
   WallTime wall_time_;
-  Flow<Dim> flow_;
-  RunOutput<Dim> output_;
-  StepGuard<Dim> guard_;
-  CheckpointKeeper<Dim> keeper_;
-  bool goes_on_ = false;               ///< from a checkpoint
-  std::int64_t shared_out_step_ = -1;  ///< at which particles are as the checkpoint has them
+  Simulation<Dim> simulation_;
+  FolderOutput<Dim> output_;
 };
 
 template <int Dim>

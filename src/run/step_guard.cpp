@@ -151,14 +151,15 @@ void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& d
 /// `culprit` is set on the rank that has it.
 template <int Dim>
 void StepGuard<Dim>::fail(const std::string& reason, std::optional<std::size_t> culprit) {
-  const std::string message =
-      fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, last_good_time_, reason);
+  std::string message = fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, last_good_time_, reason);
   Particles<Dim> particles = last_good();
-  write_failure(folder_, flow_, particles, last_good_time_, culprit, message);
+  if (folder_ != nullptr) {
+    write_failure(*folder_, flow_, particles, last_good_time_, culprit, message);
+    message += fmt::format(". The last good fields and a report are in {}", (folder_->path() / "failure").string());
+  }
   flow_.state.particles = std::move(particles);
   flow_.state.time = last_good_time_;
-  throw SolverError(
-      fmt::format("{}. The last good fields and a report are in {}", message, (folder_.path() / "failure").string()));
+  throw SolverError(message);
 }
 
 template class StepGuard<2>;

@@ -15,8 +15,11 @@ namespace tailwater {
 template <int Dim>
 class StepGuard {
  public:
-  /// Borrows flow and folder.
-  StepGuard(Flow<Dim>& flow, const RunFolder& folder) : flow_(flow), folder_(folder) {}
+  /// Borrows the flow.
+  explicit StepGuard(Flow<Dim>& flow) : flow_(flow) {}
+
+  /// A run that fails leaves a report in this folder, which is borrowed; without it there is only the error.
+  void report_to(const RunFolder& folder) { folder_ = &folder; }
 
   /// Keeps the present state as good. Indices must mean the same particles in it and after the step, so call it again
   /// after indices have changed.
@@ -42,7 +45,7 @@ class StepGuard {
   Particles<Dim> last_good() const;
 
   Flow<Dim>& flow_;
-  const RunFolder& folder_;
+  const RunFolder* folder_ = nullptr;
   double reference_step_ = 0.0;  ///< s; 0 before the first step
   std::size_t good_count_ = 0;   ///< owned
   // What a step changes of them.

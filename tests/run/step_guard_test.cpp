@@ -21,9 +21,10 @@ class StepGuardTest : public testing::Test {
   TemporaryFolder temporary;
   RunFolder folder = RunFolder::create(temporary.path(), false);
   Flow<Dim> flow{pond_case<Dim>()};
-  StepGuard<Dim> guard{flow, folder};
+  StepGuard<Dim> guard{flow};
 
   void SetUp() override {
+    guard.report_to(folder);
     locate(flow);
     guard.remember_good();
   }

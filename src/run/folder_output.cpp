@@ -1,0 +1,40 @@
+#include "run/folder_output.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "io/messages.h"
+
+namespace tailwater {
+
+template <int Dim>
+FolderOutput<Dim>::FolderOutput(const CaseSpec& spec, const RunOptions& options, Simulation<Dim>& simulation,
+                                std::optional<Checkpoint<Dim>> checkpoint)
+    : flow_(simulation.flow()),
+      output_(spec, options, flow_, checkpoint ? &checkpoint->output : nullptr),
+      keeper_(spec, output_.folder(), flow_.setup.ranks) {
+  if (checkpoint) go_on_from(simulation, std::move(*checkpoint));
+  simulation.observe(*this, output_.folder());
+}
+
+template <int Dim>
+void FolderOutput<Dim>::go_on_from(Simulation<Dim>& simulation, Checkpoint<Dim> checkpoint) {
+  if (!simulation.fits(checkpoint.state)) {
+    throw IoError(fmt::format(
+        "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
+        "file in '{}', to go on from the one before",
+        output_.folder().checkpoints().string()));
+  }
+  keeper_.go_on_from(checkpoint.state.step);
+  output_.rank_log().restore(checkpoint.rank_log);
+  output_.restore_probe_memory(checkpoint.probe_memory);
+  simulation.go_on_from(std::move(checkpoint.state), checkpoint.reference_step,
+                        checkpoint.is_shared_out ? std::optional(std::move(checkpoint.cuts)) : std::nullopt);
+  tell(fmt::format("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time));
+}
+
+template class FolderOutput<2>;
+template class FolderOutput<3>;
+
+}  // namespace tailwater

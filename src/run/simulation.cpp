@@ -1,0 +1,109 @@
+#include "run/simulation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/for_each.h"
+#include "flow/verbs.h"
+#include "schemes/advance.h"
+
+namespace tailwater {
+namespace {
+
+/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and sharing them out at
+/// this interval costs next to nothing.
+constexpr std::int64_t steps_between_sorts = 10;
+
+}  // namespace
+
+template <int Dim>
+void Simulation<Dim>::observe(RunObserver<Dim>& observer, const RunFolder& folder) {
+  observer_ = &observer;
+  guard_.report_to(folder);
+}
+
+template <int Dim>
+void Simulation<Dim>::start() {
+  guard_.remember_good();
+  locate(flow_);
+  guard_.require_sound_step(next_time_step(flow_));
+  guard_.attempt([&] { tailwater::start(flow_); });
+  if (observer_ != nullptr) observer_->started(flow_);
+}
+
+template <int Dim>
+double Simulation<Dim>::prepare() {
+  if (is_prepared()) return dt_;
+  if (observer_ != nullptr) observer_->before_step(flow_);
+  guard_.remember_good();
+  const double dt = next_time_step(flow_);
+  guard_.require_sound_step(dt);
+  rearrange();
+  // The last step is not cut to the end time: the density source is proportional to 1/dt^2, and a tiny step would
+  // kick the water.
+  dt_ = std::min(dt, end_);
+  return dt_;
+}
+
+template <int Dim>
+StepReport Simulation<Dim>::step() {
+  prepare();
+  StepReport report;
+  guard_.attempt([&] { report = advance(flow_, dt_); });
+  dt_ = 0.0;
+  flow_.loads = {};
+  if (observer_ != nullptr) observer_->stepped(flow_, report);
+  return report;
+}
+
+/// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
+/// have passed an open end are removed, and new ones come in. A checkpoint is of the moment between: before water
+/// that may have limited the time step has left.
+template <int Dim>
+void Simulation<Dim>::rearrange() {
+  const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
+  if (is_shared_out) {
+    if (flow_.state.step != shared_out_step_) {
+      const Sharing sharing = share_out(flow_);
+      if (observer_ != nullptr) observer_->shared_out(flow_, sharing);
+    }
+    if (observer_ != nullptr) observer_->can_go_on(flow_, guard_.reference_step());
+  }
+  const bool some_left = let_go(flow_);
+  const bool some_came = let_in(flow_);
+  if (some_left || some_came || is_shared_out) guard_.remember_good();
+}
+
+template <int Dim>
+bool Simulation<Dim>::fits(State<Dim>& state) {
+  const std::size_t misplaced = count_each(state.particles.owned, [&](std::size_t i) {
+    const std::int64_t number = state.particles.id[i] - flow_.setup.first_wall_id;
+    return !state.particles.is_fluid(i) && (number < 0 || number >= flow_.walls.particles.numbers);
+  });
+  std::size_t ways = 0;
+  for (const FloatingBody<Dim>& body : flow_.setup.bodies) ways += body.free.size();
+  const MotionState<Dim>& motion = state.motion;
+  const bool moves_alike = motion.wave_makers.size() == flow_.state.motion.wave_makers.size() &&
+                           motion.bodies.each.size() == flow_.setup.bodies.size() &&
+                           (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == ways * ways);
+  const bool is_alike = misplaced == 0 && moves_alike &&
+                        state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
+                        state.open_ends.size() == flow_.state.open_ends.size() &&
+                        state.section_volumes.size() == flow_.state.section_volumes.size();
+  return !flow_.setup.ranks.any(!is_alike) &&
+         flow_.shared_rows.find_rows(flow_.walls, state.particles, 0, flow_.setup.first_wall_id);
+}
+
+template <int Dim>
+void Simulation<Dim>::go_on_from(State<Dim> state, double reference_step, std::optional<std::string> cuts) {
+  flow_.restore(std::move(state));
+  guard_.restore_reference_step(reference_step);
+  if (!cuts) return;
+  if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(*cuts));
+  shared_out_step_ = flow_.state.step;
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,67 @@
+// A run as an object that steps: the flow of a case, in memory. Nothing is written; an observer may do that
+// (folder_output.h). `run_case` is this loop with a folder:
+//
+//   Simulation<2> simulation(spec);
+//   for (simulation.start(); !simulation.has_ended(); simulation.step()) {
+//     // read simulation.flow()
+//   }
+//
+// A program that adds forces does so between `prepare` and `step`, when particles have the indices of the coming step.
+#pragma once
+
+#include "case/spec.h"
+#include "flow/flow.h"
+#include "parallel/communicator.h"
+#include "run/run_observer.h"
+#include "run/step_guard.h"
+
+namespace tailwater {
+
+/// Functions are collective. MPI and PETSc must run (linear/session.h).
+template <int Dim>
+class Simulation {
+ public:
+  /// Builds the flow of a case, whose geometry is sound (require_sound_geometry). Throws InputError.
+  explicit Simulation(const CaseSpec& spec, const Communicator& ranks = {}) : end_(spec.time.end), flow_(spec, ranks) {}
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const Flow<Dim>& flow() const { return flow_; }
+  Flow<Dim>& flow() { return flow_; }
+
+  /// Borrows the observer, and the folder, where a step that fails leaves the last good fields and a report.
+  void observe(RunObserver<Dim>& observer, const RunFolder& folder);
+
+  /// Finds the pressure at the start. Throws SolverError.
+  void start();
+
+  /// Whether the time has come to the end of the case.
+  bool has_ended() const { return flow_.state.time >= end_; }
+
+  /// Makes the next step ready: particles are shared out, water leaves and enters at open ends. Returns its size [s].
+  /// Throws SolverError when it has collapsed. Does nothing if a step is ready.
+  double prepare();
+  bool is_prepared() const { return dt_ > 0.0; }
+
+  /// Takes a step, with flow().loads, which are then gone. Makes it ready first if need be. Throws SolverError when the
+  /// step fails; the flow is then as it was before it.
+  StepReport step();
+
+  /// Whether walls, what drives them, and open ends of a state are those of the case. Finds the rows of its walls.
+  bool fits(State<Dim>& state);
+  /// Goes on from a state that `fits`, with the `reference_step` [s] of then. `cuts` are those of its space, if
+  /// particles are shared out by them.
+  void go_on_from(State<Dim> state, double reference_step, std::optional<std::string> cuts);
+
+ private:
+  void rearrange();
+
+  double end_;  ///< s
+  Flow<Dim> flow_;
+  StepGuard<Dim> guard_{flow_};
+  RunObserver<Dim>* observer_ = nullptr;
+  double dt_ = 0.0;                    ///< s; of the step that is ready, or 0
+  std::int64_t shared_out_step_ = -1;  ///< at which particles are as a checkpoint has them
+};
+
+}  // namespace tailwater
