@@ -19,7 +19,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "free-surface water flow by incompressib
  leaves tables, particle fields for ParaView and a summary.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tailwater)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-pil")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-pandas, python3-matplotlib, python3-pil")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-vtk9, xvfb")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview, tailwater-doc")
 

@@ -30,6 +30,8 @@ class Tailwater(CMakePackage):
     depends_on("benchmark", when="+benchmarks")
     depends_on("python@3.11:", type="run")
     depends_on("py-numpy", type="run")
+    depends_on("py-pandas", type="run")
+    depends_on("py-pybind11", type="build")
     depends_on("py-matplotlib", type="run")
 
     generator("ninja")

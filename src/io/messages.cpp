@@ -90,6 +90,12 @@ void survive_lost_terminal() {
 
 void set_voice(Voice voice) { messages().voice = voice; }
 
+void begin_messages(Voice voice) {
+  if (messages().log >= 0) close(messages().log);
+  messages() = {};
+  messages().voice = voice;
+}
+
 void tell(std::string_view line) {
   const Voice voice = messages().voice;
   const std::string text = shown_as(line) + "\n";

@@ -21,6 +21,8 @@ enum class Voice {
   silent,  ///< only errors are shown and logged: a rank that is not the root
 };
 void set_voice(Voice voice);
+/// The same for another run in the same process: what was told and warned of before is forgotten, and its log closed.
+void begin_messages(Voice voice);
 
 /// Lines are shown as `printable` (base/text.h) makes them, and with their middle left out if they are very long.
 

@@ -10,8 +10,8 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     if shutil.which("clang-format") is None:
         sys.exit("clang-format is not installed; run scripts/install.sh")
-    files = [str(file.relative_to(root)) for room in ("src", "tests", "benchmarks") for file in sorted((root / room).rglob("*"))
-             if file.suffix in {".h", ".cpp"}]
+    files = [str(file.relative_to(root)) for top in ("src", "tests", "benchmarks", "python")
+             for file in sorted((root / top).rglob("*")) if file.suffix in {".h", ".cpp"}]
     result = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], cwd=root, capture_output=True, text=True,
                             check=False)
     places = dict.fromkeys(re.findall(r"^(\S+:\d+):\d+: error", result.stderr, re.MULTILINE))

@@ -17,7 +17,7 @@ NAMES_COMMITS = {"docs/validation.md"}  # the one that its results are of
 
 def files(root):
     """Of the tree, without what a build or a run left in it."""
-    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake", "benchmarks"):
+    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake", "benchmarks", "python"):
         for file in sorted((root / top).rglob("*") if top else root.glob("*")):
             if file.is_file() and file.suffix in TEXTS and file != pathlib.Path(__file__).resolve():
                 yield file

@@ -1,0 +1,153 @@
+#include "python_simulation.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "io/messages.h"
+#include "linear/session.h"
+#include "run/estimate.h"
+#include "run/run_case.h"
+
+namespace tailwater {
+
+template <int Dim>
+PythonSimulation<Dim>::Lenders::Lenders(Flow<Dim>& flow)
+    : position(flow.state.particles.position),
+      velocity(flow.state.particles.velocity),
+      pressure(flow.state.particles.pressure),
+      volume(flow.state.particles.volume),
+      id(flow.state.particles.id),
+      kind(flow.state.particles.kind),
+      acceleration(flow.loads.acceleration) {}
+
+template <int Dim>
+void PythonSimulation<Dim>::Lenders::settle() {
+  position.settle();
+  velocity.settle();
+  pressure.settle();
+  volume.settle();
+  id.settle();
+  kind.settle();
+  acceleration.settle();
+}
+
+template <int Dim>
+PythonSimulation<Dim>::PythonSimulation(CaseSpec spec, std::optional<RunOptions> options)
+    : spec_(std::move(spec)), options_(std::move(options)) {
+  require_sound_geometry(spec_, ranks_of_process());
+  simulation_.emplace(spec_, ranks_of_process());
+  if (options_) {
+    output_ = std::make_unique<FolderOutput<Dim>>(spec_, *options_, *simulation_);
+    output_->begin();
+  } else {
+    require_reachable_end(spec_, flow().setup.time_step_rule);
+  }
+  lend_.emplace(simulation_->flow());
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::start() {
+  lend().settle();
+  const pybind11::gil_scoped_release others_go_on;
+  simulation().start();
+  simulation().flow().loads = {};
+}
+
+template <int Dim>
+Simulation<Dim>& PythonSimulation<Dim>::simulation() {
+  if (!simulation_) throw std::logic_error("the simulation is closed");
+  return *simulation_;
+}
+
+template <int Dim>
+typename PythonSimulation<Dim>::Lenders& PythonSimulation<Dim>::lend() {
+  simulation();  // for its error
+  return *lend_;
+}
+
+template <int Dim>
+const Flow<Dim>& PythonSimulation<Dim>::flow() const {
+  if (!simulation_) throw std::logic_error("the simulation is closed");
+  return simulation_->flow();
+}
+
+template <int Dim>
+bool PythonSimulation<Dim>::prepare() {
+  if (simulation().is_prepared()) return true;
+  lend().settle();
+  if (simulation().has_ended()) return false;
+  const pybind11::gil_scoped_release others_go_on;
+  dt_ = simulation().prepare();
+  return true;
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::step() {
+  lend().settle();
+  const pybind11::gil_scoped_release others_go_on;
+  report_ = simulation().step();
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::finish(const std::string& failure) {
+  lend_.reset();
+  if (output_ && !failure.empty()) {
+    output_->finish_failed(ExitCode::solver_failed, failure);
+  } else if (output_) {
+    output_->write_checkpoint();
+    output_->finish(simulation().has_ended() ? ExitCode::done : ExitCode::interrupted);
+  }
+  output_.reset();
+  simulation_.reset();
+}
+
+template <int Dim>
+pybind11::array PythonSimulation<Dim>::acceleration() {
+  tell_of_script();
+  std::vector<Vec<Dim>>& acceleration = simulation().flow().loads.acceleration;
+  if (acceleration.empty()) acceleration.assign(owned(), Vec<Dim>::Zero());
+  return lend().acceleration.template view<double>(acceleration.size(), Dim, true);
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::push(std::size_t b, const Twist<Dim>& push) {
+  tell_of_script();
+  std::vector<Twist<Dim>>& pushes = simulation().flow().loads.on_bodies;
+  if (pushes.empty()) pushes.assign(bodies().size(), Twist<Dim>::Zero());
+  pushes.at(b) += push;
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::set_discharge(const std::string& inlet, double discharge) {
+  for (OpenEnd<Dim>& end : simulation().flow().setup.open_ends) {
+    if (end.opening.name != inlet) continue;
+    if (!end.flow.discharge) {
+      throw InputError(fmt::format("{} has no discharge that a script can change; remedy: give it one in the case",
+                                   end.opening.label()));
+    }
+    tell_of_script();
+    end.flow.discharge = TimeFunction(SmoothCurve({state().time}, {discharge}));
+    return;
+  }
+  throw InputError(fmt::format("there is no inlet '{}'", inlet));
+}
+
+/// So that nobody takes the results for those of the case alone.
+template <int Dim>
+void PythonSimulation<Dim>::tell_of_script() {
+  if (script_is_told_) return;
+  script_is_told_ = true;
+  log_line(fmt::format("a script acts on the flow from t = {:.4f} s on", state().time));
+  if (!output_) return;
+  warn(
+      fmt::format("a script acts on the flow from t = {:.4f} s on: the case file alone does not give these results, "
+                  "and tailwater resume goes on without the script",
+                  state().time));
+}
+
+template class PythonSimulation<2>;
+template class PythonSimulation<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,232 @@
+"""Cases: a case file as a dict that knows its keys."""
+
+import difflib
+import html
+import json
+import shutil
+import tempfile
+import tomllib
+import weakref
+from functools import lru_cache
+from pathlib import Path
+
+from . import case_text
+from .errors import Error, InputError, IoError
+from .program import call
+from .run import Run, warn_of
+
+__all__ = ["Case", "Check"]
+
+
+@lru_cache(maxsize=None)
+def known_tables() -> dict:
+    """{table: (whether its keys are free, {key: its default})} of the program."""
+    tables = json.loads(call("run", "--help-case=json"))["tables"]
+    return {table["name"]: (table["has_free_keys"], {key["name"]: key.get("default") for key in table["keys"]})
+            for table in tables}
+
+
+class TemporaryFolder:
+    """A folder that goes when nobody refers to this object any more."""
+
+    def __init__(self):
+        self.path = Path(tempfile.mkdtemp(prefix="tailwater-"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+
+class Check:
+    """What `check` finds in a case; true if a run may begin.
+
+    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none) and "message";
+    `particles` (of fluid) and `memory` (bytes) are None where they cannot be known."""
+
+    def __init__(self, case: "Case"):
+        self.case = case
+        answer = json.loads(call("check", "--json", *case.words()))
+        self.findings = answer["findings"]
+        cost = answer["cost"] or {}
+        self.particles, self.memory = cost.get("fluid"), cost.get("memory_bytes")
+
+    def __bool__(self) -> bool:
+        return not any(finding["severity"] == "error" for finding in self.findings)
+
+    @property
+    def drawing(self) -> str:
+        """The preview as SVG text, with places marked that are wrong; "" if nothing can be drawn."""
+        with tempfile.TemporaryDirectory() as folder:
+            preview = Path(folder) / "preview.svg"
+            try:
+                call("check", *self.case.words(), "--preview", preview)
+            except Error:
+                pass  # of what is wrong the findings tell
+            return preview.read_text(encoding="utf-8") if preview.exists() else ""
+
+    def __repr__(self) -> str:
+        lines = [f"{self.case.title}: {'valid' if self else 'not valid'}"]
+        if self.particles is not None:
+            lines.append(f"{self.particles} fluid particles, about {self.memory / 1e6:.0f} MB")
+        lines += [f"{finding['severity']}: {finding['message']}" for finding in self.findings]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        drawing = self.drawing
+        picture = f"<div>{drawing[drawing.find('<svg'):]}</div>" if drawing else ""
+        return f"<pre>{html.escape(repr(self))}</pre>{picture}"
+
+
+class Case:
+    """A case. Keys are as on the command line, "particles.spacing", "fluid[0].max" or "probe.NAME.interval"; values as
+    in the file: numbers, texts (expressions, too), true and false, and lists of them.
+
+        case = Case.template("weir")
+        case["parameters.q"] = 0.06
+        case["parameters.q"]          # 0.06; of a key that the case does not give, the default, None if there is none
+        run = case.run("out")
+
+    Throws InputError for a key that no case has; whether values are good is for `check` and `run` to say."""
+
+    def __init__(self, file):
+        """The case in a file. Throws IoError if it cannot be read, InputError if it is not TOML."""
+        self.file = Path(file)
+        self.changes = {}
+        self._folder = None  # of a template; kept as long as a case refers to it
+        try:
+            self._text = self.file.read_text(encoding="utf-8")
+            self._data = tomllib.loads(self._text)
+        except OSError as error:
+            raise IoError(f"{file}: cannot be read ({error.strerror})") from error
+        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise InputError(f"{file}: {error}") from error
+
+    @classmethod
+    def load(cls, file) -> "Case":
+        """The case in a file."""
+        return cls(file)
+
+    @classmethod
+    def template(cls, name: str) -> "Case":
+        """A case of `tailwater new`, as "weir"; until it is saved in a folder of its own, with the files that it reads.
+        Throws InputError, which lists the names, for another."""
+        folder = TemporaryFolder()
+        file = folder.path / f"{name}.toml"
+        call("new", name, file)
+        case = cls(file)
+        case._folder = folder
+        return case
+
+    @property
+    def title(self) -> str:
+        return self["case.title"]
+
+    def copy(self) -> "Case":
+        """Another with the same values, whose changes are its own."""
+        other = object.__new__(Case)
+        other.__dict__ = {**self.__dict__, "changes": dict(self.changes)}
+        return other
+
+    def __getitem__(self, key: str):
+        steps = case_text.steps_of(key)
+        try:
+            return case_text.find(self._data, steps)
+        except (KeyError, IndexError, TypeError):
+            self._require_known(key, steps)
+            return known_tables()[steps[0]][1].get(steps[-1])
+
+    def __setitem__(self, key: str, value):
+        steps = case_text.steps_of(key)
+        case_text.toml_value(value)
+        self._require_known(key, steps)
+        try:
+            self._data = case_text.put(self._data, steps, value)
+        except (KeyError, IndexError, TypeError) as error:
+            raise InputError(f"{key}: the case has no {error}") from error
+        self.changes[key] = value
+
+    def update(self, values: dict) -> "Case":
+        """Sets each of the keys; returns the case."""
+        for key, value in values.items():
+            self[key] = value
+        return self
+
+    def _require_known(self, key, steps):
+        tables = known_tables()
+        names = list(tables)
+        if steps[0] in tables:
+            has_free_keys, keys = tables[steps[0]]
+            last = [step for step in steps if isinstance(step, str)][-1]
+            if has_free_keys or last in keys:
+                return
+            wrong, names = last, list(keys)
+        else:
+            wrong = steps[0]
+        near = difflib.get_close_matches(wrong, names, 1)
+        hint = f'did you mean "{near[0]}"? ' if near else ""
+        raise InputError(f'--set {key}=...: unknown key; {hint}valid: ' + ", ".join(f'"{name}"' for name in names))
+
+    def words(self, without=()) -> list:
+        """The case as words of a command line: its file and its changes, but of keys `without` change."""
+        changes = [f"{key}={case_text.toml_value(value)}" for key, value in self.changes.items() if key not in without]
+        return [str(self.file), *(word for change in changes for word in ("--set", change))]
+
+    def save(self, file) -> "Case":
+        """Writes the case with its changes, its comments kept, and beside it the files that it reads, if it goes to
+        another folder. Returns the saved case. Throws InputError where a file would take the place of another."""
+        file, text = Path(file), self._text
+        for key, value in self.changes.items():
+            text = case_text.changed_text(text, key, value)
+        read = [] if file.parent.resolve() == self.file.parent.resolve() else self._files_read()
+        for source in read:
+            target = file.parent / source.name
+            if target.exists() and target.read_bytes() != source.read_bytes():
+                raise InputError(f"{target} exists and is another file than the case reads; remedy: another folder")
+        try:
+            file.write_text(text, encoding="utf-8")
+            for source in read:
+                shutil.copy(source, file.parent)
+        except OSError as error:
+            raise IoError(f"{error.filename}: cannot be written ({error.strerror})") from error
+        return Case(file)
+
+    def _files_read(self):
+        """Those that stand beside the case file; what stands elsewhere is named by its path."""
+        def texts(node):
+            if isinstance(node, str):
+                yield node
+            elif isinstance(node, (list, dict)):
+                for each in node.values() if isinstance(node, dict) else node:
+                    yield from texts(each)
+
+        beside = {path.name: path for path in self.file.parent.iterdir() if path.is_file() and path != self.file}
+        return [beside[text] for text in texts(self._data) if text in beside]
+
+    def check(self) -> Check:
+        """Looks for what is wrong, without running. Never throws for what is wrong in the case."""
+        return Check(self)
+
+    def explain(self) -> str:
+        """The case in sentences, with what it takes. Throws InputError."""
+        return call("explain", *self.words()).rstrip("\n")
+
+    def run(self, out, *, ranks: int = 1, force: bool = False, progress: bool = False) -> Run:
+        """Runs the case in the folder `out`, which is made; `force` replaces an earlier run. Ctrl-C ends the run in
+        order. Throws InputError and IoError before anything is written, SolverError if a step fails; what the run warns
+        of becomes a RunWarning."""
+        words = ["run", *self.words(), "--out", out, *(["-n", ranks] if ranks != 1 else []),
+                 *(["--force"] if force else []), *([] if progress else ["--quiet"])]
+        call(*words, progress=progress)
+        run = Run(out)
+        if not progress:
+            warn_of(run)
+        return run
+
+    def simulation(self, out=None, *, hook=None, force: bool = False):
+        """The run in this process, for a `with` (tailwater.simulation). Only with `out` it writes a run's folder."""
+        from .simulation import Simulation  # the compiled part, which starts MPI
+
+        return Simulation(self, out, hook=hook, force=force)
+
+    def __repr__(self) -> str:
+        return f"Case({str(self.file)!r}: {self.title}" + "".join(f", {k} = {v}" for k, v in self.changes.items()) + ")"
+
+    def _repr_html_(self) -> str:
+        return self.check()._repr_html_()

@@ -1,0 +1,76 @@
+"""The field files of a run, read with VTK."""
+
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .errors import DataError
+
+__all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "to_frame"]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Fluid particles at one time (s): positions (n, 3) in m, z = 0 in 2D, and fields by name, (n) or (n, 3), in SI
+    units."""
+
+    time: float
+    position: np.ndarray
+    fields: dict
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        try:
+            return self.fields[name]
+        except KeyError:
+            raise KeyError(f"{name}; there are {', '.join(self.fields)}") from None
+
+
+def list_frames(run_folder, name: str = "fields") -> list:
+    """[(time in s, path)] of fields/NAME.pvd, in its order. Throws DataError."""
+    series = Path(run_folder) / "fields" / f"{name}.pvd"
+    try:
+        entries = ElementTree.parse(series).getroot().iter("DataSet")
+        return [(float(entry.get("timestep")), series.parent / entry.get("file")) for entry in entries]
+    except OSError as error:
+        raise DataError(f"{series}: cannot be read ({error.strerror})") from error
+    except (ElementTree.ParseError, TypeError, ValueError) as error:
+        raise DataError(f"{series}: is not a ParaView series ({error})") from error
+
+
+def read_polydata(path):
+    """As vtkPolyData. Throws DataError if VTK cannot read the file."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader  # slow to import
+
+    reader = vtkXMLPolyDataReader()
+    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+        raise DataError(f"{path}: is not a VTK polydata file")
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def to_frame(time: float, data) -> Frame:
+    """The points and their fields, which borrow the memory of `data`."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    arrays = data.GetPointData()
+    fields = {arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k)) for k in range(arrays.GetNumberOfArrays())}
+    return Frame(time, vtk_to_numpy(data.GetPoints().GetData()), fields)
+
+
+def read_frame(time: float, path) -> Frame:
+    """Throws DataError if VTK cannot read the file, or if there are no particles in it."""
+    data = read_polydata(path)
+    if data.GetNumberOfPoints() == 0:
+        raise DataError(f"{path}: holds no particles")
+    return to_frame(time, data)
+
+
+def nearest_frames(run_folder, times) -> list:
+    """The frame nearest to each of `times` (s)."""
+    frames = list_frames(run_folder)
+    if not frames:
+        raise DataError(f"{run_folder}: the run wrote no field files")
+    return [read_frame(*min(frames, key=lambda frame: abs(frame[0] - time))) for time in times]

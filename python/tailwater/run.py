@@ -1,0 +1,136 @@
+"""What a run left in its folder."""
+
+import json
+import tomllib
+import warnings
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+
+from . import tables
+from .errors import DataError, RunWarning
+from .fields import Frame, list_frames, nearest_frames
+from .view import View
+
+__all__ = ["Probes", "Run"]
+
+
+class Probes(Mapping):
+    """The tables of a run's probes by name, each read when it is asked for: a pandas.DataFrame over `time_s`, with the
+    unit of each column in `attrs["units"]`."""
+
+    def __init__(self, run: "Run"):
+        self._run = run
+        self._names = [probe["name"] for probe in run.case.get("probe", [])]
+        self._tables = {}
+
+    def __getitem__(self, name: str):
+        if name not in self._names:
+            raise KeyError(f"{name}; the case has {', '.join(self._names) or 'no probes'}")
+        if name not in self._tables:
+            self._tables[name] = tables.frame(self._run.path / "probes" / f"{name}.csv")
+        return self._tables[name]
+
+    def __iter__(self):
+        return iter(self._names)
+
+    def __len__(self):
+        return len(self._names)
+
+    def __repr__(self):
+        return f"probes {', '.join(self._names) or 'none'}"
+
+
+class Run:
+    """The folder of a run that goes on or has ended. Throws DataError if it is none.
+
+    `path` is the folder; `case` the effective case, as tomllib reads it, with all values."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        effective = self.path / "case.effective.toml"
+        try:
+            self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise DataError(f"{self.path}: is not the folder of a run, {effective.name} cannot be read "
+                            f"({error.strerror})") from error
+        except tomllib.TOMLDecodeError as error:
+            raise DataError(f"{effective}: {error}") from error
+
+    @property
+    def summary(self) -> dict:
+        """summary.json of a run that has ended; empty when it goes on or was killed."""
+        path = self.path / "summary.json"
+        try:
+            summary = json.loads(path.read_text(encoding="utf-8"))
+            return {} if summary.get("status") == "running" else summary
+        except FileNotFoundError:
+            return {}
+        except (OSError, ValueError) as error:
+            raise DataError(f"{path}: {error}") from error
+
+    @property
+    def results(self) -> dict:
+        """What the probes have found, by the probe's name (docs/theory/probes.md); empty until the run has ended."""
+        return self.summary.get("results", {})
+
+    @cached_property
+    def probes(self) -> Probes:
+        """Of each probe its table, by name."""
+        return Probes(self)
+
+    @property
+    def steps(self):
+        """steps.csv as a pandas.DataFrame over `time_s`."""
+        return tables.frame(self.path / "steps.csv")
+
+    @property
+    def times(self) -> list:
+        """s; of the field files."""
+        return [time for time, _ in list_frames(self.path)]
+
+    def at(self, time: float) -> Frame:
+        """The fields nearest to a time [s]."""
+        return nearest_frames(self.path, [time])[0]
+
+    def last(self) -> Frame:
+        """The last fields: `position` (n, 3) in m, and by name as in `last()["velocity"]`."""
+        return self.at(float("inf")) if len(self.times) == 1 else self.at(self.times[-1])
+
+    def view(self) -> View:
+        """The run in a page of the browser, or of a notebook."""
+        return View(self.path)
+
+    @property
+    def spacing(self) -> float:
+        """m"""
+        return self.case["particles"]["spacing"]
+
+    @property
+    def dimension(self) -> int:
+        return self.case["case"]["dimension"]
+
+    @property
+    def density(self) -> float:
+        """kg/m^3"""
+        return self.case["physics"]["density"]
+
+    @property
+    def gravity(self) -> float:
+        """Magnitude, m/s^2."""
+        return sum(component**2 for component in self.case["physics"]["gravity"]) ** 0.5
+
+    @property
+    def parameters(self) -> dict:
+        """The named numbers of the case."""
+        return self.case.get("parameters", {})
+
+    def __repr__(self):
+        summary = self.summary
+        reached = f", t = {summary['time_s']['reached']:.4g} s" if summary else ""
+        return f"Run({str(self.path)!r}: {self.case['case']['title']}, {summary.get('status', 'not ended')}{reached})"
+
+
+def warn_of(run: Run):
+    for line in run.summary.get("warnings", []):
+        warnings.warn(line, RunWarning, stacklevel=4)

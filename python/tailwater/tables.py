@@ -1,0 +1,56 @@
+"""Tables: CSV files with a line of names, which carry their units ("time_s", "discharge_m3_per_s")."""
+
+from pathlib import Path
+
+import numpy as np
+
+from .errors import DataError
+
+__all__ = ["frame", "read_table", "unit_of"]
+
+# Endings of names that are units, the longest first, so that "m3_per_s" is not taken for "s".
+UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3": "kg/m^3", "N_m_per_m": "N m/m",
+         "N_per_m": "N/m", "per_s": "1/s", "N_m": "N m", "m3": "m^3", "m2": "m^2", "Pa": "Pa", "kg": "kg", "Hz": "Hz",
+         "rad": "rad", "deg": "deg", "bytes": "bytes", "m": "m", "s": "s", "J": "J", "N": "N", "W": "W"}
+ENDINGS = sorted(UNITS, key=len, reverse=True)
+
+
+def unit_of(name: str) -> str:
+    """Of a column by its name: "m" of "highest_m", "" of a number without a unit."""
+    return next((UNITS[ending] for ending in ENDINGS if name.endswith("_" + ending)), "")
+
+
+def read_table(path) -> dict:
+    """Columns of a CSV with one line of names, by name, as arrays of doubles. Lines that start with `#` are provenance
+    and are skipped. Throws DataError, which names file and line."""
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read ({error.strerror})") from error
+    numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
+    if len(numbered) < 2:
+        raise DataError(f"{path}: has no lines of numbers")
+    names = [name.strip() for name in numbered[0][1].split(",")]
+    rows = []
+    for n, line in numbered[1:]:
+        try:
+            row = [float(cell) for cell in line.split(",")]
+        except ValueError as error:
+            raise DataError(f"{path}:{n}: {error}") from error
+        if len(row) != len(names):
+            raise DataError(f"{path}:{n}: {len(row)} numbers under {len(names)} names")
+        rows.append(row)
+    return dict(zip(names, np.array(rows).T))
+
+
+def frame(path):
+    """The same as a pandas.DataFrame over `time_s`, if it has that. `attrs["units"]` has the unit of each column."""
+    import pandas  # slow to import, and only a part of what this package does needs it
+
+    columns = read_table(path)
+    table = pandas.DataFrame(columns)
+    if "time_s" in columns:
+        table = table.set_index("time_s")
+    table.attrs["units"] = {name: unit_of(name) for name in columns}
+    return table

@@ -1,0 +1,44 @@
+"""The page of a run, served by the program."""
+
+import atexit
+import html
+import subprocess
+import tempfile
+from pathlib import Path
+
+from .errors import error_of
+from .program import call, program
+
+__all__ = ["View"]
+
+
+class View:
+    """The page of runs, at `address` on this machine, until `close` or the end of this process. A notebook shows inside
+    itself what the runs have written by then, which stays in it when it is saved."""
+
+    def __init__(self, *paths):
+        self.paths = paths
+        command = [str(program()), "view", "--no-browser", *map(str, paths)]
+        self._child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                       start_new_session=True)
+        line = self._child.stdout.readline()
+        if "http://" not in line:
+            told = self._child.communicate()[1]
+            raise error_of(self._child.returncode, told)
+        self.address = line[line.index("http://"):].split()[0]
+        atexit.register(self.close)
+
+    def close(self):
+        self._child.terminate()
+        self._child.communicate()
+        atexit.unregister(self.close)
+
+    def __repr__(self):
+        return self.address
+
+    def _repr_html_(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.html"
+            call("view", *self.paths, "--export", page)
+            text = html.escape(page.read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{text}" width="100%" height="560" style="border: 1px solid #ccc"></iframe>'

@@ -1,0 +1,115 @@
+"""Cases as dicts: keys, text, errors, checks."""
+
+import os
+import tomllib
+import unittest
+from pathlib import Path
+
+import tailwater as tw
+from small import DAM, PackageTest
+from tailwater import case_text
+
+
+class Keys(PackageTest):
+    def setUp(self):
+        super().setUp()
+        self.case = tw.Case.load(self.write("dam.toml", DAM))
+
+    def test_values_are_those_of_the_file_then_defaults(self):
+        for key, value in (("parameters.H", 0.5), ("fluid[0].max", [1, "H"]), ("fluid.column.max[1]", "H"),
+                           ("probe.depth.type", "depth"), ("particles.seed", 1), ("case.dimension", 2)):
+            self.assertEqual(self.case[key], value, key)
+
+    def test_changes_are_seen_and_a_copy_has_its_own(self):
+        other = self.case.copy()
+        other.update({"parameters.H": 0.6, "fluid.column.max[0]": 2})
+        self.assertEqual((other["parameters.H"], other["fluid[0].max"]), (0.6, [2, "H"]))
+        self.assertEqual((self.case["parameters.H"], self.case["fluid[0].max"]), (0.5, [1, "H"]))
+
+    def test_key_that_no_case_has_is_refused_at_once(self):
+        for key, hint in (("particles.spacin", 'did you mean "spacing"?'),
+                          ("particle.spacing", 'did you mean "particles"?'), ("fluid[7].max", "the case has no"),
+                          ("probe.dept.at", "the case has no"), ("spacing", "is not a key")):
+            with self.assertRaises(tw.InputError, msg=key) as caught:
+                self.case[key] = 1
+            self.assertIn(hint, str(caught.exception))
+
+    def test_value_that_no_case_has_is_refused(self):
+        with self.assertRaisesRegex(tw.InputError, "a case has numbers, texts"):
+            self.case["parameters.H"] = {"value": 1}
+
+    def test_templates_are_those_of_the_program(self):
+        case = tw.Case.template("pier")
+        self.assertTrue(case.file.with_name("pier.obj").exists())
+        with self.assertRaisesRegex(tw.InputError, "dam-break"):
+            tw.Case.template("dam")
+
+
+class Text(PackageTest):
+    def test_saved_case_keeps_comments_and_has_the_changes(self):
+        changes = {"parameters.H": 0.4, "wall.tank.points[1][1]": -0.1, "particles.jitter": 0.1,
+                   "output.fields": ["velocity"], "case.title": 'of "us"'}
+        saved = tw.Case(self.write("dam.toml", DAM)).update(changes).save("saved.toml")
+        text = Path("saved.toml").read_text(encoding="utf-8")
+        self.assertIn("# A small dam break\n", text)
+        self.assertIn("H = 0.4   # m\n", text)
+        for key, value in changes.items():
+            self.assertEqual(saved[key], value)
+        del changes["particles.jitter"], changes["output.fields"]
+        expected = tomllib.loads(DAM) | {"particles": {"spacing": 0.1, "jitter": 0.1},
+                                         "output": {"fields": ["velocity"]}}
+        for key, value in changes.items():
+            expected = case_text.put(expected, case_text.steps_of(key), value)
+        self.assertEqual(tomllib.loads(text), expected)
+
+    def test_text_that_is_written_otherwise_is_left_alone(self):
+        with self.assertRaisesRegex(tw.InputError, "cannot be changed in the text"):
+            case_text.changed_text('case.title = "dotted"\n[particles]\nspacing = 0.1\n', "case.title", "other")
+
+    def test_files_that_the_case_reads_go_with_it(self):
+        os.mkdir("there")
+        case = tw.Case.template("river-reach")
+        case.save("there/reach.toml")
+        self.assertEqual(Path("there/bed.csv").read_bytes(), case.file.with_name("bed.csv").read_bytes())
+        Path("there/bed.csv").write_text("mine", encoding="utf-8")
+        with self.assertRaisesRegex(tw.InputError, "is another file"):
+            case.save("there/again.toml")
+
+
+class Checks(PackageTest):
+    def test_error_has_file_line_and_key(self):
+        case = tw.Case(self.write("dam.toml", DAM.replace("spacing = 0.1", "spacing = -0.1")))
+        with self.assertRaises(tw.InputError) as caught:
+            case.explain()
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.key), ("dam.toml", 7, "particles.spacing"))
+        self.assertIn("give a number above 0 in m", str(error))
+
+    def test_error_of_a_change_has_its_key(self):
+        case = tw.Case(self.write("dam.toml", DAM))
+        case["particles.spacing"] = -1
+        with self.assertRaises(tw.InputError) as caught:
+            case.run("out")
+        self.assertEqual((caught.exception.file, caught.exception.key), (None, "particles.spacing"))
+        self.assertFalse(Path("out").exists())
+
+    def test_check_tells_what_is_wrong_and_draws_it(self):
+        case = tw.Case(self.write("dam.toml", DAM))
+        check = case.check()
+        self.assertTrue(check)
+        self.assertEqual(check.particles, 50)
+        self.assertIn("<svg", case._repr_html_())
+        case["probe.depth.at"] = [7, 0]
+        self.assertFalse(case.check())
+        self.assertIn("'depth'", case.check().findings[0]["message"])
+
+    def test_explain_is_sentences(self):
+        self.assertIn("50 particles", tw.Case(self.write("dam.toml", DAM)).explain())
+
+    def test_file_that_is_not_there(self):
+        with self.assertRaisesRegex(tw.IoError, "none.toml"):
+            tw.Case("none.toml")
+
+
+if __name__ == "__main__":
+    unittest.main()

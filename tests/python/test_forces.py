@@ -1,0 +1,150 @@
+"""What a script adds to a run: forces on water and bodies, the discharge of an inlet."""
+
+import unittest
+
+import numpy as np
+import tailwater as tw
+from small import DAM, DROP, PackageTest
+
+INFLOW = """\
+[case]
+title = "An inlet fills a tank"
+[particles]
+spacing = 0.05
+[[wall]]
+name = "tank"
+points = [[0, 0], [1, 0], [1, 1]]
+[[inlet]]
+name = "spring"
+from = [0, 0]
+to = [0, 1]
+discharge = 0.1
+[time]
+end = 0.3
+"""
+
+
+class OnWater(PackageTest):
+    def free_water(self, hook):
+        """(the end, what its velocity can be wrong by): the small pressure that there is pushes a particle by its
+        difference over half the way to the next, in all that time."""
+        largest = 0.0
+        with tw.Case(self.write("drop.toml", DROP)).simulation() as simulation:
+            for step in simulation:
+                hook(step)
+                largest = max(largest, step.pressure.max())
+            end = simulation.now()
+            largest = max(largest, end.pressure.max())
+            self.assertLess(largest, 1e-3)
+            return end.time, end.velocity, 4 * largest / (simulation.density * simulation.spacing) * end.time
+
+    def test_equal_force_moves_free_water_as_a_body(self):
+        """It has no divergence, so it makes no pressure, and the sum over steps of dt a is a t."""
+        force = np.array([3.0, -2.0])
+
+        def pull(step):
+            step.body_force = force
+
+        time, velocity, error = self.free_water(pull)
+        self.assertLess(abs(velocity - [1, 0] - time * force).max(), error)
+
+    def test_force_of_zero_changes_nothing(self):
+        case = tw.Case(self.write("dam.toml", DAM))
+        with case.simulation() as simulation:
+            simulation.run()
+            expected = simulation.now().position.copy()
+        with case.simulation(hook=lambda step: step.body_force[:, 0].sum()) as simulation:
+            simulation.run()
+            self.assertTrue(np.array_equal(simulation.now().position, expected))
+
+    def test_force_acts_in_one_step_only(self):
+        pushes = []
+
+        def pull(step):
+            if step.number == 1:
+                step.body_force[:, 1] = 1.0
+                pushes.append(step.dt)
+
+        _, velocity, error = self.free_water(pull)
+        self.assertLess(abs(velocity - [1, pushes[0]]).max(), error)
+
+    def test_folder_says_that_a_script_acted(self):
+        with self.assertWarnsRegex(tw.RunWarning, "a script acts on the flow from t = 0.0000 s on"):
+            case = tw.Case(self.write("drop.toml", DROP))
+            with case.simulation("out", hook=lambda step: step.body_force) as simulation:
+                simulation.run()
+        self.assertIn("a script acts", tw.Run("out").summary["warnings"][0])
+
+
+class OnBodies(PackageTest):
+    def setUp(self):
+        super().setUp()
+        # Without the jitter all is symmetric, and round-off decides what happens first on which side.
+        self.case = tw.Case.template("floating-box").update(
+            {"particles.spacing": 0.04, "particles.jitter": 0.1, "time.end": 0.25})
+
+    def without_lines(self):
+        text = self.case.save("lines.toml").file.read_text(encoding="utf-8")
+        head, _, rest = text.partition("# Lines from its lower corners")
+        return tw.Case(self.write("free.toml", head + rest[rest.index("[time]"):]))
+
+    def test_mooring_in_python_is_that_of_the_case(self):
+        names = {name: self.case[f"parameters.{name}"] for name in ("L", "B", "h", "m", "up")}
+        low = names["h"] - names["m"] / (1000 * names["B"]) + names["up"]
+        left, right = names["L"] / 2 - names["B"] / 2, names["L"] / 2 + names["B"] / 2
+
+        def moor(step):
+            box = step.bodies["box"]
+            for at, anchor in (((left, low), (0, 0)), ((right, low), (names["L"], 0))):
+                end = box.place(at)
+                way = np.array(anchor) - end
+                length = np.linalg.norm(way)
+                box.push(max(0.0, 50 * (length - 0.5)) * way / length, at=end)
+
+        def motion(case, hook=None):
+            path = []
+            with case.simulation(hook=hook) as simulation:
+                for step in simulation:
+                    box = step.bodies["box"]
+                    path.append([step.time, *box.centre, np.arctan2(box.rotation[1, 0], box.rotation[0, 0])])
+            return np.array(path)
+
+        moored, pushed = motion(self.case), motion(self.without_lines(), moor)
+        self.assertGreater(abs(moored[:, 2] - moored[0, 2]).max(), 1e-4)
+        self.assertLess(abs(moored - pushed).max(), 1e-10)
+        free = motion(self.without_lines())
+        self.assertGreater(abs(moored[:len(free)] - free[:len(moored)]).max(), 1e-6)
+
+    def test_velocity_of_a_place_and_moment_of_a_force(self):
+        with self.case.simulation() as simulation:
+            simulation.run(until=0.03)
+            box = simulation.now().bodies["box"]
+            self.assertLess(abs(box.velocity_at(box.centre) - box.velocity).max(), 1e-15)
+            arm = np.array([0.0, 1.0])
+            turned = box.velocity_at(box.centre + arm) - box.velocity
+            self.assertLess(abs(turned - [-box.angular_velocity, 0]).max(), 1e-12)
+            with self.assertRaisesRegex(tw.InputError, "2 components"):
+                box.push([1, 2, 3])
+
+
+class AtInlets(PackageTest):
+    def test_discharge_is_that_of_the_script(self):
+        """The books add dt q in every step."""
+        with tw.Case(self.write("inflow.toml", INFLOW)).simulation("out") as simulation:
+            asked = 0.0
+            for step in simulation:
+                discharge = 0.1 + 0.1 * step.time
+                step.set_discharge("spring", discharge)
+                asked += discharge * step.dt
+        books = simulation.result().summary["water_balance"]["inlets"][0]
+        self.assertAlmostEqual(books["asked_for_m3"], asked, delta=1e-12)
+        self.assertGreater(books["in"]["volume_m3"] if "in" in books else asked, 0.0)
+
+    def test_inlet_that_is_none(self):
+        with tw.Case(self.write("inflow.toml", INFLOW)).simulation() as simulation:
+            with self.assertRaisesRegex(tw.InputError, "there is no inlet 'well'"):
+                simulation.now().set_discharge("well", 0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()
