@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "validation"))
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 
 import numpy  # noqa: E402
 from tailwater_validation import martin_moyce1952, zhou1999  # noqa: E402

@@ -9,4 +9,4 @@ scripts/install.sh build pictures
 scripts/build.sh release
 build/release/bin/tailwater run cases/zhou1999/case.toml --out out/demo --force "$@"
 echo
-PYTHONPATH=validation /usr/bin/python3 -B -m tailwater_validation.compare zhou1999 out/demo
+PYTHONPATH=validation:python /usr/bin/python3 -B -m tailwater_validation.compare zhou1999 out/demo

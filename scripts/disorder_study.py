@@ -12,8 +12,8 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "validation"))
-from tailwater_validation.particles import list_frames, read_frame  # noqa: E402
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
+from tailwater.fields import list_frames, read_frame  # noqa: E402
 from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 SUPPORT = 3.0  # dx

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "validation"))
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation.curves import DataError
 from tailwater_validation.run_folder import RunFolder
 

@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "validation"))
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation import zhou1999  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"

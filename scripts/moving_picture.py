@@ -11,7 +11,7 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "validation"))
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from tailwater_validation import plots  # noqa: E402
-from tailwater_validation.particles import list_frames, read_frame  # noqa: E402
+from tailwater.fields import list_frames, read_frame  # noqa: E402
 from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 WIDTH, DPI, COLOURS = 7.6, 100, 48  # inches, dots per inch, of the whole picture

@@ -15,7 +15,7 @@ import shutil
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "validation"))
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation.metric import bar  # noqa: E402
 
 KEPT = ROOT / "docs" / "validation.json"

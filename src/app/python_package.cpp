@@ -20,31 +20,39 @@ namespace {
 
 constexpr const char* python = "/usr/bin/python3";
 
-/// share/tailwater/validation of the nearest folder above this program that has it.
-std::filesystem::path validation_folder(const std::string& module) {
-  const std::filesystem::path inside = std::filesystem::path("share") / "tailwater" / "validation";
+// Below the prefix of an installation, or in the build tree.
+constexpr const char* validation = "share/tailwater/validation";
+constexpr const char* package = "lib/python3/dist-packages";
+
+/// The nearest folder above this program that has a module of the Python which scores cases.
+std::filesystem::path prefix_with(const std::string& module) {
   std::filesystem::path above = std::filesystem::path(this_program()).parent_path();
-  while (!std::filesystem::exists(above / inside / "tailwater_validation" / (module + ".py"))) {
+  while (!std::filesystem::exists(above / validation / "tailwater_validation" / (module + ".py"))) {
     if (above == above.root_path()) {
       throw IoError(
           fmt::format("the Python package that runs and scores cases is not in {} above '{}'; remedy: install "
                       "the program whole (cmake --install), or build it again",
-                      inside.string(), this_program()));
+                      validation, this_program()));
     }
     above = above.parent_path();
   }
-  return above / inside;
+  return above;
 }
 
-/// The command line of a program of the package, which is found by PYTHONPATH from now on.
-std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
-  const std::string folder = validation_folder(module).string();
+/// Python looks there first from now on.
+void put_first(const std::string& folders) {
   const char* path = std::getenv("PYTHONPATH");
   if (path == nullptr) {
-    setenv("PYTHONPATH", folder.c_str(), 1);
-  } else if (!std::string_view(path).starts_with(folder)) {
-    setenv("PYTHONPATH", fmt::format("{}:{}", folder, path).c_str(), 1);
+    setenv("PYTHONPATH", folders.c_str(), 1);
+  } else if (!std::string_view(path).starts_with(folders)) {
+    setenv("PYTHONPATH", fmt::format("{}:{}", folders, path).c_str(), 1);
   }
+}
+
+/// The command line of a program of the package.
+std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
+  const std::filesystem::path prefix = prefix_with(module);
+  put_first((prefix / validation).string() + ":" + (prefix / package).string());
   std::vector<std::string> words{python, "-m", "tailwater_validation." + module, "--program", this_program()};
   words.insert(words.end(), options.begin(), options.end());
   return words;

@@ -1,7 +1,7 @@
 """A made-up run folder of cases/zhou1999: the shape of a run's results, with curves of which the scores are known.
 
 Not physics: a column that collapses by a formula, probes that repeat the laboratory's own curves. To see the picture:
-PYTHONPATH=validation /usr/bin/python3 tests/validation/synthetic_run.py DIR SPACING
+PYTHONPATH=validation:python /usr/bin/python3 tests/validation/synthetic_run.py DIR SPACING
 """
 
 import json

@@ -13,7 +13,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 import synthetic_run
 from tailwater_validation import pictures, scene, start_picture, surface
 from tailwater_validation.curves import DataError
-from tailwater_validation.particles import Frame, list_frames, read_polydata
+from tailwater.fields import Frame, list_frames, read_polydata
 from tailwater_validation.run_folder import RunFolder
 
 DX = 0.1

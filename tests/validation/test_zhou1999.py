@@ -15,7 +15,7 @@ import numpy as np
 import synthetic_run
 from tailwater_validation import compare, zhou1999
 from tailwater_validation.curves import DataError, read_table
-from tailwater_validation.particles import list_frames, nearest_frames
+from tailwater.fields import list_frames, nearest_frames
 from tailwater_validation.picture import draw_zhou1999
 
 CASE = zhou1999.DATA.parent

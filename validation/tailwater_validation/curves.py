@@ -5,18 +5,16 @@ function here keeps it.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
+
+from tailwater.errors import DataError
+from tailwater.tables import read_table
 
 # Share of a window that two curves must both cover to be compared over it. Less would compare other events.
 LEAST_COVERAGE = 0.95
 # Samples inside the running median's width below which it follows the noise itself.
 LEAST_MEDIAN_SAMPLES = 5
-
-
-class DataError(Exception):
-    """A file or curve that cannot be scored; the message names it and the reason."""
 
 
 @dataclass(frozen=True)
@@ -45,29 +43,6 @@ class Curve:
     def window(self, start, end):
         inside = (self.time >= start) & (self.time <= end)
         return Curve(self.time[inside], self.value[inside])
-
-
-def read_table(path):
-    """Columns of a CSV with one line of names, by name; lines that start with `#` are provenance and are skipped."""
-    path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise DataError(f"{path}: cannot be read ({error.strerror})") from error
-    numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    if len(numbered) < 2:
-        raise DataError(f"{path}: has no lines of numbers")
-    names = [name.strip() for name in numbered[0][1].split(",")]
-    rows = []
-    for n, line in numbered[1:]:
-        try:
-            row = [float(cell) for cell in line.split(",")]
-        except ValueError as error:
-            raise DataError(f"{path}:{n}: {error}") from error
-        if len(row) != len(names):
-            raise DataError(f"{path}:{n}: {len(row)} numbers under {len(names)} names")
-        rows.append(row)
-    return dict(zip(names, np.array(rows).T))
 
 
 def read_curve(path, value_column, time_column="time_s"):

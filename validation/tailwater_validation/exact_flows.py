@@ -16,9 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.fields import list_frames, read_frame
+
 from . import flume, shallow_water
 from .curves import DataError, read_table
-from .particles import list_frames, read_frame
 from .profiles import rms
 from .run_folder import RunFolder
 

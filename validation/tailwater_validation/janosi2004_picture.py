@@ -1,8 +1,9 @@
 """The picture of a run of cases/janosi2004: particles coloured by pressure at the eight instants, with the measured
 surfaces."""
 
+from tailwater.fields import nearest_frames
+
 from . import janosi2004 as case
-from .particles import nearest_frames
 from .picture import BAR_GAP, LEFT, ORANGE, Page, draw_particles, save_page
 from .run_folder import RunFolder
 

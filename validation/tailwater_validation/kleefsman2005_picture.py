@@ -4,8 +4,9 @@ laboratory's."""
 import matplotlib
 import numpy as np
 
+from tailwater.fields import nearest_frames
+
 from . import kleefsman2005, pictures, plots, scene
-from .particles import nearest_frames
 from .picture import finish_axes, save_page
 from .run_folder import RunFolder
 from .surface import water_surface

@@ -1,8 +1,9 @@
 """The picture of a run of cases/martin_moyce1952: particles coloured by pressure at three times; front and height of the
 column over the laboratory's."""
 
+from tailwater.fields import nearest_frames
+
 from . import martin_moyce1952 as case
-from .particles import nearest_frames
 from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, Page, draw_particles, finish_axes, save_page
 from .run_folder import RunFolder
 

@@ -1,8 +1,9 @@
 """The picture of a run of cases/ozmen_cagatay2014: surfaces at the eight published instants and levels at the six gauges,
 with the published points."""
 
+from tailwater.fields import nearest_frames
+
 from . import ozmen_cagatay2014 as case
-from .particles import nearest_frames
 from .picture import BLACK, COMPUTED, GREY, HIGHEST, LEFT, Page, finish_axes, save_page
 from .profiles import profile_at
 from .run_folder import RunFolder

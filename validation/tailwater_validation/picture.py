@@ -10,9 +10,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from tailwater.fields import nearest_frames
+
 from . import plots, zhou1999
 from .curves import DataError
-from .particles import nearest_frames
 from .plots import BLACK, BLUE, GREY, ORANGE, STYLE
 from .run_folder import RunFolder
 

@@ -14,10 +14,11 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
+from tailwater.fields import list_frames, read_frame, read_polydata
+
 from . import plots, scene
 from .command import PlainParser, number
 from .curves import DataError
-from .particles import list_frames, read_frame, read_polydata
 from .run_folder import RunFolder
 from .surface import water_surface
 from .whole_file import write_whole

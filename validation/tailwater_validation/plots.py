@@ -11,8 +11,9 @@ import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from tailwater.fields import nearest_frames
+
 from .curves import DataError
-from .particles import nearest_frames
 
 BLUE, ORANGE, GREEN, PURPLE, SKY, YELLOW, BLACK, GREY = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9",
                                                          "#E69F00", "#000000", "#777777")
@@ -208,12 +209,12 @@ WATER_INSIDE = {"water inside, of the start":
 def draw_histories(runs, names=None):
     """Energies, the volume's error by the density and, if water leaves, what is inside, over time, of several runs;
     `names` as in `labels`."""
-    leaves = any(run.steps()["volume_out_m3"].any() for run in runs)
+    leaves = any(run.step_table()["volume_out_m3"].any() for run in runs)
     histories = HISTORIES | (WATER_INSIDE if leaves else {})
     figure = new_figure(height=2.4)
     every = figure.subplots(1, len(histories))
     for run, label, style in zip(runs, labels(runs, names), CYCLE):
-        steps = run.steps()
+        steps = run.step_table()
         for axes, history in zip(every, histories.values()):
             axes.plot(steps["time_s"], history(run, steps), linewidth=1.1, label=label, **style)
     for axes, title in zip(every, histories):

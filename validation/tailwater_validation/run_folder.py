@@ -1,24 +1,16 @@
-"""What a run left in its folder: the effective case, its summary, and curves of its probes."""
+"""A run as those who score it look at it: its probes as curves, and its walls."""
 
-import json
-import tomllib
-from pathlib import Path
+from tailwater.errors import DataError
+from tailwater.run import Run
+from tailwater.tables import read_table
 
-from .curves import DataError, read_curve, read_table
+from .curves import read_curve
 
 
-class RunFolder:
+class RunFolder(Run):
     def __init__(self, path):
-        self.path = Path(path)
+        super().__init__(path)
         self._profile_tables = {}
-        effective = self.path / "case.effective.toml"
-        try:
-            self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise DataError(f"{self.path}: is not the folder of a run, {effective.name} cannot be read "
-                            f"({error.strerror})") from error
-        except tomllib.TOMLDecodeError as error:
-            raise DataError(f"{effective}: {error}") from error
 
     def probe(self, name, column):
         """The curve of a probe's column over time in s."""
@@ -30,7 +22,7 @@ class RunFolder:
             self._profile_tables[name] = read_table(self.path / "probes" / f"{name}.csv")
         return self._profile_tables[name]
 
-    def steps(self):
+    def step_table(self):
         """Columns of steps.csv, by name."""
         return read_table(self.path / "steps.csv")
 
@@ -39,44 +31,11 @@ class RunFolder:
         return read_curve(self.path / "steps.csv", column)
 
     @property
-    def parameters(self):
-        return self.case.get("parameters", {})
-
-    @property
-    def summary(self):
-        """summary.json of a run that has ended; empty when it goes on or was killed."""
-        path = self.path / "summary.json"
-        try:
-            summary = json.loads(path.read_text(encoding="utf-8"))
-            return {} if summary.get("status") == "running" else summary
-        except FileNotFoundError:
-            return {}
-        except (OSError, ValueError) as error:
-            raise DataError(f"{path}: {error}") from error
-
-    @property
     def fluid_particles(self):
         """How many there are at the end. Throws DataError if the run has not ended."""
         if "particles" not in self.summary:
             raise DataError(f"{self.path}: the run has not ended")
         return self.summary["particles"]["fluid"]
-
-    @property
-    def spacing(self):
-        return self.case["particles"]["spacing"]
-
-    @property
-    def dimension(self):
-        return self.case["case"]["dimension"]
-
-    @property
-    def density(self):
-        return self.case["physics"]["density"]
-
-    @property
-    def gravity(self):
-        """Magnitude, m/s^2."""
-        return sum(component**2 for component in self.case["physics"]["gravity"]) ** 0.5
 
     @property
     def integrator(self):

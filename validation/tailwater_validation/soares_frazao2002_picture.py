@@ -1,8 +1,9 @@
 """The picture of a run of cases/soares_frazao2002: particles coloured by pressure at the five published instants, and
 depths over time."""
 
+from tailwater.fields import nearest_frames
+
 from . import soares_frazao2002 as case
-from .particles import nearest_frames
 from .picture import BAR_GAP, COMPUTED, LEFT, Page, draw_particles, finish_axes, save_page
 from .run_folder import RunFolder
 

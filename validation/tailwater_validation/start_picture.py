@@ -6,9 +6,10 @@ from pathlib import Path
 
 import matplotlib
 
+from tailwater.fields import read_polydata, to_frame
+
 from . import plots, scene
 from .curves import DataError
-from .particles import read_polydata, to_frame
 from .pictures import DPI, bounds_of, plain, show_image
 from .surface import water_surface
 from .whole_file import write_whole

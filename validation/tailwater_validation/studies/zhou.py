@@ -2,10 +2,13 @@
 
 from functools import partial
 
+from tailwater.fields import nearest_frames
+
 from .. import plots, zhou1999
 from ..checks import Check
 from ..metric import Metric
-from ..particles import detached, nearest_frames
+
+from ..particles import detached
 from ..picture import draw_gauge, draw_time_uncertainty
 from ..reading import summary, zhou
 from ..study import LABORATORY, CurveCheck, Plot, Study
