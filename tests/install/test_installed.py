@@ -83,6 +83,14 @@ class Installed(unittest.TestCase):
         run(build / "a_run", self.folder / "tank.toml", self.folder / "of_program")
         summary = json.loads((self.folder / "of_program" / "summary.json").read_text(encoding="utf-8"))
         self.assertEqual(summary["status"], "done")
+        self.assertEqual(float(run(build / "a_run", self.folder / "tank.toml")), summary["time_s"]["reached"])
+
+    def test_python_package_finds_the_program(self):
+        script = ("import tailwater as tw; case = tw.Case.template('tank').update({'time.end': 0.01});"
+                  "run = case.run('by_python'); print(tw.program(), run.summary['status'])")
+        told = run(*self.hidden, "/usr/bin/python3", "-c", script, cwd=self.folder,
+                   env={"PATH": os.environ["PATH"], "PYTHONPATH": str(self.prefix / "lib/python3/dist-packages")})
+        self.assertEqual(told.split(), [str(self.program), "done"])
 
 
 if __name__ == "__main__":
