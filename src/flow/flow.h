@@ -46,6 +46,7 @@ struct Flow {
   std::vector<Role> role;            ///< of owned particles in this step
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
   Loads<Dim> loads;                  ///< of a program, in the next step
+  std::vector<Vec<Dim>> turning;     ///< m/s^2; of water along walls that turn, for owned particles; or empty
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
@@ -66,7 +67,7 @@ struct Flow {
   WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, here}; }
 
   WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {
-    return {setup.density, setup.gravity, acceleration};
+    return {setup.density, setup.gravity, acceleration, turning};
   }
 
   /// Whether statistics of the bulk count particle i.

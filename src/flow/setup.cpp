@@ -7,6 +7,7 @@
 #include "geometry/from_spec.h"
 #include "operators/laplacian_shao_lo.h"
 #include "sampling/water_lattice.h"
+#include "walls/halfway.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -51,6 +52,8 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
     walls.depth.push_back(rubs ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance)
                                : 0.0);
   }
+  walls.curvature = find_curvature(walls, spec.particles.spacing, reach);
+  walls.is_curved = ranks.any(std::ranges::any_of(walls.curvature, [](const Mat<Dim>& S) { return !S.isZero(0.0); }));
   return walls;
 }
 

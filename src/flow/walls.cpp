@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "walls/halfway.h"
 
 namespace tailwater {
 namespace {
@@ -68,12 +69,36 @@ void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<
   flow.halo().exchange(velocity);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                  \
-  template WallDrive<Dim> drive_walls<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);        \
-  template WallDrive<Dim> drive_walls_to_end<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double); \
-  template void place_walls<Dim>(Flow<Dim>&, double);                                               \
-  template WallWays<Dim> ways_of_walls<Dim>(const Flow<Dim>&, double);                              \
-  template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&);
+template <int Dim>
+void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity) {
+  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
+  if (flow.setup.scheme.divergence_free != DivergenceFree::midway || !may_turn) return;
+  WallTurns<Dim> turns{.dt = dt,
+                       .from_drawn = {},
+                       .in_step = {},
+                       .comes_from_chord = flow.setup.scheme.integrator == Integrator::explicit_projection};
+  if (!motion.moving().empty()) {
+    turns.from_drawn.resize(flow.walls.boundary.walls.size());
+    turns.in_step.resize(turns.from_drawn.size());
+  }
+  for (const auto& moving : motion.moving()) {
+    const Mat<Dim> now = moving.at(flow.state.time, flow.state.motion).linear;
+    turns.from_drawn[moving.wall] = now;
+    turns.in_step[moving.wall] = moving.at(flow.state.time + dt, flow.state.motion).linear * now.transpose();
+  }
+  flow.turning.resize(flow.state.particles.owned);
+  follow_turning_walls<Dim>(flow.wall_scene(), turns, start.wall_velocity, velocity, flow.turning);
+  flow.halo().exchange(velocity);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                    \
+  template WallDrive<Dim> drive_walls<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);          \
+  template WallDrive<Dim> drive_walls_to_end<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);   \
+  template void place_walls<Dim>(Flow<Dim>&, double);                                                 \
+  template WallWays<Dim> ways_of_walls<Dim>(const Flow<Dim>&, double);                                \
+  template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&); \
+  template void see_walls_halfway<Dim>(Flow<Dim>&, const StepStart<Dim>&, double, std::vector<Vec<Dim>>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

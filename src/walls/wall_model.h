@@ -22,19 +22,21 @@ namespace tailwater {
 /// those that this rank keeps of walls at rest, each of these two by number, then guests (shared_rows.h).
 template <int Dim>
 struct Walls {
-  Boundary<Dim> boundary;         ///< faces
-  WallParticles<Dim> particles;   ///< the table that Particles::wall_row points into
-  std::vector<double> friction;   ///< lambda of each row of the table: 0 free slip, 1 no slip
-  std::vector<double> roughness;  ///< m; k_s of each row
-  std::vector<double> depth;      ///< m; of each row behind its wall, where it has friction
-  std::size_t moving = 0;         ///< rows of walls that move
-  std::size_t kept = 0;           ///< rows without guests
-  std::int64_t all = 0;           ///< rows of the case, of all ranks
+  Boundary<Dim> boundary;           ///< faces
+  WallParticles<Dim> particles;     ///< the table that Particles::wall_row points into
+  std::vector<double> friction;     ///< lambda of each row of the table: 0 free slip, 1 no slip
+  std::vector<double> roughness;    ///< m; k_s of each row
+  std::vector<double> depth;        ///< m; of each row behind its wall, where it has friction
+  std::vector<Mat<Dim>> curvature;  ///< 1/m; of each row's wall as it is drawn (halfway.h)
+  bool is_curved = false;           ///< whether any wall is; on all ranks the same
+  std::size_t moving = 0;           ///< rows of walls that move
+  std::size_t kept = 0;             ///< rows without guests
+  std::int64_t all = 0;             ///< rows of the case, of all ranks
 
   /// Calls body with references to all that rows have.
   template <class Body>
   void apply_to_rows(Body&& body) {
-    particles.apply_to_fields([&](auto&... field) { body(field..., friction, roughness, depth); });
+    particles.apply_to_fields([&](auto&... field) { body(field..., friction, roughness, depth, curvature); });
   }
 };
 
@@ -82,6 +84,8 @@ struct WallForce {
   Vec<Dim> gravity;                        ///< m/s^2
   std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each moving row, along the directions the wall blocks
 
+  std::span<const Vec<Dim>> turning = {};  ///< m/s^2; of the water along each owned wall particle (halfway.h), or none
+
   /// g - a at a row of the table.
   Vec<Dim> felt(std::int32_t row) const { return gravity - entry_of<Dim>(acceleration, row); }
 
@@ -89,7 +93,9 @@ struct WallForce {
   /// rho (g - a) . d, the hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho
   /// (g - a) . n (F37).
   double hydrostatic_difference(const Particles<Dim>& particles, std::size_t i, const Vec<Dim>& d) const {
-    return density * felt(particles.wall_row[i]).dot(d);
+    Vec<Dim> force = felt(particles.wall_row[i]);
+    if (i < turning.size()) force -= turning[i];
+    return density * force.dot(d);
   }
 };
 

@@ -38,6 +38,7 @@ Walls<Dim> made_by(const Communicator& ranks) {
     walls.friction.push_back(3.0 * x);
     walls.roughness.push_back(4.0 * x);
     walls.depth.push_back(5.0 * x);
+    walls.curvature.push_back(6.0 * x * Mat<Dim>::Identity());
   }
   return walls;
 }
@@ -55,6 +56,7 @@ void expect_row(const Walls<Dim>& walls, std::int32_t row, std::int64_t number) 
   EXPECT_EQ(walls.friction[row], 3.0 * x);
   EXPECT_EQ(walls.roughness[row], 4.0 * x);
   EXPECT_EQ(walls.depth[row], 5.0 * x);
+  EXPECT_EQ(walls.curvature[row], Mat<Dim>(6.0 * x * Mat<Dim>::Identity()));
 }
 
 /// Wall particles with these numbers, behind one of water.
