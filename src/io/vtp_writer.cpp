@@ -1,18 +1,17 @@
 #include "io/vtp_writer.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <iterator>
-#include <new>
 #include <string_view>
 
 #include "base/assert.h"
 #include "base/for_each.h"
 #include "base/fp_traps.h"
+#include "io/deflate.h"
 #include "io/write_file.h"
 
 namespace tailwater {
@@ -39,18 +38,10 @@ void append_plain(std::string& bytes, std::string_view data) {
 void append_compressed(std::string& bytes, std::string_view data, int level) {
   std::vector<std::uint64_t> header{(data.size() + block_size - 1) / block_size, block_size, data.size() % block_size};
   std::string blocks;
-  std::vector<Bytef> buffer(compressBound(block_size));
   for (std::size_t begin = 0; begin < data.size(); begin += block_size) {
-    const std::string_view block = data.substr(begin, block_size);
-    uLongf size = buffer.size();
-    const int status =
-        compress2(buffer.data(), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(), level);
-    if (status == Z_MEM_ERROR) {
-      throw std::bad_alloc();
-    }
-    TAILWATER_ASSERT(status == Z_OK, "zlib accepts levels 0 to 9 and a buffer of compressBound bytes");
-    header.push_back(size);
-    blocks.append(reinterpret_cast<const char*>(buffer.data()), size);
+    const std::string block = deflated(data.substr(begin, block_size), level);
+    header.push_back(block.size());
+    blocks += block;
   }
   append_header(bytes, header);
   bytes += blocks;

@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/error.h"
+#include "io/deflate.h"
 
 namespace tailwater {
 namespace {
@@ -19,8 +20,8 @@ static_assert(std::endian::native == std::endian::little, "frames are written in
 
 constexpr std::string_view magic = "TWVF";
 
-/// Higher levels of zlib save 8 % at most and take twice as long.
-constexpr int level = 1;
+/// Of zlib: higher ones save 8 % at most and take twice as long and more.
+constexpr int level_of(Deflation deflation) { return deflation == Deflation::quick ? 1 : 9; }
 
 /// No frame of a run is larger.
 constexpr std::size_t largest_raw_size = std::size_t{1} << 31U;
@@ -258,17 +259,6 @@ FrameParticles particles_from(std::string_view planes, const FrameSummary& summa
 
 // ---- zlib.
 
-std::string deflated(std::string_view raw) {
-  uLongf size = compressBound(raw.size());
-  std::string bytes(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                               reinterpret_cast<const Bytef*>(raw.data()), raw.size(), level);
-  if (status == Z_MEM_ERROR) throw std::bad_alloc();
-  TAILWATER_ASSERT(status == Z_OK, "zlib accepts this level and a buffer of compressBound bytes");
-  bytes.resize(size);
-  return bytes;
-}
-
 std::string inflated(std::string_view bytes, std::size_t raw_size) {
   std::string raw(raw_size, '\0');
   uLongf size = raw.size();
@@ -281,11 +271,11 @@ std::string inflated(std::string_view bytes, std::size_t raw_size) {
 
 }  // namespace
 
-std::string encode_frame(const Frame& frame, const FramesBefore& before) {
+std::string encode_frame(const Frame& frame, const FramesBefore& before, Deflation deflation) {
   const FrameHead& head = frame.head;
   const std::string planes = planes_of(frame, before);
   TAILWATER_ASSERT(planes.size() < largest_raw_size, "a frame has less than 2 GB");
-  const std::string payload = deflated(planes);
+  const std::string payload = deflated(planes, level_of(deflation));
   std::string bytes(magic);
   bytes.reserve(256 + payload.size());
   put(bytes, static_cast<std::uint16_t>(frame_format));

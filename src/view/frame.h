@@ -13,6 +13,10 @@ namespace tailwater {
 
 inline constexpr int frame_format = 1;
 
+/// The whole numbers at the high side of the box, and at the high end of a scalar's range.
+inline constexpr double largest_place = 65535.0;
+inline constexpr double largest_scalar = 255.0;
+
 /// What the whole numbers mean; the same from a key frame to the next.
 struct FrameScale {
   std::vector<double> low;                   ///< m; corner of the box whose places are stored, one per dimension
@@ -57,8 +61,13 @@ struct FramesBefore {
   FrameParticles last_but_one;  ///< for order 2
 };
 
+enum class Deflation {
+  quick,  ///< while a run waits for it
+  small,  ///< a tenth smaller, in several times the time
+};
+
 /// The bytes of a frame, which are the same for the same frames.
-std::string encode_frame(const Frame& frame, const FramesBefore& before);
+std::string encode_frame(const Frame& frame, const FramesBefore& before, Deflation deflation = Deflation::quick);
 
 struct FrameSummary {
   FrameHead head;

@@ -33,9 +33,6 @@ constexpr double room_in_box = 0.05;
 /// What the range of a scalar leaves beyond its values now, as a share of their extent.
 constexpr double room_in_range = 0.25;
 
-constexpr double largest_place = 65535.0;
-constexpr double largest_scalar = 255.0;
-
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));

@@ -12,6 +12,7 @@ import socket
 import subprocess
 import time
 import unittest
+import zlib
 
 from frames import read_frames
 from program import PATIENCE, PROGRAM, ProgramTest, environment
@@ -217,18 +218,44 @@ class OfADoneRun(Viewed):
         status, _, data = self.ask("api/run/0/frame/1")
         self.assertEqual((status, data[:4]), (200, b"TWVF"))
 
-    def test_export_holds_all(self):
-        self.call("view", "run", "--export", "run.html")
+    def exported(self, *runs):
+        """The page, and the data in it."""
+        self.call("view", *runs, "--export", "run.html")
         page = (self.folder / "run.html").read_text()
         text = re.search(r'<script type="application/json" id="tailwater-data">([^<]*)</script>', page)[1]
-        data = json.loads(text)
+        return page, json.loads(text)
+
+    def test_export_holds_all(self):
+        page, data = self.exported("run")
         run = data["runs"]["0"]
         self.assertEqual([run["id"] for run in data["state"]["runs"]], ["0"])
-        self.assertEqual(run["files"]["probes/depth.csv"], (self.folder / "run/probes/depth.csv").read_text())
-        self.assertEqual(base64.b64decode(run["frames"][3]["data"]), (self.folder / "run/view/00003.frame").read_bytes())
+        sent = zlib.decompress(base64.b64decode(run["files"]["probes/depth.csv"])).decode().splitlines()
+        written = (self.folder / "run/probes/depth.csv").read_text().splitlines()
+        self.assertEqual((sent[0], len(sent)), (written[0], len(written)))
+        for one, other in zip(sent[1:], written[1:]):
+            for a, b in zip(one.split(","), other.split(",")):
+                self.assertAlmostEqual(float(a), float(b), delta=1e-6 * abs(float(b)))
+        self.assertEqual([frame["time"] for frame in run["frames"]], [f.time for f in read_frames(self.folder / "run")])
+        self.assertEqual(base64.b64decode(run["frames"][3]["data"])[:4], b"TWVF")
         self.assertEqual(run["scene"]["title"], "Small dam break")
         self.assertEqual(run["info"]["controls"], [])
         self.assertNotIn("<!-- tailwater-data -->", page)
+
+    def test_export_of_a_damaged_stream_has_the_frames_from_the_next_key_on(self):
+        self.call("run", "small.toml", "--out", "longer", "--quiet", "--set", "time.end=0.6")
+        frames = read_frames(self.folder / "longer")
+        keys = [frame.index for frame in frames if frame.order == 0]
+        self.assertGreater(len(keys), 2)
+        damaged = self.folder / f"longer/view/{keys[1]:05}.frame"
+        damaged.write_bytes(damaged.read_bytes()[:-3] + b"abc")
+        _, data = self.exported("longer")
+        times = [frame["time"] for frame in data["runs"]["0"]["frames"]]
+        self.assertEqual(times, [f.time for f in frames if not keys[1] <= f.index < keys[2]])
+
+    def test_export_of_an_old_run(self):
+        shutil.rmtree(self.folder / "run/view")
+        _, data = self.exported("run")
+        self.assertEqual(len(data["runs"]["0"]["frames"]), len(list((self.folder / "run/fields").glob("fields_*.vtp"))))
 
     def test_two_runs_and_a_sweep(self):
         self.call("run", "small.toml", "--out", "other", "--quiet", "--set", "particles.spacing=0.05")

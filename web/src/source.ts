@@ -1,4 +1,5 @@
 // Where the page's data come from: the program's server, or the data inside of an exported page.
+import { inflatedText } from "./frames/inflate.ts";
 import type { Check, Info, Scene, Spec, State } from "./contract.ts";
 
 export interface FrameEntry {
@@ -120,6 +121,7 @@ interface Bundle {
   state: State;
   runs: Record<
     string,
+    /** `files`, as `data` of frames: zlib streams in base64. */
     { scene: Scene; info: Info; files: Record<string, string>; frames: (Omit<FrameEntry, "bytes"> & { data: string })[] }
   >;
 }
@@ -141,7 +143,10 @@ export class Embedded implements Source {
   state = async () => this.bundle.state;
   scene = async (id: string) => this.run(id).scene;
   info = async (id: string) => this.run(id).info;
-  file = async (id: string, path: string, from: number) => (this.run(id).files[path] ?? "").slice(from);
+  file = async (id: string, path: string, from: number) => {
+    const file = this.run(id).files[path];
+    return file === undefined ? "" : (await inflatedText(fromBase64(file))).slice(from);
+  };
   listen = () => () => {};
   control = async () => "an exported page cannot control a run";
 

@@ -10,6 +10,20 @@ export interface Levels {
   top: Float32Array;
 }
 
+/** The least and the largest number of each coordinate. */
+function extremes(frame: Omit<Frame, "ids">): [number[], number[]] {
+  const first = frame.boxMin.map(() => 65535);
+  const last = frame.boxMin.map(() => 0);
+  for (let i = 0; i < frame.data.length; i += stride) {
+    for (let d = 0; d < first.length; ++d) {
+      const q = frame.data[i + d]!;
+      if (q < first[d]!) first[d] = q;
+      if (q > last[d]!) last[d] = q;
+    }
+  }
+  return [first, last];
+}
+
 const known = new WeakMap<object, Levels>();
 
 /** The levels of a frame, found when they are first asked for. */
@@ -25,11 +39,13 @@ export function levelsOf(frame: Frame, up: { axis: number; sign: 1 | -1 }, spaci
  */
 export function levels(frame: Omit<Frame, "ids">, up: number, sign: 1 | -1, width: number): Levels {
   const size = frame.boxMax.map((high, d) => high - frame.boxMin[d]!);
+  const [first, last] = extremes(frame);
   const across = size.map((_, d) => d).filter((d) => d !== up);
-  const total = across.map((d) => Math.max(1, Math.ceil(size[d]! / width)));
+  const wide = across.map((d) => ((last[d]! - first[d]!) / 65535) * size[d]!); // the box may be much larger
+  const total = wide.map((x) => Math.max(1, Math.ceil(x / width)));
   const coarser = Math.max(1, Math.sqrt(total.reduce((a, b) => a * b, 1) / 4e4)); // at most some 40 000 columns
   const w = width * coarser;
-  const counts = across.map((d) => Math.max(1, Math.ceil(size[d]! / w)));
+  const counts = wide.map((x) => Math.max(1, Math.ceil(x / w)));
   const rows = Math.min(4096, Math.max(1, Math.ceil(size[up]! / width)));
   const columns = counts.reduce((a, b) => a * b, 1);
   const full = new Uint8Array(columns * rows);
@@ -37,8 +53,8 @@ export function levels(frame: Omit<Frame, "ids">, up: number, sign: 1 | -1, widt
   const riser = (rows - 1e-3) / 65535;
   const [a, b] = across;
   for (let i = 0; i < frame.data.length; i += stride) {
-    let column = Math.min(counts[0]! - 1, (frame.data[i + a!]! * scale[0]!) | 0);
-    if (b !== undefined) column += counts[0]! * Math.min(counts[1]! - 1, (frame.data[i + b]! * scale[1]!) | 0);
+    let column = Math.min(counts[0]! - 1, ((frame.data[i + a!]! - first[a!]!) * scale[0]!) | 0);
+    if (b !== undefined) column += counts[0]! * Math.min(counts[1]! - 1, ((frame.data[i + b]! - first[b]!) * scale[1]!) | 0);
     const q = frame.data[i + up]!;
     full[column * rows + (((sign > 0 ? q : 65535 - q) * riser) | 0)] = 1;
   }
@@ -57,5 +73,5 @@ export function levels(frame: Omit<Frame, "ids">, up: number, sign: 1 | -1, widt
     }
     if (highest >= 0) top[column] = base + ((highest + 1) * size[up]!) / rows;
   }
-  return { counts, origin: across.map((d) => frame.boxMin[d]!), width: w, top };
+  return { counts, origin: across.map((d) => frame.boxMin[d]! + (first[d]! / 65535) * size[d]!), width: w, top };
 }

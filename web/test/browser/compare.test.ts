@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { deflateSync } from "node:zlib";
 import { basin, standingWave } from "../support/flows.ts";
 import { Mock, run, type MockRun } from "../support/mock.ts";
 import { until, visit } from "../support/browser.ts";
@@ -14,7 +15,7 @@ const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"),
 function exported(runs: MockRun[]): string {
   const data = {
     state: { mode: "run", runs: runs.map(({ id, name }) => ({ id, name, path: name })), case: null, version: "mock" },
-    runs: Object.fromEntries(runs.map((r) => [r.id, { ...r, frames: r.frames.map(({ bytes, ...f }) => ({ ...f, data: Buffer.from(bytes).toString("base64") })) }])),
+    runs: Object.fromEntries(runs.map((r) => [r.id, { ...r, files: Object.fromEntries(Object.entries(r.files).map(([path, text]) => [path, deflateSync(text).toString("base64")])), frames: r.frames.map(({ bytes, ...f }) => ({ ...f, data: Buffer.from(bytes).toString("base64") })) }])),
   };
   const text = JSON.stringify(data).replaceAll("<", "\\u003c");
   return page.replace("<!-- tailwater-data -->", () => `<script type="application/json" id="tailwater-data">${text}</script>`);

@@ -112,12 +112,14 @@ test("a time lies between two frames, and at the ends in one", () => {
 
 test("the level of a column is that of its connected water, without the spray above", () => {
   const heights = [0.05, 0.15, 0.25, 0.35, 0.95]; // the last one flies
-  const data = Uint16Array.from(heights.flatMap((y) => [100, Math.round(65535 * y), 0, 0]));
-  const frame = { dim: 2 as const, order: 0 as const, index: 0, count: 5, time: 0, boxMin: [0, 0], boxMax: [1, 1], scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0, data };
+  const column = heights.flatMap((y) => [0, Math.round(65535 * y), 0, 0]);
+  const data = Uint16Array.from([...column, 65535, Math.round(65535 * 0.15), 0, 0]); // a second one at the other end
+  const frame = { dim: 2 as const, order: 0 as const, index: 0, count: 6, time: 0, boxMin: [0, 0], boxMax: [1, 1], scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0, data };
   const { top, counts } = levels(frame, 1, 1, 0.1);
   assert.deepEqual(counts, [10]);
   assert.ok(Math.abs(top[0]! - 0.4) < 1e-6);
   assert.equal(top[5], -Infinity);
+  assert.ok(Math.abs(top[9]! - 0.2) < 1e-6);
 });
 
 test("the browser's inflater and a damaged or wrong stream", async () => {
