@@ -1,0 +1,64 @@
+// Draws the picture: the runs at the moment that is shown, names over them, and the scale.
+import type { App } from "../app.ts";
+import { profileLines } from "../gauges/profiles.ts";
+import { colours } from "../theme.ts";
+import { length, niceBelow } from "../units.ts";
+import type { Labels } from "./labels.ts";
+import type { Staging } from "./staging.ts";
+import type { WaterView } from "./view.ts";
+
+export class Painter {
+  /** What was drawn last is of its own moment. */
+  whole = false;
+  /** Of what was drawn last. */
+  ids = "";
+
+  constructor(
+    private app: App,
+    private view: WaterView,
+    private staging: Staging,
+    private labels: Labels,
+    private scale: HTMLElement,
+  ) {}
+
+  draw(): void {
+    const { app, view, staging } = this;
+    const look = app.look.now;
+    const theme = colours();
+    view.paper(theme.paper);
+    staging.sync(app.shown(), look, theme);
+    this.whole = staging.shown.map((one) => this.show(one)).every((exact) => exact);
+    this.ids = staging.shown.map(({ run }) => run.id).join();
+    staging.section(look.section);
+    view.time = app.player.time;
+    view.draw();
+    this.labels.sync(view, staging, look);
+    this.measure();
+    app.frameDrawn(this.whole);
+  }
+
+  /** Whether the frames of the moment itself were there. */
+  private show({ run, stage }: Staging["shown"][number]): boolean {
+    const { app, view, staging } = this;
+    const look = app.look.now;
+    const at = run.frames.at(app.player.time);
+    stage.particles.points.visible = at !== null;
+    stage.select(look.probe);
+    stage.walls.mark(look.marked);
+    if (!at) return false;
+    stage.show(at, view.oneIn);
+    const limits = staging.colour(run, stage, at, look);
+    if (run === staging.shown[0]!.run) app.setLimits(limits);
+    stage.overlay(look.profiles ? profileLines(run, app.player.time) : []);
+    return at.exact;
+  }
+
+  private measure(): void {
+    const { eye, cells } = this.view;
+    const cell = cells[0];
+    if (!eye || !cell) return;
+    const metres = niceBelow((eye.span / cell.height) * Math.min(180, cell.width * 0.3));
+    this.scale.style.width = `${(metres / eye.span) * cell.height}px`;
+    this.scale.textContent = length(metres);
+  }
+}

@@ -1,0 +1,23 @@
+// What is under the pointer: its place, and speed and pressure of the water there.
+import { number } from "../units.ts";
+import { nearest } from "./pick.ts";
+import type { Staging } from "./staging.ts";
+import { colourings, valueOf } from "./value.ts";
+import type { WaterView } from "./view.ts";
+
+/** Tells it in `out`, which hides where there is nothing; x, y: of the pointer in the picture, px. */
+export function read(view: WaterView, staging: Staging, out: HTMLElement, x: number, y: number): void {
+  const at = nearest(view, staging, x, y);
+  out.hidden = at === null;
+  if (!at) return;
+  const place = at.place.map((c, d) => `${"xyz"[d]} ${number(c, 4)}`).join("  ") + " m";
+  const { run, frame, i } = at;
+  const values = colourings
+    .filter((c) => run && frame && (c.name === "speed" || c.name === "pressure"))
+    .map((c) => [c, valueOf(run!, frame!, c.name, i)] as const)
+    .filter(([, v]) => !Number.isNaN(v))
+    .map(([c, v]) => `${c.title.toLowerCase()} ${number(v, 3)} ${c.unit}`);
+  out.textContent = [place, ...values].join("\n");
+  const { clientWidth, clientHeight } = view.canvas;
+  out.style.transform = `translate(${Math.min(x + 14, clientWidth - 190)}px, ${Math.min(y + 14, clientHeight - 70)}px)`;
+}
