@@ -37,6 +37,7 @@ struct CheckOptions {
   std::filesystem::path preview;
   bool draws_nothing = false;
   bool as_json = false;
+  bool takes_trial_steps = false;
 };
 
 /// Where the preview goes. Its own name is free for it; under a name that was asked for only another preview is
@@ -68,7 +69,8 @@ std::string text_of_case(const std::filesystem::path& path) {
 
 void print_as_json(const CheckOptions& options) {
   const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
-  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, options.overrides)
+  const TrialSteps trial = options.takes_trial_steps ? TrialSteps::some : TrialSteps::none;
+  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, options.overrides, trial)
                          .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
@@ -183,10 +185,14 @@ void add_check_command(CLI::App& app, ExitCode&) {
       ->type_name("FILE");
   command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
   command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
-  command->add_flag(
+  CLI::Option* json = command->add_flag(
       "--json", options->as_json,
       "Print findings, drawing and size as JSON, for programs, without trial steps; the case \"-\" is read "
       "from standard input");
+  command
+      ->add_flag("--trial-steps", options->takes_trial_steps,
+                 "With --json: take trial steps, and tell the time it takes")
+      ->needs(json);
   command->callback([options] {
     if (options->as_json) {
       print_as_json(*options);

@@ -3,20 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
+#include "app/case_text.h"
 #include "case/formulation.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/check.h"
+#include "flow/flow.h"
 #include "io/base64.h"
+#include "linear/session.h"
 #include "probes/probe_set.h"
 #include "run/estimate.h"
+#include "run/progress.h"
 #include "sampling/particle_count.h"
 #include "view/scene.h"
 
@@ -35,13 +38,19 @@ std::optional<int> take_place_number(std::string_view& text) {
   return number;
 }
 
+/// The text of a case, and what messages call it.
+struct CaseText {
+  std::string_view text;
+  std::string origin;
+};
+
 /// A line "ORIGIN:12:1: message", or one that tells no place.
-Json finding_of(std::string_view line, const std::string& origin, std::string_view severity) {
+Json finding_of(std::string_view line, const CaseText& of, std::string_view severity) {
   int row = 0;
   int column = 0;
   std::string_view message = line;
-  if (message.starts_with(origin + ":")) {
-    message.remove_prefix(origin.size() + 1);
+  if (message.starts_with(of.origin + ":")) {
+    message.remove_prefix(of.origin.size() + 1);
     std::string_view rest = message;
     const std::optional<int> first = take_place_number(rest);
     const std::optional<int> second = first ? take_place_number(rest) : std::nullopt;
@@ -52,46 +61,20 @@ Json finding_of(std::string_view line, const std::string& origin, std::string_vi
     }
   }
   while (message.starts_with(' ')) message.remove_prefix(1);
-  return {{"severity", severity}, {"line", row}, {"column", column}, {"message", message}};
+  Json finding{{"severity", severity}, {"line", row}, {"column", column}, {"message", message}};
+  if (row > 0) {
+    finding["end_column"] = end_column(of.text, row, column);
+    finding["key"] = key_at(of.text, row);
+  }
+  return finding;
 }
 
-void add_findings(Json& findings, std::string_view message, const std::string& origin, std::string_view severity) {
+void add_findings(Json& findings, std::string_view message, const CaseText& of, std::string_view severity) {
   while (!message.empty()) {
     const std::string_view line = message.substr(0, message.find('\n'));
     message.remove_prefix(std::min(message.size(), line.size() + 1));
-    if (!line.empty()) findings.push_back(finding_of(line, origin, severity));
+    if (!line.empty()) findings.push_back(finding_of(line, of, severity));
   }
-}
-
-/// "wall" if a line is the heading of such a table, [wall] or [[wall]]; else nothing. Values in brackets that begin a
-/// line are none.
-std::string table_in(std::string_view line) {
-  while (!line.empty() && std::isspace(static_cast<unsigned char>(line.front())) != 0) line.remove_prefix(1);
-  const std::size_t brackets = line.starts_with("[[") ? 2 : line.starts_with("[") ? 1 : 0;
-  if (brackets == 0) return "";
-  const std::size_t end = line.find(']');
-  if (end == line.npos) return "";
-  const std::string_view name = line.substr(brackets, end - brackets);
-  const bool is_name =
-      !name.empty() && std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
-  return is_name ? std::string(name) : "";
-}
-
-/// First and last line of each table of a case's text, by the name of the table.
-std::map<std::string, std::vector<std::pair<int, int>>> lines_of_tables(std::string_view text) {
-  std::map<std::string, std::vector<std::pair<int, int>>> tables;
-  std::pair<int, int>* open = nullptr;
-  int number = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const std::string table = table_in(line);
-    if (!table.empty()) open = &tables[table].emplace_back(number, number);
-    const bool is_blank = line.find_first_not_of(" \t\r") == line.npos || line.starts_with('#');
-    if (open != nullptr && !is_blank) open->second = number;
-  }
-  return tables;
 }
 
 /// Adds to each thing of the drawing the lines of its table. Walls of gates and wave makers stand behind those of
@@ -144,22 +127,37 @@ Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fluid
   return drawing;
 }
 
+/// Adds the time of the run, from trial steps.
 template <int Dim>
-void check_sound(const CaseSpec& spec, const std::string& text, const std::string& origin, Json& answer) {
+void add_time(const CaseSpec& spec, Json& answer) {
+  const LinearSession session;
+  Flow<Dim> flow(spec);
+  require_reachable_end(spec, flow.setup.time_step_rule);
+  const RunEstimate estimate = estimate_run(spec, flow);
+  answer["cost"].update(
+      {{"steps", estimate.steps}, {"seconds", estimate.seconds}, {"is_first_guess", estimate.is_from_tank}});
+  answer["summary"].push_back(fmt::format(
+      "About {:.0f} steps, {} on this machine{}", estimate.steps, readable_duration(estimate.seconds),
+      estimate.is_from_tank ? ": a first guess, from another flow" : "; violent flow takes more and smaller steps"));
+}
+
+template <int Dim>
+void check_sound(const CaseSpec& spec, const CaseText& of, TrialSteps trial, Json& answer) {
   const auto add = [&](const Finding& finding) {
-    add_findings(answer["findings"], spec.sources.placed(finding.message), origin,
+    add_findings(answer["findings"], spec.sources.placed(finding.message), of,
                  finding.severity == Severity::error ? "error" : "warning");
   };
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   const Findings memory = check_memory(spec, boundary, available_memory());
   for (const Finding& finding : memory) add(finding);
   if (has_error(memory)) {
-    answer["drawing"] = drawing_of<Dim>(spec, boundary, {}, text);
+    answer["drawing"] = drawing_of<Dim>(spec, boundary, {}, of.text);
     return;
   }
   const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
-  answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid, text);
-  for (const Finding& finding : check_geometry(spec, boundary, fluid)) add(finding);
+  answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid, of.text);
+  const Findings geometry = check_geometry(spec, boundary, fluid);
+  for (const Finding& finding : geometry) add(finding);
   const ParticleCount count = expected_particle_count(spec, boundary);
   const double memory_bytes = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));
   answer["cost"] = {{"fluid", fluid.position.size()}, {"wall", count.wall}, {"memory_bytes", memory_bytes}};
@@ -167,6 +165,7 @@ void check_sound(const CaseSpec& spec, const std::string& text, const std::strin
                                           fluid.position.size(), count.wall, spec.particles.spacing,
                                           memory_bytes / 1e6));
   make_probes<Dim>(spec, boundary);  // for what it throws
+  if (trial == TrialSteps::some && !has_error(geometry)) add_time<Dim>(spec, answer);
 }
 
 /// What can be drawn of walls that cannot be made.
@@ -181,28 +180,32 @@ Json broken_drawing(const CaseSpec& spec, std::string_view text) {
 }
 
 template <int Dim>
-void check_what_can_be(const CaseSpec& spec, const std::string& text, const std::string& origin, Json& answer) {
+void check_what_can_be(const CaseSpec& spec, const CaseText& of, TrialSteps trial, Json& answer) {
   try {
-    check_sound<Dim>(spec, text, origin, answer);
+    check_sound<Dim>(spec, of, trial, answer);
   } catch (const InputError& error) {
-    add_findings(answer["findings"], spec.sources.placed(error.what()), origin, "error");
-    if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec, text);
+    add_findings(answer["findings"], spec.sources.placed(error.what()), of, "error");
+    if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec, of.text);
+  } catch (const SolverError& failure) {
+    add_findings(answer["findings"], fmt::format("a trial step fails: {}", failure.what()), of, "error");
   }
 }
 
 }  // namespace
 
-Json check_as_json(const std::string& text, const std::string& origin, const std::vector<std::string>& overrides) {
+Json check_as_json(const std::string& text, const std::string& origin, const std::vector<std::string>& overrides,
+                   TrialSteps trial) {
   Json answer{{"findings", Json::array()}, {"drawing", nullptr}, {"summary", Json::array()}, {"cost", nullptr}};
+  const CaseText of{text, origin};
   try {
     const CaseSpec spec = read_case_text(text, origin, overrides);
     if (spec.general.dimension == 2) {
-      check_what_can_be<2>(spec, text, origin, answer);
+      check_what_can_be<2>(spec, of, trial, answer);
     } else {
-      check_what_can_be<3>(spec, text, origin, answer);
+      check_what_can_be<3>(spec, of, trial, answer);
     }
   } catch (const InputError& error) {
-    add_findings(answer["findings"], error.what(), origin, "error");
+    add_findings(answer["findings"], error.what(), of, "error");
   }
   return answer;
 }

@@ -7,10 +7,14 @@
 
 namespace tailwater {
 
+/// Whether the time of a run is estimated, by a few steps of it, which take a second or some.
+enum class TrialSteps { none, some };
+
 /// What is wrong with the text of a case, what it looks like, and how large it is: {findings, drawing, summary, cost}
-/// (docs/reference/view.md). No trial steps are taken, so it is quick. `origin` is what messages call the text; files
-/// that it names are relative to the working folder. Throws only what is not the fault of the case.
+/// (docs/reference/view.md). `origin` is what messages call the text; files that it names are relative to the working
+/// folder. Throws only what is not the fault of the case.
 nlohmann::ordered_json check_as_json(const std::string& text, const std::string& origin,
-                                     const std::vector<std::string>& overrides = {});
+                                     const std::vector<std::string>& overrides = {},
+                                     TrialSteps trial = TrialSteps::none);
 
 }  // namespace tailwater

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,19 +11,15 @@
 #include <thread>
 #include <vector>
 
-#include "app/case_templates.h"
 #include "app/child.h"
 #include "app/commands.h"
 #include "app/processes.h"
-#include "app/ranks.h"
 #include "app/sweep_plan.h"
-#include "case/help.h"
-#include "io/folder_lock.h"
+#include "app/view_actions.h"
 #include "io/messages.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
 #include "run/provenance.h"
-#include "run/resume.h"
 #include "server/view_server.h"
 
 namespace tailwater {
@@ -60,14 +54,15 @@ std::string name_of_folder(const fs::path& folder) {
   return whole.filename().string();
 }
 
-/// What the paths of the command line are.
-ViewContent content_of(const std::vector<fs::path>& paths) {
+/// What the paths of the command line are; adds those that are sweeps to `sweeps`.
+ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>& sweeps) {
   ViewContent content{.mode = "run", .runs = {}, .case_file = {}};
   for (const fs::path& path : paths) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
       if (is_sweep(path)) {
         content.mode = "sweep";
+        sweeps.push_back(fs::absolute(path));
         add_members(path, content);
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
@@ -84,94 +79,6 @@ ViewContent content_of(const std::vector<fs::path>& paths) {
     }
   }
   return content;
-}
-
-/// The title in the text of a case.
-std::string title_of(std::string_view text) {
-  constexpr std::string_view key = "\ntitle = \"";
-  const std::size_t begin = text.find(key);
-  if (begin == text.npos) return "";
-  text.remove_prefix(begin + key.size());
-  return std::string(text.substr(0, text.find('"')));
-}
-
-/// The folder in which new runs are made, and whose files a case may name.
-fs::path working_folder(const ViewContent& content) {
-  return content.case_file ? content.case_file->parent_path() : content.runs.front().path.parent_path();
-}
-
-/// my_run, my_run_2, ...: the first that is free.
-std::string free_name(const fs::path& folder, const std::string& stem) {
-  std::error_code error;
-  for (int k = 1;; ++k) {
-    std::string name = k == 1 ? stem + "_run" : fmt::format("{}_run_{}", stem, k);
-    if (!fs::exists(folder / name, error)) return name;
-  }
-}
-
-void require_plain_name(const std::string& name) {
-  const bool is_plain = !name.empty() && name.find('/') == name.npos && name.front() != '.' && name.front() != '-' &&
-                        std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 32; });
-  if (is_plain) return;
-  throw InputError(fmt::format("\"{}\" is no name for a folder beside the case; remedy: a name without '/'", name));
-}
-
-/// Whether the run in a folder has become ready since.
-std::function<bool()> becomes_ready(const fs::path& run) {
-  const auto last_start = [summary = run / summary_name] {
-    std::error_code error;
-    return fs::last_write_time(summary, error);
-  };
-  return [before = last_start(), last_start] { return last_start() != before; };
-}
-
-ViewActions actions_for(const ViewContent& content) {
-  const fs::path folder = working_folder(content);
-  const std::optional<fs::path> case_file = content.case_file;
-  const std::string stem = case_file ? case_file->stem().string() : content.runs.front().name;
-  ViewActions actions;
-  actions.version = version_line();
-  actions.most_ranks = usable_cores();
-  actions.free_name = [folder, stem] { return free_name(folder, stem); };
-  actions.templates = [] {
-    Json names = Json::array();
-    for (const auto& [name, text] : case_templates()) names.push_back({{"name", name}, {"title", title_of(text)}});
-    return names;
-  };
-  actions.template_text = [](const std::string& name) -> std::optional<std::string> {
-    const auto found = case_templates().find(name);
-    return found == case_templates().end() ? std::nullopt : std::optional<std::string>(found->second);
-  };
-  actions.spec = [] { return Json::parse(case_reference_json()); };
-  actions.resume = [](const fs::path& run) {
-    start_apart({this_program(), "resume", run.string(), "--quiet"}, run.parent_path(), becomes_ready(run),
-                std::chrono::seconds(20));
-  };
-  const auto one_at_a_time = std::make_shared<std::mutex>();
-  actions.check = [folder, one_at_a_time](const std::string& text) {
-    const std::lock_guard lock(*one_at_a_time);
-    const ChildEnd end = run_child({this_program(), "check", "-", "--json"}, folder, text, std::chrono::seconds(20));
-    Json answer = Json::parse(end.output, nullptr, false);
-    if (answer.is_object()) return answer;
-    throw IoError(end.code == 128 + SIGKILL ? "the check takes more than 20 s; remedy: a larger particles.spacing"
-                                            : fmt::format("the check has ended: {}", end.errors));
-  };
-  actions.start = [folder, case_file](const std::string& text, const std::string& out, int ranks) {
-    require_plain_name(out);
-    if (ranks < 1 || ranks > usable_cores()) throw InputError(fmt::format("{} ranks: 1 to {}", ranks, usable_cores()));
-    const fs::path run = folder / out;
-    const fs::path saved = case_file ? *case_file : folder / (out + ".toml");
-    std::error_code error;
-    if (fs::exists(run, error)) throw InputError(fmt::format("'{}' is there already; remedy: another name", out));
-    if (!case_file && fs::exists(saved, error)) {
-      throw InputError(fmt::format("'{}' is there already; remedy: another name", saved.string()));
-    }
-    write_text_file(saved, text);
-    start_apart({this_program(), "run", saved.string(), "--out", run.string(), "-n", std::to_string(ranks), "--quiet"},
-                folder, becomes_ready(run), std::chrono::seconds(20));
-    return run;
-  };
-  return actions;
 }
 
 /// Opens the address in the user's browser. Other users see the words of a command, so the token is in a file that only
@@ -206,9 +113,9 @@ class Browser {
   fs::path folder_;
 };
 
-void serve(const ViewContent& content, const ViewOptions& options) {
+void serve(const ViewContent& content, const std::vector<fs::path>& sweeps, const ViewOptions& options) {
   const AwaitedSignals signals;  // before there are threads, which then leave all signals to `next`
-  ViewServer server(content, actions_for(content), options.port);
+  ViewServer server(content, view_actions(content, sweeps), options.port);
   fmt::print("{}\n", server.address());
   std::fflush(stdout);
   tell(
@@ -225,8 +132,9 @@ void serve(const ViewContent& content, const ViewOptions& options) {
 }
 
 void view(const ViewOptions& options) {
-  const ViewContent content = content_of(options.paths);
-  if (options.export_file.empty()) return serve(content, options);
+  std::vector<fs::path> sweeps;
+  const ViewContent content = content_of(options.paths, sweeps);
+  if (options.export_file.empty()) return serve(content, sweeps, options);
   if (content.case_file) throw InputError("--export: a case has nothing to show before it has run");
   write_text_file(options.export_file, exported_page(content, version_line()));
   fmt::print("{}\n", options.export_file.string());
@@ -245,8 +153,10 @@ void add_view_command(CLI::App& app, ExitCode&) {
       ->type_name("PORT");
   command->add_flag("--no-browser", options->opens_no_browser, "Print the address only");
   command
-      ->add_option("--export", options->export_file,
-                   "Write one HTML file with all that the page shows, which any browser opens without this program")
+      ->add_option(
+          "--export", options->export_file,
+          "Write one HTML file with what the page shows, which any browser opens without this program: some 200 "
+          "frames, places to a 32nd of dx, colours in 128 steps, 7 digits")
       ->type_name("FILE");
   command->footer(
       "Examples: tailwater view my_run\n"

@@ -42,13 +42,12 @@ void answer_error(Response& response, int status, std::string_view message) {
 }
 
 void answer_file(const Request& request, Response& response, OpenFile opened, const char* type) {
-  ByteRange range{0, opened.size() - 1};
+  const ByteRange whole{0, opened.size() - 1};
+  ByteRange range = whole;
   const RangeAnswer asked = range_of(request.get_header_value("Range"), opened.size(), range);
   response.set_header("Accept-Ranges", "bytes");
-  if (asked == RangeAnswer::impossible) {
-    response.set_header("Content-Range", fmt::format("bytes */{}", opened.size()));
-    return answer_error(response, 416, "there are no such bytes");
-  }
+  // Of a file that has become shorter, as tables of a run that is resumed, all is told: a browser would log a refusal.
+  if (asked == RangeAnswer::impossible) range = whole;
   response.status = 200;
   if (asked == RangeAnswer::part) {
     response.status = 206;

@@ -77,6 +77,19 @@ std::optional<OpenFile> FolderReader::open(const std::vector<std::string>& names
   return OpenFile(file, status.st_size);
 }
 
+bool FolderReader::lacks(const std::vector<std::string>& names) const {
+  if (names.empty() || !std::all_of(names.begin(), names.end(), is_plain_name)) return false;
+  std::filesystem::path path = folder_;
+  for (const std::string& name : names) {
+    path /= name;
+    std::error_code error;
+    const std::filesystem::file_type type = std::filesystem::symlink_status(path, error).type();
+    if (type == std::filesystem::file_type::not_found) return true;
+    if (type != std::filesystem::file_type::directory) return false;
+  }
+  return false;
+}
+
 std::string FolderReader::text_of(const std::vector<std::string>& names) const {
   const std::optional<OpenFile> file = open(names);
   return file ? file->read() : "";

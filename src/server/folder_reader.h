@@ -47,6 +47,8 @@ class FolderReader {
   /// A regular file by its names from the folder on, as in {"probes", "H1.csv"}; nothing if there is none, or one of
   /// the names is no plain name.
   std::optional<OpenFile> open(const std::vector<std::string>& names) const;
+  /// Whether there is nothing of such a name yet, where there could be.
+  bool lacks(const std::vector<std::string>& names) const;
   /// The text of such a file; empty if there is none.
   std::string text_of(const std::vector<std::string>& names) const;
   std::optional<FileMark> mark_of(const std::vector<std::string>& names) const;

@@ -181,13 +181,14 @@ class ViewServer::Service {
     if (what == "state") answer_json(response, state());
     if (what == "spec") answer_json(response, actions_.spec());
     if (what == "templates") answer_json(response, actions_.templates());
+    if (what == "sweeps") answer_json(response, actions_.sweeps());
     if (what == "case" && case_file_) {
       const FolderReader folder(folder_of_case());
       response.status = 200;
       response.set_content(folder.text_of({case_file_->filename().string()}), "application/toml");
       return true;
     }
-    return what == "state" || what == "spec" || what == "templates";
+    return what == "state" || what == "spec" || what == "templates" || what == "sweeps";
   }
 
   bool get_of_run(const Request& request, Response& response, Run& run, const std::vector<std::string>& path) {
@@ -195,9 +196,16 @@ class ViewServer::Service {
     if (what == "file") {
       std::string name = path.size() > 1 ? path[1] : "";
       for (std::size_t k = 2; k < path.size(); ++k) name += "/" + path[k];
-      std::optional<OpenFile> file = run.folder.open(names_of_readable_file(name));
-      if (file) answer_file(request, response, std::move(*file), type_of(name));
-      return file.has_value();
+      const std::vector<std::string> names = names_of_readable_file(name);
+      std::optional<OpenFile> file = run.folder.open(names);
+      if (file) {
+        answer_file(request, response, std::move(*file), type_of(name));
+      } else if (run.folder.lacks(names)) {
+        response.status = 204;  // a table begins with its first reading
+      } else {
+        return false;
+      }
+      return true;
     }
     if (what == "frame" && path.size() == 2) return get_frame(response, run, path[1]);
     if (path.size() != 1) return false;
@@ -226,9 +234,9 @@ class ViewServer::Service {
     const FrameIndex frames = run.frames;
     lock.unlock();  // a field file takes a while
     std::optional<std::string> bytes = frames.bytes_of(*index);
-    response.status = 200;
+    response.status = bytes ? 200 : 204;  // it may have been cut off
     if (bytes) response.set_content(*bytes, "application/octet-stream");
-    return bytes.has_value();
+    return true;
   }
 
   static Json frames_of(Run& run, const std::string& from) {
@@ -280,9 +288,15 @@ class ViewServer::Service {
       Run* run = find(path[3]);
       return run != nullptr && ask_run(response, *run, path[4]);
     }
+    if (what == "sweep" && path.size() == 5) {
+      const std::optional<std::uint32_t> index = whole_number(path[3]);
+      const bool is_known = index && actions_.ask_sweep(*index, path[4]);
+      if (is_known) answer_json(response, {{"ok", true}});
+      return is_known;
+    }
     if (path.size() != 3) return false;
-    if (what == "check") {
-      answer_json(response, actions_.check(request.body));
+    if (what == "check" || what == "estimate") {
+      answer_json(response, what == "check" ? actions_.check(request.body) : actions_.estimate(request.body));
     } else if (what == "save" && case_file_) {
       write_text_file(*case_file_, request.body);
       answer_json(response, {{"ok", true}});

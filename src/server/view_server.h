@@ -29,8 +29,12 @@ struct ViewContent {
 struct ViewActions {
   using Json = nlohmann::ordered_json;
   std::function<Json(const std::string& text)> check;
+  std::function<Json(const std::string& text)> estimate;  ///< the same with the time that a run takes; slower
   std::function<std::filesystem::path(const std::string& text, const std::string& out, int ranks)> start;
   std::function<void(const std::filesystem::path& run)> resume;
+  std::function<Json()> sweeps;  ///< how each is
+  /// Asks a sweep to "stop" or to "resume"; false: there is no such sweep or request.
+  std::function<bool(std::size_t sweep, const std::string& what)> ask_sweep;
   std::function<Json()> spec;
   std::function<Json()> templates;
   std::function<std::optional<std::string>(const std::string& name)> template_text;

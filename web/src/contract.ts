@@ -124,3 +124,10 @@ export interface Check {
   drawing: Drawing | null;
   summary: string[];
 }
+
+export interface SweepInfo {
+  name: string;
+  members: number;
+  done: number;
+  is_at_work: boolean;
+}

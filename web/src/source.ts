@@ -1,6 +1,6 @@
 // Where the page's data come from: the program's server, or the data inside of an exported page.
 import { inflatedText } from "./frames/inflate.ts";
-import type { Check, Info, Scene, Spec, State } from "./contract.ts";
+import type { Check, Info, Scene, Spec, State, SweepInfo } from "./contract.ts";
 
 export interface FrameEntry {
   index: number;
@@ -24,9 +24,10 @@ export interface Source {
   state(): Promise<State>;
   scene(run: string): Promise<Scene>;
   frames(run: string, from: number): Promise<{ frames: FrameEntry[]; done: boolean }>;
-  frame(run: string, index: number): Promise<Uint8Array>;
-  /** Text of a file of the run's folder from byte `from` on; "" where there is none. */
-  file(run: string, path: string, from: number): Promise<string>;
+  /** null: it is gone, with the folder or because the run goes on from an earlier moment. */
+  frame(run: string, index: number): Promise<Uint8Array | null>;
+  /** Text of a file of the run's folder from byte `from` on, or all of it (`isWhole`); "" where there is none. */
+  file(run: string, path: string, from: number): Promise<{ text: string; isWhole: boolean }>;
   info(run: string): Promise<Info>;
   /** Tells of frames from index `from` on. Returns what ends the listening. */
   listen(run: string, from: number, events: RunEvents): () => void;
@@ -40,13 +41,17 @@ export interface Workshop {
   template(name: string): Promise<string>;
   caseText(): Promise<string>;
   check(text: string, signal: AbortSignal): Promise<Check>;
+  /** The same with the time that a run takes; takes a second or some. */
+  estimate(text: string, signal: AbortSignal): Promise<Check>;
   save(text: string): Promise<void>;
   start(text: string, out: string, ranks: number): Promise<string>;
+  sweeps(): Promise<SweepInfo[]>;
+  askSweep(sweep: number, what: string): Promise<void>;
 }
 
 async function answer(path: string, options?: RequestInit): Promise<Response> {
   const response = await fetch(path, options);
-  if (!response.ok && response.status !== 416) {
+  if (!response.ok) {
     const text = await response.text();
     let message = text;
     try {
@@ -75,16 +80,17 @@ export class Server implements Source, Workshop {
   spec = () => json<Spec>("api/spec");
   templates = () => json<{ name: string; title: string }[]>("api/templates");
 
-  async frame(run: string, index: number): Promise<Uint8Array> {
-    return new Uint8Array(await (await answer(`api/run/${run}/frame/${index}`)).arrayBuffer());
+  async frame(run: string, index: number): Promise<Uint8Array | null> {
+    const response = await answer(`api/run/${run}/frame/${index}`);
+    return response.status === 204 ? null : new Uint8Array(await response.arrayBuffer());
   }
 
-  async file(run: string, path: string, from: number): Promise<string> {
+  async file(run: string, path: string, from: number): Promise<{ text: string; isWhole: boolean }> {
     // From the last byte that is known, so that there is always something to answer.
     const response = await answer(`api/run/${run}/file/${path}`, from > 0 ? { headers: { Range: `bytes=${from - 1}-` } } : {});
-    if (response.status === 204 || response.status === 416) return "";
     const text = await response.text();
-    return from > 0 ? text.slice(1) : text;
+    // A file that is shorter than that comes as a whole: it is another one.
+    return response.status === 206 ? { text: text.slice(1), isWhole: false } : { text, isWhole: true };
   }
 
   listen(run: string, from: number, events: RunEvents): () => void {
@@ -109,6 +115,9 @@ export class Server implements Source, Workshop {
   template = async (name: string) => (await answer(`api/template/${encodeURIComponent(name)}`)).text();
   caseText = async () => (await answer("api/case")).text();
   check = (text: string, signal: AbortSignal) => json<Check>("api/check", { ...posted(text, "application/toml"), signal });
+  estimate = (text: string, signal: AbortSignal) => json<Check>("api/estimate", { ...posted(text, "application/toml"), signal });
+  sweeps = () => json<SweepInfo[]>("api/sweeps");
+  askSweep = async (sweep: number, what: string) => void (await answer(`api/sweep/${sweep}/${what}`, posted()));
   save = async (text: string) => void (await answer("api/save", posted(text, "application/toml")));
 
   async start(text: string, out: string, ranks: number): Promise<string> {
@@ -145,7 +154,8 @@ export class Embedded implements Source {
   info = async (id: string) => this.run(id).info;
   file = async (id: string, path: string, from: number) => {
     const file = this.run(id).files[path];
-    return file === undefined ? "" : (await inflatedText(fromBase64(file))).slice(from);
+    const text = file === undefined ? "" : await inflatedText(fromBase64(file));
+    return { text: text.slice(from), isWhole: from === 0 };
   };
   listen = () => () => {};
   control = async () => "an exported page cannot control a run";

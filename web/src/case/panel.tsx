@@ -7,8 +7,9 @@ import { drawn } from "../run/subject.ts";
 import { useChanges } from "../store.ts";
 import { CaseEditor } from "./editor.ts";
 
-/** How long the page waits for the next key before it asks the program, ms. */
+/** How long the page waits for the next key before it asks the program, and before it asks how long the run takes, ms. */
 const pause = 120;
+const rest = 1000;
 
 export function CasePanel({ app }: { app: App }) {
   useChanges(app.data);
@@ -22,6 +23,7 @@ export function CasePanel({ app }: { app: App }) {
 
   useEffect(() => {
     let timer = 0;
+    let later = 0;
     let asked: AbortController | null = null;
     let version = 0;
     const ask = async (text: string) => {
@@ -33,14 +35,26 @@ export function CasePanel({ app }: { app: App }) {
         made.find(answer.findings);
         if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++version}`), answer.drawing);
         tell("");
+        if (!hasError(answer)) later = window.setTimeout(() => void estimate(text, asked!.signal), rest);
       } catch (error) {
         if (!(error instanceof DOMException && error.name === "AbortError")) tell(error instanceof Error ? error.message : String(error));
+      }
+    };
+    /** Trial steps of the run: what they find is told with the rest. */
+    const estimate = async (text: string, signal: AbortSignal) => {
+      try {
+        const answer = await server.estimate(text, signal);
+        show(answer);
+        made.find(answer.findings);
+      } catch {
+        // the time is not known; the case is checked all the same
       }
     };
     const made = new CaseEditor(holder.current!, app.caseText ?? "", {
       changed(text) {
         app.caseText = text;
         clearTimeout(timer);
+        clearTimeout(later);
         timer = window.setTimeout(() => void ask(text), pause);
       },
       line: (line) => app.lightAt(line),
@@ -61,6 +75,7 @@ export function CasePanel({ app }: { app: App }) {
     })();
     return () => {
       clearTimeout(timer);
+      clearTimeout(later);
       asked?.abort();
       app.markLines = null;
       made.destroy();
@@ -88,7 +103,6 @@ export function CasePanel({ app }: { app: App }) {
       app.player.follow();
       return "";
     });
-  const errors = check?.findings.filter((f) => f.severity === "error").length ?? 0;
   return (
     <div class="case-panel">
       <div class="case-bar">
@@ -112,13 +126,15 @@ export function CasePanel({ app }: { app: App }) {
             on <input type="number" min={1} max={app.state!.ranks_most} value={form.ranks} aria-label="Ranks" onInput={(e) => fill({ ...form, ranks: Number(e.currentTarget.value) || 1 })} /> ranks
           </label>
         )}
-        <button class="primary" disabled={errors > 0 || check === null} title="Run this case (Ctrl+Enter)" onClick={() => void start()}>Run</button>
+        <button class="primary" disabled={check === null || hasError(check)} title="Run this case (Ctrl+Enter)" onClick={() => void start()}>Run</button>
       </div>
       <div class="editor" ref={holder} />
       <Found check={check} word={word} go={(line) => editor.current?.go(line)} />
     </div>
   );
 }
+
+const hasError = (check: Check) => check.findings.some((f) => f.severity === "error");
 
 function Found({ check, word, go }: { check: Check | null; word: string; go: (line: number) => void }) {
   const worst: Record<Finding["severity"], number> = { error: 0, warning: 1, note: 2 };

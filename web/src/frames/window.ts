@@ -17,6 +17,8 @@ export class FrameWindow {
   private wanted = 0;
   private busy = false;
   private generation = 0;
+  /** A frame was gone when it was asked for: nothing is asked until there is news of the run. */
+  private halted = false;
   error = "";
   /** How long the worker took for each of the last frames, ms. */
   readonly milliseconds: number[] = [];
@@ -37,12 +39,14 @@ export class FrameWindow {
       const last = this.list.at(-1);
       if (!last || entry.index > last.index) this.list.push(entry);
     }
+    this.halted = false;
     this.pump();
     this.changed();
   }
 
   /** The run was resumed from `time`: what is later is no longer true. */
   cut(time: number): void {
+    this.halted = false;
     const keep = this.list.findIndex((entry) => entry.time > time);
     if (keep < 0) return;
     this.list.length = keep;
@@ -106,7 +110,7 @@ export class FrameWindow {
   }
 
   private pump(): void {
-    if (this.busy || this.error) return;
+    if (this.busy || this.halted || this.error) return;
     const place = this.next();
     if (place < 0) return;
     let from = place;
@@ -124,6 +128,11 @@ export class FrameWindow {
     try {
       const bytes = await this.source.frame(this.run, this.list[place]!.index);
       if (generation !== this.generation) return;
+      if (!bytes) {
+        this.busy = false;
+        this.halted = true;
+        return;
+      }
       const reply = await this.worker.decode({ run: this.run, bytes });
       if (generation !== this.generation) return;
       if ("error" in reply) throw new Error(reply.error);

@@ -17,6 +17,8 @@ export class RunModel implements Subject {
   gone = false;
   connected = true;
   private reading = new Set<string>();
+  /** How often the run was cut back: what was asked for before is of another run. */
+  private cuts = 0;
   private stop: () => void = () => {};
 
   private constructor(
@@ -82,6 +84,8 @@ export class RunModel implements Subject {
       cut: (time) => {
         this.frames.cut(time);
         this.tables.clear();
+        this.reading.clear();
+        ++this.cuts;
         void this.catchUp();
       },
       gone: () => {
@@ -118,13 +122,16 @@ export class RunModel implements Subject {
   async read(path: string): Promise<void> {
     if (this.reading.has(path)) return;
     this.reading.add(path);
+    const { cuts } = this;
     try {
-      const table = this.tables.get(path) ?? new Table();
-      const text = await this.source.file(this.id, path, table.bytes);
+      const known = this.tables.get(path) ?? new Table();
+      const { text, isWhole } = await this.source.file(this.id, path, known.bytes);
+      if (cuts !== this.cuts) return;
+      const table = isWhole ? new Table() : known;
       table.append(text);
       if (table.columns.length > 0) this.tables.set(path, table);
     } catch {
-      // not there yet: a probe's table begins with its first reading
+      // nobody answers; that is told by the run's events
     }
     this.reading.delete(path);
     this.changed();
@@ -133,7 +140,7 @@ export class RunModel implements Subject {
   /** A level map is written anew each time, so it is read whole. */
   private async readMap(probe: string): Promise<void> {
     const table = new Table();
-    table.append(await this.source.file(this.id, `probes/${probe}.map.csv`, 0));
+    table.append((await this.source.file(this.id, `probes/${probe}.map.csv`, 0)).text);
     if (table.rows > 0) this.maps.set(probe, table);
   }
 

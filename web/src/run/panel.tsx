@@ -1,6 +1,7 @@
 // What the run tells of itself, in words: progress, time left, cost, water, energy, warnings; and the buttons.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import type { App } from "../app.ts";
+import type { SweepInfo } from "../contract.ts";
 import { useChanges } from "../store.ts";
 import { duration, number } from "../units.ts";
 import type { RunModel } from "./model.ts";
@@ -17,11 +18,58 @@ export function RunPanel({ app }: { app: App }) {
   const runs = app.shownRuns();
   return (
     <div class="run-panel">
+      {app.state?.mode === "sweep" && app.server && <Sweeps app={app} />}
       {app.state && app.state.runs.length > 1 && <Choice app={app} />}
       {runs.map((run) => (
         <OneRun key={run.id} app={app} run={run} />
       ))}
     </div>
+  );
+}
+
+/** How far the sweeps are whose members are shown, and the button to go on with them. */
+function Sweeps({ app }: { app: App }) {
+  const [sweeps, list] = useState<SweepInfo[]>([]);
+  const [word, tell] = useState("");
+  const server = app.server!;
+  const ask = async () => {
+    try {
+      list(await server.sweeps());
+    } catch {
+      // the runs tell that nobody answers
+    }
+  };
+  useEffect(() => {
+    void ask();
+    const timer = setInterval(() => void ask(), 3000);
+    return () => clearInterval(timer);
+  }, []);
+  const press = async (k: number, what: string) => {
+    try {
+      await server.askSweep(k, what);
+      tell(what === "stop" ? "The members that run stop after their present step." : "The sweep goes on with what is not done.");
+    } catch (error) {
+      tell(error instanceof Error ? error.message : String(error));
+    }
+    await ask();
+  };
+  return (
+    <>
+      {sweeps.map((sweep, k) => (
+        <section class="sweep" key={sweep.name}>
+          <h2>{sweep.name}</h2>
+          <p>
+            {sweep.done} of {sweep.members} runs are done{sweep.is_at_work ? "; it is at work" : ""}
+          </p>
+          {sweep.is_at_work ? (
+            <button title="Stops the members that run; the sweep can go on later" onClick={() => void press(k, "stop")}>Stop the sweep</button>
+          ) : (
+            sweep.done < sweep.members && <button title="Runs the members that are not done, from their checkpoints" onClick={() => void press(k, "resume")}>Go on with the sweep</button>
+          )}
+        </section>
+      ))}
+      {word && <p class="hint" role="status">{word}</p>}
+    </>
   );
 }
 

@@ -136,6 +136,7 @@ export class Mock {
     }
     if (parts[2] === "spec") return send(this.options.spec ?? { tables: [] });
     if (parts[2] === "case") return send(this.options.caseText ?? "", "text/plain");
+    if (parts[2] === "sweeps") return send([{ name: "sweep", members: runs.length, done: runs.length, is_at_work: false }]);
     if (parts[2] === "templates") return send([{ name: "dam-break", title: "A column collapses in a tank" }]);
     if (parts[2] === "template") return send(`# ${parts[3]}\n[case]\ntitle = "Template"\n`, "text/plain");
     const run = runs.find((r) => r.id === parts[3]);
@@ -148,7 +149,9 @@ export class Mock {
     }
     if (parts[4] === "frame") {
       const frame = run.frames.find((f) => f.index === Number(parts[5]));
-      return frame ? send(frame.bytes, "application/octet-stream") : missing();
+      if (frame) return send(frame.bytes, "application/octet-stream");
+      response.statusCode = 204;
+      return void response.end();
     }
     if (parts[4] === "file") {
       const text = run.files[parts.slice(5).join("/")];
@@ -158,8 +161,9 @@ export class Mock {
       }
       const range = /^bytes=(\d+)-$/.exec(request.headers.range ?? "");
       if (!range) return send(text, "text/plain");
-      response.statusCode = Number(range[1]) < text.length ? 206 : 416;
-      return send(response.statusCode === 206 ? text.slice(Number(range[1])) : "", "text/plain");
+      const isThere = Number(range[1]) < text.length;
+      response.statusCode = isThere ? 206 : 200;
+      return send(isThere ? text.slice(Number(range[1])) : text, "text/plain");
     }
     if (parts[4] === "events") {
       response.writeHead(200, { "Content-Type": "text/event-stream", "Cache-Control": "no-store" });
