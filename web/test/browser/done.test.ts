@@ -1,0 +1,46 @@
+// The page with the program itself behind it.
+import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
+import { test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { allowed, until } from "../support/browser.ts";
+import { camera, withProgram } from "../support/program.ts";
+
+test("a done run: no blank and no jump of the camera through all its frames; a probe is picked; sent as a file", async (context) => {
+  await withProgram(context, async (place, open) => {
+    place.call("run", "dam.toml", "--out", "run", "--quiet", "--set", "particles.spacing=0.03", "--set", "time.end=2");
+    assert.ok(readdirSync(place.path("run/view")).length > 300, "some 400 frames");
+    const began = Date.now();
+    const page = await open(await place.view("run"));
+    await until(page, "app.view?.eye && app.shown()[0]?.frames.at(0)?.exact");
+    const took = Date.now() - began; // with the start of the browser
+    assert.ok(took < (await allowed(page, 5000)), `first picture within 1 s of a browser that is open; here ${took} ms with its start`);
+    const before = await camera(page);
+    const blanks = await page.evaluate(`(async () => {
+      let blanks = 0;
+      const { list } = tailwater.shownRuns()[0].frames;
+      for (let i = 0; i < list.length; ++i) {
+        tailwater.player.seek(list[(i * 151) % list.length].time);
+        if (!tailwater.shownRuns()[0].frames.at(tailwater.player.time)) ++blanks;
+        await new Promise(requestAnimationFrame);
+      }
+      return blanks;
+    })()`);
+    assert.equal(blanks, 0);
+    assert.equal(await camera(page), before);
+    await page.click(".label.probe");
+    await until(page, "app.look.now.probe === 'gauge' && document.querySelector('.gauge.lit .plot canvas')");
+
+    place.call("view", "run", "--export", "run.html");
+    const sent = await open(pathToFileURL(place.path("run.html")).href);
+    await until(sent, "app.shown()[0]?.frames.isDecoded(100) && app.shown()[0].frames.list.length < 210 && app.shown()[0].table('gauge')?.rows > 90", 20_000);
+    // The same water: a particle is where it is in the run, but for what the file rounds.
+    const place0 = "(() => { const f = tailwater.shown()[0].frames.at(1).a; return [0, 1].map((d) => f.boxMin[d] + f.data[d] / 65535 * (f.boxMax[d] - f.boxMin[d])); })()";
+    await until(page, "app.shown()[0].frames.at(1)?.exact");
+    await until(sent, "app.shown()[0].frames.at(1)?.exact");
+    const [here, there] = (await Promise.all([page.evaluate(place0), sent.evaluate(place0)])) as number[][];
+    here!.forEach((x, d) => assert.ok(Math.abs(x - there![d]!) < 0.04 / 32, `${here} and ${there}`));
+    await sent.keyboard.press("Space");
+    await until(sent, "app.player.playing && app.player.time > 0.05");
+  });
+});

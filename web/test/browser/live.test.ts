@@ -1,0 +1,44 @@
+// The page with the program itself behind it.
+import assert from "node:assert/strict";
+import { existsSync, renameSync, statSync } from "node:fs";
+import { test } from "node:test";
+import { allowed, until } from "../support/browser.ts";
+import { camera, press, withProgram } from "../support/program.ts";
+
+test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
+  await withProgram(context, async (place, open) => {
+    place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "output.view_interval=0.05");
+    while (!existsSync(place.path("run/view/00001.frame"))) await new Promise((resolve) => setTimeout(resolve, 20));
+    const page = await open(await place.view("run"));
+    await until(page, "app.player.following && app.view?.eye && app.shownRuns()[0].frames.list.length > 2");
+    const before = await camera(page);
+    // When a frame was written, and when it was drawn: both by the clock of this machine.
+    const shown = (await page.evaluate(`new Promise((found) => {
+      const from = tailwater.shownRuns()[0].frames.list.length;
+      tailwater.drawn = (exact) => {
+        const run = tailwater.shownRuns()[0];
+        const last = run.frames.list.at(-1);
+        if (exact && run.frames.list.length > from && tailwater.player.time === last.time) {
+          tailwater.drawn = null;
+          found({ index: last.index, at: Date.now() });
+        }
+      };
+    })`)) as { index: number; at: number };
+    const took = shown.at - statSync(place.path("run/view", `${String(shown.index).padStart(5, "0")}.frame`)).mtimeMs;
+    assert.ok(took < (await allowed(page, 1000)), `a frame is on the screen within 1 s; here ${took} ms`);
+    assert.equal(await camera(page), before);
+    await until(page, "app.shownRuns()[0].table('gauge')?.rows > 3");
+
+    await page.keyboard.press("r");
+    await press(page, "Stop");
+    await until(page, "app.shownRuns()[0].info.state === 'stopped'", 20_000);
+    const reached = (await page.evaluate("tailwater.shownRuns()[0].end")) as number;
+    await press(page, "Go on");
+    await until(page, `app.shownRuns()[0].info.state === 'running' && app.shownRuns()[0].end > ${reached}`, 20_000);
+    await press(page, "Stop");
+    await until(page, "app.shownRuns()[0].info.state === 'stopped'", 20_000);
+    renameSync(place.path("run"), place.path("elsewhere"));
+    await page.evaluate("tailwater.player.seek(0)");
+    await until(page, "app.shownRuns()[0].frames.at(0) !== null");
+  });
+});

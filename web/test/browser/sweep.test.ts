@@ -1,0 +1,26 @@
+// The page with the program itself behind it.
+import { existsSync, writeFileSync } from "node:fs";
+import { test } from "node:test";
+import { until } from "../support/browser.ts";
+import { press, withProgram } from "../support/program.ts";
+
+test("a sweep: members beside each other, one stopped, gone on with", async (context) => {
+  await withProgram(context, async (place, open) => {
+    const sweep = place.start("run", "dam.toml", "--out", "sweep", "--quiet", "--sweep", "particles.spacing=0.06,0.05,0.04", "--set", "time.end=2");
+    while (!existsSync(place.path("sweep/particles.spacing=0.06/view/00001.frame"))) await new Promise((resolve) => setTimeout(resolve, 10));
+    writeFileSync(place.path("sweep/STOP"), "");
+    await new Promise((resolve) => sweep.once("exit", resolve));
+    const page = await open(await place.view("sweep"));
+    await until(page, "app.shownRuns().length === 3 && app.view.cells.length === 3");
+    await page.keyboard.press("r");
+    await page.waitForFunction("/^[0-2] of 3/.test(document.querySelector('.sweep p')?.textContent)");
+    await press(page, "Go on with the sweep");
+    await page.waitForFunction("document.querySelector('.sweep p')?.textContent.startsWith('3 of 3')", { timeout: 60_000 });
+    await until(page, "app.shownRuns().every((run) => run.info.state === 'done' && run.end >= 2 && run.frames.list.length > 20)", 20_000);
+    await page.keyboard.press("g");
+    await page.waitForFunction("document.querySelector('.score')?.textContent.includes('at dx = 0')");
+    await page.keyboard.press("r");
+    await press(page, "One over the other");
+    await until(page, "app.view.cells.length === 1 && app.view.cells[0].stages.length === 3");
+  });
+});

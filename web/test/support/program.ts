@@ -1,0 +1,104 @@
+// The program itself: runs, and the server behind `tailwater view`, each in a folder of its own.
+import assert from "node:assert/strict";
+import { spawn, spawnSync, type ChildProcess } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import type { TestContext } from "node:test";
+import type { Page } from "puppeteer-core";
+import { visit, type Visit } from "./browser.ts";
+
+/** $TAILWATER, or what is built beside these sources; undefined: there is none. */
+export const program = [process.env["TAILWATER"], resolve(process.env["TAILWATER_WEB"]!, "../build/release/bin/tailwater")].find((path) => path && existsSync(path));
+
+export class Workplace {
+  readonly folder = mkdtempSync(join(tmpdir(), "tailwater-program-"));
+  private children: ChildProcess[] = [];
+
+  /** Calls the program and waits for it; throws what it says if it fails. */
+  call(...words: string[]): string {
+    const { status, stdout, stderr } = spawnSync(program!, words, { cwd: this.folder, encoding: "utf8" });
+    if (status !== 0) throw new Error(`tailwater ${words.join(" ")} ends with ${status}: ${stderr}`);
+    return stdout;
+  }
+
+  /** Starts the program; it is ended with this workplace. */
+  start(...words: string[]): ChildProcess {
+    const child = spawn(program!, words, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
+    this.children.push(child);
+    return child;
+  }
+
+  /** Starts the server, and returns the address that it prints. */
+  view(...words: string[]): Promise<string> {
+    const child = this.start("view", ...words, "--no-browser");
+    return new Promise((found, failed) => {
+      let text = "";
+      child.stdout!.setEncoding("utf8").on("data", (part: string) => {
+        text += part;
+        if (text.includes("\n")) found(text.trim());
+      });
+      child.on("exit", (code) => failed(new Error(`tailwater view ends with ${code}`)));
+    });
+  }
+
+  path(...names: string[]): string {
+    return join(this.folder, ...names);
+  }
+
+  async close(): Promise<void> {
+    for (const child of this.children) {
+      if (child.exitCode !== null || child.signalCode !== null) continue;
+      const ended = new Promise((resolve) => child.once("exit", resolve));
+      child.kill("SIGTERM");
+      await ended;
+    }
+    rmSync(this.folder, { recursive: true, force: true, maxRetries: 5 });
+  }
+}
+
+const dam = `[case]
+title = "Dam break"
+[particles]
+spacing = 0.04
+[[fluid]]
+name = "column"
+min = [0, 0]
+max = [0.8, 0.4]
+[[wall]]
+name = "tank"
+points = [[0, 1.5], [0, 0], [2.4, 0], [2.4, 1.5]]
+[time]
+end = 1.0
+[[probe]]
+name = "gauge"
+type = "depth"
+at = [0.4, 0]
+interval = 0.01
+`;
+
+/** Calls `body` with a workplace that holds the case as dam.toml, and a browser; there is no fault in its console. */
+export async function withProgram(context: TestContext, body: (place: Workplace, open: (address: string) => Promise<Page>) => Promise<void>): Promise<void> {
+  if (!program) return context.skip("the program is not built");
+  const place = new Workplace();
+  writeFileSync(place.path("dam.toml"), dam);
+  const visits: Visit[] = [];
+  try {
+    await body(place, async (address) => {
+      visits.push(await visit(address));
+      return visits.at(-1)!.page;
+    });
+    for (const { faults } of visits) assert.deepEqual(faults, []);
+  } finally {
+    for (const one of visits) await one.close();
+    await place.close();
+  }
+}
+
+export const camera = (page: Page) => page.evaluate("JSON.stringify([tailwater.view.eye.target, tailwater.view.eye.span])");
+
+/** Presses the button with this word, once it is there. */
+export async function press(page: Page, word: string): Promise<void> {
+  await page.waitForFunction((w) => [...document.querySelectorAll("button")].some((b) => b.textContent === w && !b.disabled), {}, word);
+  await page.evaluate((w) => [...document.querySelectorAll("button")].find((b) => b.textContent === w)!.click(), word);
+}
