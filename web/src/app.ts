@@ -32,6 +32,8 @@ export class App {
   limits: [number, number] | null = null;
   /** Text of the case in the editor; null: not read yet. */
   caseText: string | null = null;
+  /** What there is instead of a drawing of the case. */
+  caseWord = "Checking the case …";
   /** Marks lines in the editor; null: there is no editor. */
   markLines: ((lines: Lines | null) => void) | null = null;
   private sketch: { subject: Subject; drawing: Drawing } | null = null;
@@ -162,7 +164,7 @@ export class App {
 
   emptyWord(): string {
     if (this.trouble) return this.trouble;
-    if (this.look.now.tab === "case") return "Checking the case …";
+    if (this.look.now.tab === "case") return this.caseWord;
     return "Reading the run …";
   }
 }

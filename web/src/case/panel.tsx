@@ -33,7 +33,9 @@ export function CasePanel({ app }: { app: App }) {
         const answer = await server.check(text, asked.signal);
         show(answer);
         made.find(answer.findings);
+        app.caseWord = "Nothing can be drawn before the errors are mended.";
         if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++version}`), answer.drawing);
+        else app.data.tell();
         tell("");
         if (!hasError(answer)) later = window.setTimeout(() => void estimate(text, asked!.signal), rest);
       } catch (error) {

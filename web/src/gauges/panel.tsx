@@ -71,7 +71,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   return (
     <section class={`gauge${lit ? " lit" : ""}`} ref={card} data-probe={probe.name}>
       <header>
-        <button class="gauge-name" aria-pressed={lit} onClick={() => app.select(probe.name)}>
+        <button class="gauge-name" title={probe.name} aria-pressed={lit} onClick={() => app.select(probe.name)}>
           {probe.name}
         </button>
         {columns.length > 1 ? (

@@ -6,7 +6,7 @@ import { filmType, pictures, record, saveFilm } from "./film.ts";
 export function FilmDialog({ app }: { app: App }) {
   const [start, end] = app.player.range;
   const [from, setFrom] = useState(start);
-  const [to, setTo] = useState(end);
+  const [to, setTo] = useState(Math.floor(1000 * end) / 1000);
   const [share, setShare] = useState(-1);
   const [word, tell] = useState("");
   const stop = useRef(false);

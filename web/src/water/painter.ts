@@ -56,6 +56,7 @@ export class Painter {
   private measure(): void {
     const { eye, cells } = this.view;
     const cell = cells[0];
+    this.scale.hidden = !eye || !cell;
     if (!eye || !cell) return;
     const metres = niceBelow((eye.span / cell.height) * Math.min(180, cell.width * 0.3));
     this.scale.style.width = `${(metres / eye.span) * cell.height}px`;

@@ -10,7 +10,8 @@ export function read(view: WaterView, staging: Staging, out: HTMLElement, x: num
   const at = nearest(view, staging, x, y);
   out.hidden = at === null;
   if (!at) return;
-  const place = at.place.map((c, d) => `${"xyz"[d]} ${number(c, 4)}`).join("  ") + " m";
+  const least = 1e-5 * (view.eye?.span ?? 0); // far less than a pixel
+  const place = at.place.map((c, d) => `${"xyz"[d]} ${number(Math.abs(c) < least ? 0 : c, 4)}`).join("  ") + " m";
   const { run, frame, i } = at;
   const values = colourings
     .filter((c) => run && frame && (c.name === "speed" || c.name === "pressure"))
