@@ -19,17 +19,19 @@ else()
   install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 endif()
 
-# The manual page and what completes the command line, from the program's own text.
+# The manual page, what completes the command line and what editors know of a case, from the program's own text.
 set(help ${PROJECT_BINARY_DIR}/help)
 add_custom_command(
-  OUTPUT ${help}/tailwater.1 ${help}/tailwater.bash ${help}/_tailwater ${help}/tailwater.fish
+  OUTPUT ${help}/tailwater.1 ${help}/tailwater.bash ${help}/_tailwater ${help}/tailwater.fish ${help}/case.schema.json
   COMMAND ${CMAKE_COMMAND} -E make_directory ${help}
   COMMAND tailwater man > ${help}/tailwater.1
   COMMAND tailwater completion bash > ${help}/tailwater.bash
   COMMAND tailwater completion zsh > ${help}/_tailwater
   COMMAND tailwater completion fish > ${help}/tailwater.fish
+  COMMAND tailwater run --help-case=schema > ${help}/case.schema.json
   DEPENDS tailwater)
 add_custom_target(tailwater_help ALL DEPENDS ${help}/tailwater.1)
+install(FILES ${help}/case.schema.json DESTINATION ${data} COMPONENT program)
 install(FILES ${help}/tailwater.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${help}/tailwater.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME tailwater
         COMPONENT program)

@@ -34,6 +34,7 @@ struct RunArguments {
 std::string help_on_cases(const std::string& format) {
   if (format == "markdown") return case_reference_markdown();
   if (format == "json") return case_reference_json();
+  if (format == "schema") return case_schema();
   return format == "study" ? study_reference_markdown() : case_help();
 }
 
@@ -97,11 +98,12 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
   command
-      ->add_option("--help-case", arguments->help_case,
-                   "Explain every key of a case file (text, markdown or json), or those of studies (study)")
+      ->add_option(
+          "--help-case", arguments->help_case,
+          "Explain every key of a case file (text, markdown, json, or schema for editors), or those of studies (study)")
       ->expected(0, 1)
       ->default_str("text")
-      ->check(CLI::IsMember({"text", "markdown", "json", "study"}))
+      ->check(CLI::IsMember({"text", "markdown", "json", "schema", "study"}))
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"

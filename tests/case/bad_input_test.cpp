@@ -2,6 +2,9 @@
 // one line, so that a mistake never drags others behind it.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <ostream>
 
 #include "case_file.h"
@@ -566,6 +569,9 @@ class BadInputTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadInputTest, GetsOneLineThatSaysWhatAndWhere) {
   const auto& [name, text, place, parts] = GetParam();
+  if (const char* folder = std::getenv("TAILWATER_BAD_INPUT")) {  // for test_schema.py
+    std::ofstream(std::filesystem::path(folder) / (name + ".toml")) << text;
+  }
   const CaseFile file(text);
   const std::string path = file.path().string();
   const std::string message = message_of(text);

@@ -66,6 +66,10 @@ class Installed(unittest.TestCase):
                      "fish/vendor_completions.d/tailwater.fish"):
             self.assertIn("wall-time", (share / path).read_text(encoding="utf-8").replace("\\-", "-"), path)
 
+    def test_schema_is_there(self):
+        schema = json.loads((self.prefix / "share/tailwater/case.schema.json").read_text(encoding="utf-8"))
+        self.assertIn("particles", schema["properties"])
+
     def test_cases_are_there(self):
         cases = self.prefix / "share" / "tailwater" / "cases"
         self.tailwater("check", cases / "zhou1999" / "case.toml", "--set", "particles.spacing=0.1")
