@@ -18,8 +18,8 @@ std::string case_reference_markdown();
 /// its table.
 std::string case_reference_json();
 
-/// For `tailwater run --help-case=schema`: a JSON schema of case files, with which an editor completes, explains and marks.
-/// It sees one key at a time, and which keys go together; it knows no expressions, shapes or files.
+/// For `tailwater run --help-case=schema`: a JSON schema of case files, with which an editor completes, explains and
+/// marks. It sees one key at a time, and which keys go together; it knows no expressions, shapes or files.
 std::string case_schema();
 
 /// For `tailwater run --help-case=study`: the keys of [study] alone, docs/reference/study-keys.md.
