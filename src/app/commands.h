@@ -14,6 +14,7 @@ namespace tailwater {
 void add_new_command(CLI::App& app, ExitCode& code);
 void add_check_command(CLI::App& app, ExitCode& code);
 void add_explain_command(CLI::App& app, ExitCode& code);
+void add_migrate_command(CLI::App& app, ExitCode& code);
 /// `words` are those of the command line after the program, with which other ranks are started.
 void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words);
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,

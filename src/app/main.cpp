@@ -109,6 +109,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_new_command(app, code);
   add_check_command(app, code);
   add_explain_command(app, code);
+  add_migrate_command(app, code);
   add_run_command(app, code, ranks, {argv + 1, argv + argc});
   add_resume_command(app, code, ranks, {argv + 1, argv + argc});
   add_info_command(app, code);

@@ -4,17 +4,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
 #include "case/across_tables.h"
+#include "case/case_toml.h"
 #include "case/driven_walls.h"
 #include "case/expression.h"
 #include "case/formulation.h"
@@ -225,54 +223,6 @@ void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, cons
   context.numbers["g"] = physics.is_wrong("gravity") ? unknown : gravity_magnitude(spec.physics);
 }
 
-/// bytes; a hundred times what a case needs, and read in a moment
-constexpr std::uintmax_t largest_file = 1 << 18;
-
-/// bytes; the case that a run leaves has every key, with its explanation
-constexpr std::uintmax_t largest_effective_case = 32 * largest_file;
-
-std::string read_text(const std::filesystem::path& path, std::uintmax_t largest) {
-  std::error_code error;  // what does not exist is told below
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) {
-    throw IoError(fmt::format("{}: is a folder; give the case file in it", path.string()));
-  }
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw IoError(fmt::format("{}: is a device or a pipe; give a case file", path.string()));
-  }
-  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
-    throw InputError(fmt::format("{}: has {} bytes; a case file has at most {}", path.string(), size, largest));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw IoError(fmt::format("{}: cannot read the case file ({}); check the path, or start one with `tailwater new`",
-                              path.string(), std::generic_category().message(errno)));
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-toml::table parse(std::string_view text, const std::string& file) {
-  if (const auto line = line_of_deep_key(text)) {
-    throw InputError(
-        fmt::format("{}:{}: a key has too many dots; keys are written as in fluid[0].max: a table and a "
-                    "name in it",
-                    file, *line));
-  }
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position where = error.source().begin;
-    std::string description(error.description());  // it quotes letters as they are, ends of lines too
-    std::ranges::replace_if(
-        description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
-    throw InputError(
-        fmt::format("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
-                    where.line, where.column, description));
-  }
-}
-
 /// Where the tables and keys are that messages about shapes, probes and steps name.
 CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
   CaseSources sources;
@@ -309,7 +259,7 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
 CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text, const std::string& origin,
                       const std::vector<std::string>& overrides) {
   Context context(origin, folder);
-  toml::table root = parse(text, origin);
+  toml::table root = parse_case(text, origin);
   for (const std::string& problem : apply_overrides(root, overrides)) {
     context.problems.add_override(problem);
   }
@@ -334,11 +284,11 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
 }  // namespace
 
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_case_in(path.parent_path(), read_text(path, largest_file), path.string(), overrides);
+  return read_case_in(path.parent_path(), read_case_file(path, largest_case_file), path.string(), overrides);
 }
 
 CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_case_in(path.parent_path(), read_text(path, largest_effective_case), path.string(), overrides);
+  return read_case_in(path.parent_path(), read_case_file(path, largest_effective_case), path.string(), overrides);
 }
 
 CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {

@@ -1,62 +1,62 @@
 #include "case/removed_keys.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 namespace tailwater {
 namespace {
 
-struct RemovedKey {
-  std::string_view table;
-  std::string_view key;
-  std::string_view fate;
-};
-
 constexpr std::string_view part =
     "was removed: it is a part of the formulation; scheme.name and scheme.formulation choose among the four there are";
 constexpr std::string_view in_study = "was moved to the table [study], under the same name";
 
 constexpr std::array removed{
-    RemovedKey{"scheme", "kernel", part},
-    RemovedKey{"scheme", "laplacian", part},
-    RemovedKey{"scheme", "gradient", part},
-    RemovedKey{"scheme", "divergence", part},
-    RemovedKey{"scheme", "source", part},
-    RemovedKey{"scheme", "surface", part},
-    RemovedKey{"scheme", "surface_density", part},
-    RemovedKey{"scheme", "walls", part},
-    RemovedKey{"scheme", "viscosity_floor", part},
-    RemovedKey{"scheme", "smagorinsky", part},
-    RemovedKey{"scheme", "shifting_cap", part},
-    RemovedKey{"scheme", "implicit_form", part},
-    RemovedKey{"scheme", "max_passes", part},
-    RemovedKey{"scheme", "pass_tolerance", part},
-    RemovedKey{"scheme", "relax_pressure", part},
-    RemovedKey{"scheme", "relax_velocity", part},
-    RemovedKey{"scheme", "relax_position", part},
-    RemovedKey{"scheme", "support", in_study},
-    RemovedKey{"scheme", "length", in_study},
-    RemovedKey{"scheme", "artificial_viscosity", in_study},
-    RemovedKey{"scheme", "density_relaxation", in_study},
-    RemovedKey{"scheme", "energy_slack", in_study},
-    RemovedKey{"scheme", "divergence_free", in_study},
-    RemovedKey{"scheme", "displacement", in_study},
-    RemovedKey{"scheme", "shifting", "was replaced by study.shifting, the strength of the shifting; 0: none"},
-    RemovedKey{"scheme", "shifting_strength", "was replaced by study.shifting"},
+    RemovedKey{"scheme", "kernel", part, ""},
+    RemovedKey{"scheme", "laplacian", part, ""},
+    RemovedKey{"scheme", "gradient", part, ""},
+    RemovedKey{"scheme", "divergence", part, ""},
+    RemovedKey{"scheme", "source", part, ""},
+    RemovedKey{"scheme", "surface", part, ""},
+    RemovedKey{"scheme", "surface_density", part, ""},
+    RemovedKey{"scheme", "walls", part, ""},
+    RemovedKey{"scheme", "viscosity_floor", part, ""},
+    RemovedKey{"scheme", "smagorinsky", part, ""},
+    RemovedKey{"scheme", "shifting_cap", part, ""},
+    RemovedKey{"scheme", "implicit_form", part, ""},
+    RemovedKey{"scheme", "max_passes", part, ""},
+    RemovedKey{"scheme", "pass_tolerance", part, ""},
+    RemovedKey{"scheme", "relax_pressure", part, ""},
+    RemovedKey{"scheme", "relax_velocity", part, ""},
+    RemovedKey{"scheme", "relax_position", part, ""},
+    RemovedKey{"scheme", "support", in_study, "support"},
+    RemovedKey{"scheme", "length", in_study, "length"},
+    RemovedKey{"scheme", "artificial_viscosity", in_study, "artificial_viscosity"},
+    RemovedKey{"scheme", "density_relaxation", in_study, "density_relaxation"},
+    RemovedKey{"scheme", "energy_slack", in_study, "energy_slack"},
+    RemovedKey{"scheme", "divergence_free", in_study, "divergence_free"},
+    RemovedKey{"scheme", "displacement", in_study, "displacement"},
+    RemovedKey{"scheme", "shifting", "was replaced by study.shifting, the strength of the shifting; 0: none",
+               "shifting"},
+    RemovedKey{"scheme", "shifting_strength", "was replaced by study.shifting", "shifting"},
     RemovedKey{
         "pressure_solver", "method",
-        "was removed: the method goes with the preconditioner; -pressure_ksp_type in petsc_options names another"},
-    RemovedKey{"parallel", "decomposition", "was removed: space is cut by recursive coordinate bisection"},
-    RemovedKey{"limits", "smallest_step", "was removed: a step may shrink to a thousandth of the first"},
-    RemovedKey{"output", "compression", "was removed: field files have the quickest compression"},
+        "was removed: the method goes with the preconditioner; -pressure_ksp_type in petsc_options names another", ""},
+    RemovedKey{"parallel", "decomposition", "was removed: space is cut by recursive coordinate bisection", ""},
+    RemovedKey{"limits", "smallest_step", "was removed: a step may shrink to a thousandth of the first", ""},
+    RemovedKey{"output", "compression", "was removed: field files have the quickest compression", ""},
 };
 
 }  // namespace
 
-std::string_view fate_of(std::string_view table, std::string_view key) {
+std::span<const RemovedKey> removed_keys() { return removed; }
+
+std::string fate_of(std::string_view table, std::string_view key) {
   const auto found =
       std::ranges::find_if(removed, [&](const RemovedKey& entry) { return entry.table == table && entry.key == key; });
-  return found == removed.end() ? std::string_view() : found->fate;
+  if (found == removed.end()) return "";
+  return fmt::format("{}; `tailwater migrate` brings the file up to date", found->fate);
 }
 
 }  // namespace tailwater

@@ -1,12 +1,23 @@
 // What has become of keys that case files once had.
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace tailwater {
 
-/// For a message: what to do in place of a key that is no more, as in "was removed: ..."; empty if there never was such
-/// a key.
-std::string_view fate_of(std::string_view table, std::string_view key);
+struct RemovedKey {
+  std::string_view table;
+  std::string_view key;
+  std::string_view fate;       ///< what a message says of it, as in "was removed: ..."
+  std::string_view successor;  ///< the key of [study] that has its value today; empty: none
+};
+
+std::span<const RemovedKey> removed_keys();
+
+/// For a message: what to do in place of a key that is no more, and that `tailwater migrate` does it; empty if there
+/// never was such a key.
+std::string fate_of(std::string_view table, std::string_view key);
 
 }  // namespace tailwater

@@ -241,10 +241,10 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
   }
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
-      const std::string_view fate = fate_of(name_, key.str());
+      const std::string fate = fate_of(name_, key.str());
       wrong(key.str(), node,
             fate.empty() ? fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid))
-                         : std::string(fate));
+                         : fate);
     }
   }
 }

@@ -1,0 +1,25 @@
+// The text of a case file, and the TOML that it is.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tailwater {
+
+/// bytes; a hundred times what a case needs, and read in a moment
+inline constexpr std::uintmax_t largest_case_file = 1 << 18;
+
+/// bytes; the case that a run leaves has every key, with its explanation
+inline constexpr std::uintmax_t largest_effective_case = 32 * largest_case_file;
+
+/// Throws IoError if it is no file that can be read, InputError if it has more than `largest` bytes.
+std::string read_case_file(const std::filesystem::path& path, std::uintmax_t largest);
+
+/// Throws InputError with `file`, line and column where the text is not TOML.
+toml::table parse_case(std::string_view text, const std::string& file);
+
+}  // namespace tailwater
