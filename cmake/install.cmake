@@ -9,7 +9,7 @@ install(DIRECTORY validation/tailwater_validation DESTINATION ${data}/validation
         PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY cases DESTINATION ${data} COMPONENT program)
 install(FILES benchmarks/dam_break_3d.toml DESTINATION ${data}/benchmarks COMPONENT program)
-install(FILES LICENSE NOTICE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE NOTICE CITATION.cff web/dist/licences.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
         COMPONENT documents)
 set(TAILWATER_SITE "" CACHE PATH "Site that scripts/site.py has built, to be installed in place of the documents")
