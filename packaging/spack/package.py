@@ -7,6 +7,7 @@ class Tailwater(CMakePackage):
 
     license("Apache-2.0")
     version("main", branch="main")
+    version("1.0.0", tag="v1.0.0")
 
     variant("benchmarks", default=False, description="Build the benchmarks of the rooms")
 

@@ -2,7 +2,7 @@
 // tools skip, so that a sealed HDF5 file is still one for them:
 //
 //     tailwater checkpoint, format 1
-//     written by tailwater 0.1.0 (commit abc123)
+//     written by tailwater 1.0.0 (commit abc123)
 //     ranks 2
 //     bytes 123456
 //     crc32 89abcdef

@@ -9,7 +9,7 @@ namespace tailwater {
 /// {"version", "commit", "compiler", "options", "libraries", "machine": {"name", "processor", "cores"}}
 nlohmann::ordered_json provenance();
 
-/// "tailwater 0.1.0 (commit abc123)"
+/// "tailwater 1.0.0 (commit abc123)"
 std::string version_line();
 
 }  // namespace tailwater

@@ -60,6 +60,11 @@ class Installed(unittest.TestCase):
             self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
         self.tailwater("waves", "--help")
 
+    def test_version_is_one(self):
+        version = self.tailwater("--version").split()[1]
+        self.assertIn(f"\nversion: {version}\n", (SOURCES / "CITATION.cff").read_text(encoding="utf-8"))
+        self.assertIn(f"\n## [{version}]", (SOURCES / "CHANGELOG.md").read_text(encoding="utf-8"))
+
     def test_manual_page_and_completion_are_there(self):
         share = self.prefix / "share"
         for path in ("man/man1/tailwater.1", "bash-completion/completions/tailwater", "zsh/vendor-completions/_tailwater",
