@@ -49,7 +49,7 @@ if(TAILWATER_DEBIAN_FILES)
     string(REPLACE ":" ";" pair ${pair})
     list(GET pair 0 component)
     list(GET pair 1 package)
-    install(FILES ${TAILWATER_DEBIAN_FILES}/copyright ${TAILWATER_DEBIAN_FILES}/changelog.Debian.gz
+    install(FILES ${TAILWATER_DEBIAN_FILES}/copyright ${TAILWATER_DEBIAN_FILES}/changelog.gz
             DESTINATION share/doc/${package} COMPONENT ${component})
   endforeach()
 endif()

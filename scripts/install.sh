@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [web] [site] [fuzz]   default: all but site, fuzz
+# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [web] [site] [package] [fuzz]   default: all but the last three
 set -euo pipefail
 
 build=(
@@ -14,6 +14,7 @@ pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb
 benchmarks=(libbenchmark-dev "${pictures[@]}")
 web=(chromium)  # for the tests of the page; what builds it is Node, below
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
+package=(dpkg-dev lintian debootstrap)  # scripts/package.sh
 site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
 tests=(libgtest-dev clang-format clang-tidy python3-jsonschema "${pictures[@]}" "${site[@]}")
 
@@ -35,8 +36,9 @@ for group in "$@"; do
     benchmarks) wanted+=("${benchmarks[@]}") ;;
     web) wanted+=("${web[@]}"); page=yes ;;
     site) wanted+=("${site[@]}") ;;
+    package) wanted+=("${package[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, web, site, fuzz" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, web, site, package, fuzz" >&2; exit 2 ;;
   esac
 done
 missing=()

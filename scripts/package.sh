@@ -4,7 +4,7 @@
 # --check: also lintian, and a trial of the installed packages in a Debian root made by debootstrap (as root).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/install.sh build site
+scripts/install.sh build site package
 version=$(sed -nE 's/^project\(tailwater VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 
 files=build/debian-files
@@ -25,7 +25,17 @@ Copyright: the authors named at the head of each file
 License: measurements
  Numbers measured and published by others, with their source at the head of each
  file; see NOTICE.
+
+Files: html/*
+Copyright: 2013-2020 Khan Academy and other contributors (KaTeX)
+ 2016-2022 Martin Donath (Material for MkDocs)
+License: Expat
+
+Files: web/dist/view.html
+Copyright: the authors of its libraries, named in the licence
+License: Expat
 TEXT
+  sed -e 's/^$/./' -e 's/^/ /' web/dist/licences.txt
 } >"$files/copyright"
 {
   echo "tailwater ($version) unstable; urgency=low"
@@ -33,17 +43,19 @@ TEXT
   echo "  * See CHANGELOG.md."
   echo
   echo " -- The Tailwater developers <maintainers@tailwater.example>  $(date -R -d "@$(git log -1 --format=%ct)")"
-} | gzip -9n >"$files/changelog.Debian.gz"
+} | gzip -9n >"$files/changelog.gz"
 
-build() {  # NAME ARCH [cmake arguments]
+configure() {  # NAME ARCH [cmake arguments]
   cmake -S . -B "build/package-$1" -G Ninja -D CMAKE_BUILD_TYPE=Release -D TAILWATER_BUILD_TESTS=OFF -D TAILWATER_ARCH="$2" \
     -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
-  cmake --build "build/package-$1"
 }
 scripts/site.py build/site
-build v3 x86-64-v3
-build v2 x86-64-v2 -D TAILWATER_FASTER_PROGRAM="$PWD/build/package-v3/bin/tailwater" -D TAILWATER_DEBIAN_FILES="$PWD/$files" \
+configure v3 x86-64-v3
+cmake --build build/package-v3 --target tailwater
+strip -o "$files/tailwater-v3" build/package-v3/bin/tailwater
+configure v2 x86-64-v2 -D TAILWATER_FASTER_PROGRAM="$PWD/$files/tailwater-v3" -D TAILWATER_DEBIAN_FILES="$PWD/$files" \
   -D TAILWATER_SITE="$PWD/build/site"
+cmake --build build/package-v2
 mkdir -p build/package
 (cd build/package-v2 && cpack -G DEB -B ../package >/dev/null)
 rm -rf build/package/_CPack_Packages
