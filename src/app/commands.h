@@ -23,6 +23,7 @@ void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
 void add_validate_command(CLI::App& app, ExitCode& code);
 void add_waves_command(CLI::App& app, ExitCode& code);
+void add_bed_command(CLI::App& app, ExitCode& code);
 void add_pictures_command(CLI::App& app, ExitCode& code);
 void add_view_command(CLI::App& app, ExitCode& code);
 /// `man` and `completion`, which tell of all commands of `app`.

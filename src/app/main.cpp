@@ -116,6 +116,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   add_bench_command(app, code);
   add_validate_command(app, code);
   add_waves_command(app, code);
+  add_bed_command(app, code);
   add_pictures_command(app, code);
   add_view_command(app, code);
   add_help_commands(app);

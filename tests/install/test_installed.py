@@ -59,6 +59,7 @@ class Installed(unittest.TestCase):
         for command in ("validate", "bench robustness"):
             self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
         self.tailwater("waves", "--help")
+        self.assertIn("GeoTIFF", self.tailwater("bed", "--help"))
 
     def test_version_is_one(self):
         version = self.tailwater("--version").split()[1]

@@ -1,0 +1,122 @@
+"""Terrains of which every height is known."""
+
+import contextlib
+import io
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from tailwater_validation import bed
+
+try:
+    import rasterio
+    from rasterio.transform import from_origin
+except ImportError:
+    rasterio = None
+
+X0, Y0 = 512000.0, 5401000.0  # of a survey, m
+
+
+def height(x, y):
+    """A plane, which linear interpolation keeps."""
+    return 210 + 0.25 * (x - X0) - 0.125 * (y - Y0)
+
+
+def facets(path):
+    data = path.read_bytes()
+    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    found = np.frombuffer(data[84:], dtype=kind)
+    assert int.from_bytes(data[80:84], "little") == len(found)
+    return found
+
+
+class Bed(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.stl = self.folder / "bed.stl"
+
+    def make(self, terrain, *options, expect=0):
+        told, errors = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(told), contextlib.redirect_stderr(errors):
+            code = bed.main(["--program", "x", str(terrain), "--to", str(self.stl), *map(str, options)])
+        self.assertEqual(code, expect, errors.getvalue())
+        return errors.getvalue() if expect else told.getvalue()
+
+    def points(self, name, xy, header=""):
+        path = self.folder / name
+        path.write_text(header + "".join(f"{x:.3f} {y:.3f} {height(x, y):.4f}\n" for x, y in xy), encoding="utf-8")
+        return path
+
+    def is_the_plane(self, found, origin=(X0, Y0, 0.0)):
+        x, y, z = (found["corners"].astype(float) + origin).reshape(-1, 3).T
+        np.testing.assert_allclose(z, height(x, y), atol=2e-4)  # four decimals in the file, single precision in the mesh
+        self.assertTrue((found["normal"][:, 2] > 0).all(), "the front is the upper side")
+
+    def test_grid_of_points(self):
+        grid = [(X0 + 2 * i, Y0 + 3 * j) for j in range(4) for i in range(6)]
+        told = self.make(self.points("grid.xyz", grid, "# survey\nx y z\n"))
+        self.assertEqual(len(facets(self.stl)), 2 * 5 * 3)
+        self.is_the_plane(facets(self.stl))
+        for part in ("30 triangles, x 0 to 10, y 0 to 9", "origin is 512000, 5401000, 0", 'file = "bed.stl"'):
+            self.assertIn(part, told)
+
+    def test_a_hole_of_the_survey_stays_one(self):
+        grid = [(X0 + i, Y0 + j) for j in range(4) for i in range(4) if (i, j) != (1, 1)]
+        self.make(self.points("hole.xyz", grid))
+        self.assertEqual(len(facets(self.stl)), 2 * (9 - 4))
+
+    def test_scattered_points(self):
+        rng = np.random.default_rng(5)
+        corners = [(X0, Y0), (X0 + 50, Y0), (X0, Y0 + 40), (X0 + 50, Y0 + 40)]
+        xy = corners + [(X0 + 50 * a, Y0 + 40 * b) for a, b in rng.random((60, 2))]
+        self.make(self.points("scattered.csv", xy))
+        found = facets(self.stl)
+        self.is_the_plane(found)
+        sides = found["corners"][:, 1:, :2] - found["corners"][:, :1, :2]
+        area = 0.5 * np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]).sum()
+        self.assertAlmostEqual(area, 50 * 40, places=1)  # the hull of the points, without gap or overlap
+
+    def test_part_of_it_on_a_coarser_grid_from_another_origin(self):
+        grid = [(X0 + i, Y0 + j) for j in range(21) for i in range(31)]
+        self.make(self.points("fine.xyz", grid), "--box", X0 + 5, Y0 + 5, X0 + 25, Y0 + 15, "--step", 2.5, "--origin",
+                  X0 + 10, Y0, "--datum", 200)
+        found = facets(self.stl)
+        self.assertEqual(len(found), 2 * 8 * 4)
+        self.is_the_plane(found, (X0 + 10, Y0, 200))
+        np.testing.assert_allclose(found["corners"][..., 0].min(), -5)
+
+    @unittest.skipUnless(rasterio, "python3-rasterio is not there (scripts/install.sh tests)")
+    def test_geotiff(self):
+        path = self.folder / "terrain.tif"
+        x, y = X0 + 2 * (np.arange(6) + 0.5), Y0 + 8 - 2 * (np.arange(4) + 0.5)  # the first row is in the north
+        z = height(*np.meshgrid(x, y)).astype("float32")
+        z[0, 0] = -9999
+        profile = {"driver": "GTiff", "width": 6, "height": 4, "count": 1, "dtype": "float32", "nodata": -9999}
+        with rasterio.open(path, "w", crs="EPSG:25832", transform=from_origin(X0, Y0 + 8, 2, 2), **profile) as raster:
+            raster.write(z, 1)
+        self.make(path)
+        self.assertEqual(len(facets(self.stl)), 2 * (15 - 1))
+        self.is_the_plane(facets(self.stl), (X0 + 1, Y0 + 1, 0))
+        with rasterio.open(path, "w", crs="EPSG:4326", transform=from_origin(9, 48, 1e-4, 1e-4), **profile) as raster:
+            raster.write(z, 1)
+        self.assertIn("is in degrees", self.make(path, expect=2))
+
+    def test_what_is_wrong_is_told(self):
+        for text, part in (("1 2 3\n4 5\n", "wrong.xyz:2: has 2 numbers"), ("1 2 3\n4 5 x\n", "wrong.xyz:2: not numbers"),
+                           ("1 2 3\n", "has 1 points"), ("0 0 1\n1 1 1\n2 2 1\n3 3 2\n", "no surface")):
+            path = self.folder / "wrong.xyz"
+            path.write_text(text, encoding="utf-8")
+            self.assertIn(part, self.make(path, expect=2))
+        self.assertIn("there is no such file", self.make(self.folder / "nowhere.tif", expect=2))
+        grid = self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)])
+        self.assertIn("no height in this --box", self.make(grid, "--box", 0, 0, 1, 1, expect=2))
+        self.assertIn("above 0 m", self.make(grid, "--step", 0, expect=2))
+        self.assertFalse(self.stl.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,193 @@
+"""`tailwater bed`: a surveyed terrain as the mesh of a wall.
+
+Reads a GeoTIFF or any other raster that rasterio knows, or a text file of x, y and z, and writes an STL mesh whose front
+is its upper side. Coordinates become those of the case: the origin is the lower left corner, or that of --origin.
+
+Usage: python -m tailwater_validation.bed --program FILE TERRAIN --to BED.stl [--box X0 Y0 X1 Y1] [--origin X Y] [--datum Z]
+       [--step M]
+Exit codes: 0 done; 2 bad input, 4 a file cannot be read or written.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from .command import PlainParser, number
+from .curves import DataError
+from .whole_file import write_whole
+
+LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands
+
+
+class Terrain:
+    """Points (n, 3) in m, in the survey's coordinates, and triangles of them (m, 3), counter-clockwise from above."""
+
+    def __init__(self, points, triangles):
+        self.points, self.triangles = points, triangles
+
+    def bounds(self):
+        used = self.points[np.unique(self.triangles)]
+        return used.min(axis=0), used.max(axis=0)
+
+    def within(self, x0, y0, x1, y1):
+        """The triangles that lie in the box."""
+        x, y = self.points[:, 0], self.points[:, 1]
+        inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
+        return Terrain(self.points, self.triangles[inside[self.triangles].all(axis=1)])
+
+    def resampled(self, step):
+        """Heights on a square grid of that step, linear between those that are known."""
+        import matplotlib.tri
+
+        low, high = self.bounds()
+        surface = matplotlib.tri.Triangulation(self.points[:, 0], self.points[:, 1], self.triangles)
+        x = np.arange(low[0], high[0] + 1e-9 * step, step)
+        y = np.arange(low[1], high[1] + 1e-9 * step, step)
+        z = matplotlib.tri.LinearTriInterpolator(surface, self.points[:, 2])(*np.meshgrid(x, y))
+        return from_grid(x, y, np.ma.filled(z, np.nan))
+
+
+def from_grid(x, y, z):
+    """Two triangles for each cell of a grid, z[row of y, column of x], whose four corners are known."""
+    rows, columns = z.shape
+    number_of = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = number_of[:-1, :-1], number_of[:-1, 1:], number_of[1:, 1:], number_of[1:, :-1]
+    known = np.isfinite(z)
+    whole = known[:-1, :-1] & known[:-1, 1:] & known[1:, 1:] & known[1:, :-1]
+    triangles = np.concatenate([np.stack([a, b, c], axis=-1)[whole], np.stack([a, c, d], axis=-1)[whole]])
+    grid_x, grid_y = np.meshgrid(x, y)
+    return Terrain(np.stack([grid_x.ravel(), grid_y.ravel(), z.ravel()], axis=-1), triangles)
+
+
+def read_raster(path):
+    try:
+        import rasterio
+    except ImportError:
+        raise DataError(f"{path}: rasters are read by rasterio, which is not there; remedy: apt install python3-rasterio, "
+                        "or give a text file of x, y and z") from None
+    try:
+        with rasterio.open(path) as raster:
+            if raster.crs is not None and raster.crs.is_geographic:
+                raise DataError(f"{path}: is in degrees ({raster.crs}); remedy: bring it to metres, as by gdalwarp -t_srs "
+                                "EPSG:25832 in.tif out.tif with the projection of the place")
+            to_metres = raster.transform
+            if to_metres.b != 0 or to_metres.d != 0:
+                raise DataError(f"{path}: its rows are not along x; remedy: gdalwarp in.tif out.tif")
+            z = raster.read(1, masked=True).astype(float)
+    except rasterio.errors.RasterioIOError as error:
+        raise DataError(f"{path}: cannot be read: {error}") from None
+    x = to_metres.c + to_metres.a * (np.arange(z.shape[1]) + 0.5)  # middles of the cells
+    y = to_metres.f + to_metres.e * (np.arange(z.shape[0]) + 0.5)
+    z = np.ma.filled(z, np.nan)
+    return from_grid(np.sort(x), np.sort(y), z[np.argsort(y)][:, np.argsort(x)])
+
+
+def numbers_of(path):
+    """The points of a text file: three numbers a line, by blanks, commas or semicolons; # begins a comment."""
+    points = []
+    for line_number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+        words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
+        if not words:
+            continue
+        try:
+            point = [float(word) for word in words]
+        except ValueError:
+            if not points:
+                continue  # names of the columns
+            raise DataError(f"{path}:{line_number}: not numbers: {line[:60]}") from None
+        if len(point) != 3 or not np.isfinite(point).all():
+            raise DataError(f"{path}:{line_number}: has {len(point)} numbers; a point is x, y and z in m")
+        points.append(point)
+    return np.array(points).reshape(-1, 3)
+
+
+def read_points(path):
+    """A grid where the points are one, else Delaunay's triangles between them."""
+    points = numbers_of(path)
+    if len(points) < 3:
+        raise DataError(f"{path}: has {len(points)} points; a bed needs three")
+    x, y = np.unique(points[:, 0]), np.unique(points[:, 1])
+    column, row = np.searchsorted(x, points[:, 0]), np.searchsorted(y, points[:, 1])
+    if x.size > 1 and y.size > 1 and x.size * y.size <= 2 * len(points):
+        z = np.full((y.size, x.size), np.nan)
+        z[row, column] = points[:, 2]
+        return from_grid(x, y, z)
+    import matplotlib.tri
+
+    try:
+        middle = points[:, :2].mean(axis=0)
+        triangles = matplotlib.tri.Triangulation(*(points[:, :2] - middle).T).triangles
+    except (RuntimeError, ValueError) as error:
+        raise DataError(f"{path}: no surface goes through its points: {error}") from None
+    return Terrain(points, triangles)
+
+
+def read_terrain(path):
+    if not path.is_file():
+        raise DataError(f"{path}: there is no such file")
+    return read_points(path) if path.suffix.lower() in (".xyz", ".txt", ".csv", ".dat") else read_raster(path)
+
+
+def write_stl(path, terrain, origin):
+    """Binary STL, whose numbers have seven digits: enough near the origin, not at a grid's northing of millions."""
+    corners = (terrain.points - origin)[terrain.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    facets = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    facets["normal"], facets["corners"] = normals, corners
+    head = b"bed of Tailwater, m".ljust(80) + np.uint32(len(corners)).tobytes()
+    write_whole(path, lambda part: part.write_bytes(head + facets.tobytes()))
+
+
+def make_bed(options):
+    terrain = read_terrain(options.terrain)
+    if options.box:
+        terrain = terrain.within(*options.box)
+    if options.step and len(terrain.triangles):
+        terrain = terrain.resampled(options.step)
+    count = len(terrain.triangles)
+    if count == 0:
+        raise DataError(f"{options.terrain}: has no height{' in this --box' if options.box else ''}")
+    if count > LARGEST:
+        raise DataError(f"{options.terrain}: makes {count} triangles, more than {LARGEST}; remedy: --box or a --step in m")
+    low, high = terrain.bounds()
+    origin = np.array([*(options.origin or low[:2]), options.datum])
+    write_stl(options.to, terrain, origin)
+    return terrain, origin, low - origin, high - origin
+
+
+def report(options, terrain, origin, low, high):
+    ranges = ", ".join(f"{axis} {low[k]:.6g} to {high[k]:.6g}" for k, axis in enumerate("xyz"))
+    print(f"Wrote {options.to}: {len(terrain.triangles)} triangles, {ranges} m.")
+    print(f"The case's origin is {origin[0]:.10g}, {origin[1]:.10g}, {origin[2]:.10g} of the survey. In the case:\n")
+    print(f'[[wall]]\nname = "bed"\nshape = "mesh"\nfile = "{options.to.name}"\nfluid_side = "above"\nslip = "no-slip"')
+
+
+def main(arguments):
+    parser = PlainParser("tailwater bed", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser.add_argument("terrain", type=Path, metavar="TERRAIN", help="GeoTIFF or another raster; .xyz, .txt, .csv: x y z")
+    parser.add_argument("--to", type=Path, required=True, metavar="BED.stl", help="the mesh to write")
+    parser.add_argument("--box", type=number, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="only this part, survey's m")
+    parser.add_argument("--origin", type=number, nargs=2, metavar=("X", "Y"),
+                        help="what becomes 0, 0 in the case, survey's m (the lower left corner)")
+    parser.add_argument("--datum", type=number, default=0.0, metavar="Z", help="what becomes z = 0, m (0)")
+    parser.add_argument("--step", type=number, metavar="M", help="a square grid of this step, m (the survey's points)")
+    options = parser.parse_args(arguments)
+    try:
+        if options.to.suffix.lower() != ".stl":
+            raise DataError(f"--to {options.to}: is written as STL; name a file that ends in .stl")
+        if options.step is not None and options.step <= 0:
+            raise DataError(f"--step {options.step:g}: a step is above 0 m")
+        report(options, *make_bed(options))
+    except DataError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 4
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
