@@ -91,7 +91,8 @@ class WallForceProbe {
       : patches_(make_wall_patches(boundary, longest_patch_edge * spec.particles.spacing)),
         chosen_(chosen_shares<Dim>(probe, spec, boundary, patches_)),
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
-        about_(to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
+        about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
+                                          : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spec.particles.spacing),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1) {
@@ -273,6 +274,15 @@ std::vector<std::string> component_columns(std::string_view what, std::string_vi
   return columns;
 }
 
+template <int Dim>
+void add_moment_columns(std::vector<std::string>& columns) {
+  if constexpr (Dim == 2) {
+    columns.emplace_back("moment_N_m_per_m");
+  } else {
+    for (std::string& column : component_columns<3>("moment", "N_m")) columns.push_back(std::move(column));
+  }
+}
+
 /// Throws InputError where the forces between particles are not equal and opposite.
 void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
@@ -297,14 +307,11 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   for (const std::string_view what : {"force", "pressure", "friction"}) {
     for (std::string& column : component_columns<Dim>(what, newton)) reading.columns.push_back(std::move(column));
   }
-  if constexpr (Dim == 2) {
-    reading.columns.emplace_back("moment_N_m_per_m");
-  } else {
-    for (std::string& column : component_columns<3>("moment", "N_m")) reading.columns.push_back(std::move(column));
-  }
+  const bool has_moment = !probe.moment_about.empty();
+  if (has_moment) add_moment_columns<Dim>(reading.columns);
   if (walls->has_power()) reading.columns.push_back("power_to_water_W" + per_width);
 
-  reading.take = [walls, memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  reading.take = [walls, memory, has_moment](const ProbeContext<Dim>& context) -> std::vector<Row> {
     const Loads<Dim> loads = walls->read(context);
     const Vec<Dim> force = loads.force();
     ForceMemory<Dim>{*memory}.add(context.time, force);
@@ -312,7 +319,7 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
     for (const Vec<Dim>& vector : {force, loads.pressure, loads.friction}) {
       row.insert(row.end(), vector.begin(), vector.end());
     }
-    row.insert(row.end(), loads.moment.begin(), loads.moment.end());
+    if (has_moment) row.insert(row.end(), loads.moment.begin(), loads.moment.end());
     if (walls->has_power()) row.push_back(loads.power);
     return {row};
   };

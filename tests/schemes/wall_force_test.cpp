@@ -327,5 +327,14 @@ TEST(WallForceRefuses, SchemesWithoutReactions) {
   }
 }
 
+TEST(WallForce, HasNoMomentWithoutAPointForIt) {
+  CaseSpec spec = tank_case<2>(0.1, 0.5, 0.3);
+  spec.probes = {force_probe({})};
+  const Flow<2> flow(spec);
+  const Reading<2> reading = force_reading<2>(spec.probes[0], spec, flow.walls.boundary);
+  EXPECT_EQ(reading.columns.size(), 6U);  // force, pressure, friction
+  for (const std::string& column : reading.columns) EXPECT_EQ(column.find("moment"), std::string::npos) << column;
+}
+
 }  // namespace
 }  // namespace tailwater
