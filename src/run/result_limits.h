@@ -15,29 +15,39 @@ class ResultLimits {
   template <int Dim>
   ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow);
 
-  /// Call after every step; `energy_rise` [J] is the largest rise so far. Warns once of each error. Throws SolverError,
-  /// which names the key, beyond a limit that ends the run.
+  /// Call after every step; `energy_rise` [J] is the largest rise so far. Warns when an error passes its limit. Of a
+  /// rise of energy it does not warn as long as that would lift the water's surface by less than a tenth of dx: so well
+  /// a lattice that was cut by walls knows where it comes to rest. Throws SolverError, which names the key, beyond a
+  /// limit that ends the run.
   void check(double time, double energy_rise, const FlowMeasures& measures);
+  /// Warns again of what has grown since it was warned of. Call at the end of the run.
+  void warn_of_largest();
 
-  /// What has been warned of, for a checkpoint, and from one.
+  /// What has been warned of and what was largest, for a checkpoint, and from one.
   nlohmann::json saved() const;
   void restore(const nlohmann::json& saved);
 
  private:
   struct Limit {
     const char* what;
+    const char* most;  ///< the same of the largest
     const char* keys;  ///< the keys are limits.KEYS_warning and limits.KEYS_stop
     double warning;
     double stop;
-    bool has_warned = false;
+    double told = 0.0;  ///< the error that was warned of
+    double largest = 0.0;
+    double time_of_largest = 0.0;  ///< s
   };
 
-  static void check(Limit& limit, double time, double error);
+  /// Errors up to `harmless` are not warned of. `growth` is what is told of the largest.
+  static void check(Limit& limit, double time, double error, double harmless, double growth);
 
   Limit energy_;
   Limit volume_;
-  double volume_at_start_;  ///< m^Dim
-  double potential_scale_;  ///< J/m^Dim; of water L/2 above the ground
+  double volume_at_start_;   ///< m^Dim
+  double kinetic_at_start_;  ///< J
+  double potential_scale_;   ///< J/m^Dim; of water L/2 above the ground
+  double unresolved_;        ///< J/m^Dim; of water lifted by dx/20, which lifts its surface by dx/10
 };
 
 }  // namespace tailwater
