@@ -6,68 +6,81 @@
 namespace tailwater {
 namespace {
 
-/// More are needed only where many points of a body touch at once.
-constexpr int contact_sweeps = 100;
+/// Where a surface is at the start of a step, and how it moves.
+template <int Dim>
+struct SurfaceMotion {
+  AffineMap<Dim> placement;
+  AffineMap<Dim> velocity{Mat<Dim>::Zero(), Vec<Dim>::Zero()};  ///< of what is drawn at x
+};
+
+template <int Dim>
+class ContactFinder {
+ public:
+  ContactFinder(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
+                std::span<const Freedom> freedoms)
+      : flow_(flow), bodies_(bodies), dt_(dt), freedoms_(freedoms) {}
+
+  std::vector<OneSidedForce> find() const {
+    std::vector<OneSidedForce> contacts;
+    const ContactSurfaces<Dim>& surfaces = flow_.setup.contact;
+    for (const ContactSurface<Dim>& surface : surfaces.each) {
+      const SurfaceMotion<Dim> motion = motion_of(surface);
+      for (int b = 0; b < static_cast<int>(surfaces.points.size()); ++b) {
+        if (b == surface.body) continue;
+        for (const Vec<Dim>& point : surfaces.points[b]) add(b, bodies_[b].placement(point), surface, motion, contacts);
+      }
+    }
+    return contacts;
+  }
+
+ private:
+  SurfaceMotion<Dim> motion_of(const ContactSurface<Dim>& surface) const {
+    SurfaceMotion<Dim> motion;
+    if (surface.body >= 0) motion.placement = bodies_[surface.body].placement;
+    if (surface.wall < 0) return motion;
+    const double time = flow_.state.time;
+    const auto& moving = flow_.setup.wall_motion.moving();
+    const auto wall = std::ranges::find(moving, surface.wall, &WallMotion<Dim>::MovingWall::wall);
+    motion.placement = wall->in_period(wall->at(time, flow_.state.motion));
+    motion.velocity = wall->mean_velocity(time, time + dt_, flow_.state.motion);
+    return motion;
+  }
+
+  /// The point of body b that is at x, if it is near the surface.
+  void add(int b, const Vec<Dim>& x, const ContactSurface<Dim>& surface, const SurfaceMotion<Dim>& motion,
+           std::vector<OneSidedForce>& contacts) const {
+    const double spacing = flow_.setup.spacing;
+    const Vec<Dim> drawn = motion.placement.inverse(x);
+    const NearestWall<Dim> wall = surface.boundary.nearest(drawn, contact_reach * spacing);
+    if (wall.face < 0) return;
+    const double distance = wall.signed_distance;
+    const Vec<Dim> away = motion.placement.linear * (std::abs(distance) > corner_tolerance * spacing
+                                                         ? Vec<Dim>((drawn - wall.point) / distance)
+                                                         : surface.boundary.faces[wall.face].normal);
+    Vec<Dim> velocity = bodies_[b].velocity_at(x) - motion.velocity(drawn);
+    if (surface.body >= 0) velocity -= bodies_[surface.body].velocity_at(x);
+    contacts.push_back({.direction = on_body<Dim>(freedoms_, bodies_, b, x, away) -
+                                     on_body<Dim>(freedoms_, bodies_, surface.body, x, away),
+                        .speed = away.dot(velocity) + std::max(0.0, distance) / dt_});
+  }
+
+  const Flow<Dim>& flow_;
+  const std::vector<BodyState<Dim>>& bodies_;
+  double dt_;
+  std::span<const Freedom> freedoms_;
+};
 
 }  // namespace
 
 template <int Dim>
-std::vector<Contact> find_contacts(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
-                                   std::span<const Freedom> freedoms) {
-  const ContactSurfaces<Dim>& surfaces = flow.setup.contact;
-  const double spacing = flow.setup.spacing;
-  std::vector<Contact> contacts;
-  for (std::size_t b = 0; b < surfaces.points.size(); ++b) {
-    BodyState<Dim> body = flow.state.motion.bodies.each[b];
-    body.velocity = start.body_velocity[b];
-    for (const Vec<Dim>& point : surfaces.points[b]) {
-      const Vec<Dim> x = body.placement(point);
-      const NearestWall<Dim> wall = surfaces.resting.nearest(x, spacing);
-      if (wall.face < 0) continue;
-      const double distance = std::abs(wall.signed_distance);
-      const Vec<Dim> away = distance > corner_tolerance * spacing ? Vec<Dim>((x - wall.point) / wall.signed_distance)
-                                                                  : surfaces.resting.faces[wall.face].normal;
-      Contact contact{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(freedoms.size())),
-                      away.dot(body.velocity_at(x)) + std::max(0.0, wall.signed_distance) / dt};
-      const Turn<Dim> arm = moment_of<Dim>(x - body.centre, away);
-      for (std::size_t w = 0; w < freedoms.size(); ++w) {
-        const auto [other, entry] = freedoms[w];
-        if (other != b) continue;
-        contact.direction[static_cast<Eigen::Index>(w)] = entry < Dim ? away[entry] : arm[entry - Dim];
-      }
-      contacts.push_back(std::move(contact));
-    }
-  }
-  return contacts;
+std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
+                                         std::span<const Freedom> freedoms) {
+  return ContactFinder<Dim>(flow, bodies, dt, freedoms).find();
 }
 
-// A sweep gives each contact in turn the force that it needs (projected Gauss-Seidel).
-Eigen::VectorXd admitted(std::vector<Contact>& contacts, const Eigen::MatrixXd& inertia, double dt,
-                         const Eigen::VectorXd& wanted, Eigen::VectorXd& push) {
-  push.setZero();
-  Eigen::VectorXd A = wanted;
-  const auto factors = inertia.fullPivLu();
-  for (int sweep = 0; sweep < contact_sweeps; ++sweep) {
-    bool is_changed = false;
-    for (Contact& contact : contacts) {
-      if (sweep == 0) contact.force = 0.0;
-      const double speed = contact.speed_after(dt, A);
-      if (speed >= 0.0 && contact.force == 0.0) continue;
-      const Eigen::VectorXd answer = factors.solve(contact.direction);
-      const double mobility = dt * contact.direction.dot(answer);
-      if (mobility <= 0.0) continue;  // it cannot move that way
-      const double change = std::max(-speed / mobility, -contact.force);
-      contact.force += change;
-      A += change * answer;
-      push += change * contact.direction;
-      is_changed = true;
-    }
-    if (!is_changed) break;
-  }
-  return A;
-}
-
-template std::vector<Contact> find_contacts<2>(const Flow<2>&, const StepStart<2>&, double, std::span<const Freedom>);
-template std::vector<Contact> find_contacts<3>(const Flow<3>&, const StepStart<3>&, double, std::span<const Freedom>);
+template std::vector<OneSidedForce> find_contacts<2>(const Flow<2>&, const std::vector<BodyState<2>>&, double,
+                                                     std::span<const Freedom>);
+template std::vector<OneSidedForce> find_contacts<3>(const Flow<3>&, const std::vector<BodyState<3>>&, double,
+                                                     std::span<const Freedom>);
 
 }  // namespace tailwater

@@ -1,39 +1,20 @@
-// Where a body touches a wall that rests, the wall pushes it with the least force that keeps it from going on into the
-// wall, without friction and without throwing it back.
+// Where a body touches another, or a wall, both push each other with the least force that keeps them from going on into
+// each other, without friction and without throwing them back. With the gap d and the normal n, the speed apart of a
+// OneSidedForce is
+//
+//   w = d/dt + (V^{n+1} of the one - V^{n+1} of the other) . n,
+//
+// so that a gap may close within the step but not more than close (docs/theory/floating_bodies.md).
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <vector>
-
-#include "flow/flow.h"
-#include "flow/step.h"
+#include "bodies/one_sided_force.h"
 
 namespace tailwater {
 
-/// A degree of freedom of a body.
-struct Freedom {
-  std::size_t body;
-  int entry;  ///< of a Twist
-};
-
-/// A point of a body near a wall. Its speed away from the wall is allowed to be no less than -gap/dt.
-struct Contact {
-  Eigen::VectorXd direction;  ///< of the point away from the wall, per degree of freedom
-  double speed;               ///< m/s; away from the wall at the start of the step, and gap/dt
-  double force = 0.0;         ///< of the wall
-
-  /// Its speed after dt with the acceleration A, and gap/dt: not below 0.
-  double speed_after(double dt, const Eigen::VectorXd& A) const { return speed + dt * direction.dot(A); }
-};
-
+/// Of all points of bodies that are near a wall or another body; `bodies` are as they are at the start of the step of
+/// dt.
 template <int Dim>
-std::vector<Contact> find_contacts(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
-                                   std::span<const Freedom> freedoms);
-
-/// The acceleration nearest to `wanted` with which no contact closes further, where `inertia` is the force per
-/// acceleration; finds the contacts' forces for it, and in `push` their sums on each degree of freedom.
-Eigen::VectorXd admitted(std::vector<Contact>& contacts, const Eigen::MatrixXd& inertia, double dt,
-                         const Eigen::VectorXd& wanted, Eigen::VectorXd& push);
+std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
+                                         std::span<const Freedom> freedoms);
 
 }  // namespace tailwater

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.h"
-#include "bodies/forces.h"
+#include "bodies/contacts.h"
+#include "bodies/moorings.h"
 #include "bodies/verbs.h"
 #include "pressure/solve_rows.h"
 #include "pressure/verbs.h"
@@ -18,18 +20,22 @@ namespace {
 /// undecided. The rest is carried over.
 constexpr double agreement_over_tolerance = 10.0;
 
-/// Passes until the inertia is measured again. From then on each pass doubles what is left to be carried over: a film
-/// of water that a body presses on a wall pushes back or not as it tears, and no motion agrees with it better.
+/// Passes until the inertia is measured again. From then on each pass doubles what is left to be carried over, and in
+/// the end the pass that agreed best counts: a film of water that a body presses on a wall pushes back or not as it
+/// tears, and no motion agrees with it better.
 constexpr int passes_with_old_inertia = 6;
 
 /// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
 constexpr double probing_share = 0.1;
 
+/// What a degree of freedom resists at least, over its mass or mean moment of inertia.
+constexpr double least_share_of_mass = 0.5;
+
 }  // namespace
 
 template <int Dim>
 BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive)
-    : flow_(flow), start_(start), dt_(dt), drive_(drive) {
+    : flow_(flow), start_(start), dt_(dt), drive_(drive), forces_(flow, flow.state.time) {
   const std::vector<FloatingBody<Dim>>& bodies = flow.setup.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (const int entry : bodies[b].free) freedoms_.push_back({b, entry});
@@ -39,7 +45,10 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
     scale_[static_cast<Eigen::Index>(w)] = bodies[freedoms_[w].body].scale()[freedoms_[w].entry];
   }
   push_ = Eigen::VectorXd::Zero(scale_.size());
-  contacts_ = find_contacts<Dim>(flow, start, dt, freedoms_);
+  before_ = flow.state.motion.bodies.each;
+  for (std::size_t b = 0; b < before_.size(); ++b) before_[b].velocity = start.body_velocity[b];
+  one_sided_ = find_contacts<Dim>(flow, before_, dt, freedoms_);
+  std::ranges::move(find_moorings<Dim>(flow.setup, before_, freedoms_), std::back_inserter(one_sided_));
 }
 
 template <int Dim>
@@ -73,25 +82,22 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
   const std::vector<double> solved = flow_.state.particles.pressure;
   finish_pressure(flow_, drive_);
-  const double time = flow_.state.time;
-  const std::vector<Twist<Dim>> pressures = pressure_on_bodies(flow_, flow_.state.particles.pressure, time);
+  const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure);
   flow_.state.particles.pressure = solved;
-  const std::vector<Twist<Dim>> frictions = friction_on_bodies(flow_, time);
+  const std::vector<Twist<Dim>> frictions = forces_.of_friction();
   Eigen::VectorXd g(scale_.size());
   Eigen::VectorXd loads(scale_.size());
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
     const auto [b, entry] = freedoms_[w];
     const FloatingBody<Dim>& body = flow_.setup.bodies[b];
     const BodyState<Dim>& state = flow_.state.motion.bodies.each[b];
-    BodyState<Dim> before = state;  // the loads are those at the start of the step
-    before.velocity = start_.body_velocity[b];
-    Twist<Dim> load = body.load(before, flow_.setup.gravity) + frictions[b] + state.carried_over / dt_;
+    Twist<Dim> load = body.load(before_[b], flow_.setup.gravity) + frictions[b] + state.carried_over / dt_;
     if (!flow_.loads.on_bodies.empty()) load += flow_.loads.on_bodies[b];
     const auto k = static_cast<Eigen::Index>(w);
-    loads[k] = std::max(std::abs(load[entry]), std::abs(pressures[b][entry]));
+    loads[k] = std::max({std::abs(load[entry]), std::abs(pressures[b][entry]), std::abs(push_[k])});
     g[k] = body.force_of(state, state.acceleration)[entry] - pressures[b][entry] - load[entry];
   }
-  forces_ = size(loads);
+  largest_force_ = size(loads);
   return g - push_;
 }
 
@@ -122,6 +128,7 @@ void BodyCoupling<Dim>::measure_inertia(const Eigen::VectorXd& g, double toleran
     accelerate(other);
     report.iterations += solve_once(tolerance).iterations;
     inertia().col(k) = (residual() - g) / step;
+    inertia()(k, k) = std::max(inertia()(k, k), least_share_of_mass * scale_[k]);
     flow_.state.particles.pressure = pressure;
   }
   accelerate(A);
@@ -132,17 +139,22 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   if (flow_.state.motion.bodies.inertia.empty()) measure_inertia(g, tolerance, report);
   const Eigen::VectorXd before = acceleration();
   const Eigen::VectorXd pushed = push_;
-  accelerate(admitted(contacts_, inertia(), dt_, before - inertia().fullPivLu().solve(g + pushed), push_));
+  accelerate(find_one_sided(one_sided_, inertia(), dt_, flow_.setup.spacing,
+                            before - inertia().fullPivLu().solve(g + pushed), push_));
   const Eigen::VectorXd change = acceleration() - before;
   const SolveReport solved = solve_once(tolerance);
   report.iterations += solved.iterations;
   report.restarts += solved.restarts;
   report.residual = solved.residual;
   const Eigen::VectorXd after = residual();
-  // Broyden's update, with degrees of freedom measured alike by their masses.
+  // Broyden's update, with degrees of freedom measured alike by their masses. A change that seems to need less force
+  // than the mass alone tells of water that tears, not of water that goes along: nothing to learn from.
   const Eigen::VectorXd weighted = change.cwiseProduct(scale_);
-  const Eigen::VectorXd missed = (after + push_) - (g + pushed) - inertia() * change;
-  if (const double square = change.dot(weighted); square > 0.0) inertia() += missed * weighted.transpose() / square;
+  const Eigen::VectorXd answer = (after + push_) - (g + pushed);
+  const double square = change.dot(weighted);
+  if (square > 0.0 && change.dot(answer) >= least_share_of_mass * square) {
+    inertia() += (answer - inertia() * change) * weighted.transpose() / square;
+  }
   g = after;
 }
 
@@ -163,23 +175,41 @@ SolveReport BodyCoupling<Dim>::solve(double tolerance) {
   Eigen::VectorXd g = residual();
   const double slack = tolerance * flow_.setup.spacing / dt_;
   const auto is_settled = [&](double share) {
-    return size(g) <= share * forces_ && std::ranges::all_of(contacts_, [&](const Contact& contact) {
-             return contact.speed_after(dt_, acceleration()) >= -slack;
+    return size(g) <= share * largest_force_ && std::ranges::all_of(one_sided_, [&](const OneSidedForce& one) {
+             return !one.is_rigid() || one.speed_after(dt_, acceleration()) >= -slack;
            });
   };
+  Iterate best;
   int passes = 0;
   for (double share = agreement_over_tolerance * tolerance; !is_settled(share); ++passes) {
     if (passes == passes_with_old_inertia) measure_inertia(g, tolerance, report);
     if (passes >= passes_with_old_inertia) share *= 2.0;
     if (share > 1.0) {
-      throw SolverError(
-          fmt::format("the motion of body '{}' and the pressure of the water do not agree after {} passes; remedy: a "
-                      "finer spacing, a smaller scheme.courant, or softer moorings",
-                      flow_.setup.bodies.front().name, passes));
+      if (best.missing > best.largest_force) fail(passes);
+      go_back_to(best);
+      break;
     }
     correct(g, tolerance, report);
+    if (size(g) < best.missing) {
+      best = {acceleration(), push_, flow_.state.particles.pressure, size(g), largest_force_};
+    }
   }
   return report;
+}
+
+template <int Dim>
+void BodyCoupling<Dim>::fail(int passes) const {
+  throw SolverError(
+      fmt::format("the motion of body '{}' and the pressure of the water do not agree after {} passes; remedy: a finer "
+                  "spacing, a smaller scheme.courant, or softer moorings",
+                  flow_.setup.bodies.front().name, passes));
+}
+
+template <int Dim>
+void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
+  push_ = iterate.push;
+  accelerate(iterate.A);
+  flow_.state.particles.pressure = iterate.pressure;
 }
 
 template <int Dim>

@@ -10,9 +10,11 @@
 // kept up to date by Broyden's (1965) updates, from step to step: some two solves in a step.
 #pragma once
 
+#include <limits>
 #include <vector>
 
-#include "bodies/contacts.h"
+#include "bodies/forces.h"
+#include "bodies/one_sided_force.h"
 #include "flow/flow.h"
 #include "flow/step.h"
 
@@ -34,13 +36,23 @@ class BodyCoupling {
   void carry_over();
 
  private:
+  /// A motion, what was found with it, and how far they agree.
+  struct Iterate {
+    Eigen::VectorXd A, push;
+    std::vector<double> pressure;
+    double missing = std::numeric_limits<double>::infinity();  ///< size of the residual
+    double largest_force = 0.0;
+  };
+
   Eigen::VectorXd acceleration() const;
   void accelerate(const Eigen::VectorXd& A);
   SolveReport solve_once(double tolerance);
   /// Takes one step of Newton's method from the residual `g`, and updates it.
   void correct(Eigen::VectorXd& g, double tolerance, SolveReport& report);
-  /// M A - F(p) - loads - push of the contacts, and the size of the forces in it.
+  /// M A - F(p) - loads - push of contacts and lines, and the size of the forces in it.
   Eigen::VectorXd residual();
+  void go_back_to(const Iterate& iterate);
+  [[noreturn]] void fail(int passes) const;
   double size(const Eigen::VectorXd& force) const;
   void measure_inertia(const Eigen::VectorXd& g, double tolerance, SolveReport& report);
   Eigen::Map<Eigen::MatrixXd> inertia();
@@ -49,11 +61,13 @@ class BodyCoupling {
   const StepStart<Dim>& start_;
   double dt_;
   WallDrive<Dim>& drive_;
+  ForcesOnBodies<Dim> forces_;
   std::vector<Freedom> freedoms_;
-  Eigen::VectorXd scale_;  ///< mass or moment of inertia of each degree of freedom
-  std::vector<Contact> contacts_;
-  Eigen::VectorXd push_;  ///< of the contacts, on each degree of freedom
-  double forces_ = 0.0;   ///< size of the largest force in the last residual
+  Eigen::VectorXd scale_;                 ///< mass or moment of inertia of each degree of freedom
+  std::vector<BodyState<Dim>> before_;    ///< the bodies as they are at the start of the step
+  std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
+  Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom
+  double largest_force_ = 0.0;            ///< size of the largest force in the last residual
 };
 
 }  // namespace tailwater

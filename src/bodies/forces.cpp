@@ -15,9 +15,8 @@ class ForceSums {
     for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres_.push_back(body.centre_at(time));
   }
 
-  /// A force at `x` on the body that the wall is of; nothing if it is of none.
-  void add(int wall, const Vec<Dim>& x, const Vec<Dim>& force) {
-    const int body = flow_.setup.body_of_wall[wall];
+  /// A force at `x`; nothing if `body` is -1.
+  void add(int body, const Vec<Dim>& x, const Vec<Dim>& force) {
     if (body < 0) return;
     Eigen::Map<Twist<Dim>> sum(sums_.data() + static_cast<std::size_t>(body) * size);
     sum.template head<Dim>() += force;
@@ -41,56 +40,55 @@ class ForceSums {
   std::vector<double> sums_;
 };
 
-/// Sum over the owned wall particles of bodies of what `force(i)` does to the body of each.
+/// Adds what `force(i)` does to the body of each owned wall particle i of a body.
 template <int Dim, class Force>
-std::vector<Twist<Dim>> sum_on_bodies(const Flow<Dim>& flow, double time, Force&& force) {
-  ForceSums<Dim> sums(flow, time);
+void add_of_bodies(const Flow<Dim>& flow, ForceSums<Dim>& sums, Force&& force) {
   const Particles<Dim>& particles = flow.state.particles;
   const WallParticles<Dim>& table = flow.walls.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
     if (particles.is_fluid(i)) continue;
     const auto row = particles.wall_row[i];
-    const int wall = table.wall[row];
-    if (flow.setup.body_of_wall[wall] >= 0) sums.add(wall, table.position[row], force(i));
+    const int body = flow.setup.body_of_wall[table.wall[row]];
+    if (body >= 0) sums.add(body, table.position[row], force(i));
   }
-  return sums.gather();
 }
 
 }  // namespace
 
 template <int Dim>
-std::vector<Twist<Dim>> pressure_on_bodies(const Flow<Dim>& flow, const std::vector<double>& pressure, double time) {
-  const Particles<Dim>& particles = flow.state.particles;
-  return sum_on_bodies(flow, time, [&](std::size_t i) {
-    return Vec<Dim>(-particles.volume[i] * push_of_wall_particle(flow, i, pressure));
-  });
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure) const {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const auto force = [&](std::size_t i) {
+    return Vec<Dim>(-particles.volume[i] * push_of_wall_particle(flow_, i, pressure));
+  };
+  ForceSums<Dim> sums(flow_, time_);
+  add_of_bodies(flow_, sums, force);
+  return sums.gather();
 }
 
 template <int Dim>
-std::vector<Twist<Dim>> friction_on_bodies(const Flow<Dim>& flow, double time) {
-  return sum_on_bodies(flow, time, [&](std::size_t i) { return flow.wall_forces.friction[i]; });
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_friction() const {
+  ForceSums<Dim> sums(flow_, time_);
+  add_of_bodies(flow_, sums, [&](std::size_t i) { return flow_.wall_forces.friction[i]; });
+  return sums.gather();
 }
 
 template <int Dim>
-std::vector<Twist<Dim>> guard_on_bodies(const Flow<Dim>& flow, double time) {
-  ForceSums<Dim> sums(flow, time);
-  const Particles<Dim>& particles = flow.state.particles;
-  const Boundary<Dim>& boundary = flow.walls.boundary;
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_guard() const {
+  ForceSums<Dim> sums(flow_, time_);
+  const Particles<Dim>& particles = flow_.state.particles;
+  const Boundary<Dim>& boundary = flow_.walls.boundary;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
-    const Vec<Dim>& force = flow.wall_forces.pressure[i];
+    const Vec<Dim>& force = flow_.wall_forces.pressure[i];
     if (!particles.is_fluid(i) || force.isZero(0.0)) continue;
-    const NearestWall<Dim> nearest = boundary.nearest(particles.position[i], search_distance * flow.setup.spacing);
-    if (nearest.face >= 0) sums.add(boundary.faces[nearest.face].wall, nearest.point, force);
+    const NearestWall<Dim> nearest = boundary.nearest(particles.position[i], search_distance * flow_.setup.spacing);
+    if (nearest.face < 0) continue;
+    sums.add(flow_.setup.body_of_wall[boundary.faces[nearest.face].wall], nearest.point, force);
   }
   return sums.gather();
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                \
-  template std::vector<Twist<Dim>> pressure_on_bodies<Dim>(const Flow<Dim>&, const std::vector<double>&, double); \
-  template std::vector<Twist<Dim>> friction_on_bodies<Dim>(const Flow<Dim>&, double);                             \
-  template std::vector<Twist<Dim>> guard_on_bodies<Dim>(const Flow<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+template class ForcesOnBodies<2>;
+template class ForcesOnBodies<3>;
 
 }  // namespace tailwater

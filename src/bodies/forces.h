@@ -8,17 +8,22 @@
 
 namespace tailwater {
 
-/// Forces and moments on each body by a pressure field [Pa] that is up to date on ghosts, at `time` [s], where the
-/// walls are. Collective.
+/// Forces and moments on each body while walls and water stay where they are, at `time` [s].
 template <int Dim>
-std::vector<Twist<Dim>> pressure_on_bodies(const Flow<Dim>& flow, const std::vector<double>& pressure, double time);
+class ForcesOnBodies {
+ public:
+  ForcesOnBodies(const Flow<Dim>& flow, double time) : flow_(flow), time_(time) {}
 
-/// The same of the friction that the present step has found.
-template <int Dim>
-std::vector<Twist<Dim>> friction_on_bodies(const Flow<Dim>& flow, double time);
+  /// By a pressure field [Pa] that is up to date on ghosts. Collective.
+  std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure) const;
+  /// By the friction that the present step has found. Collective.
+  std::vector<Twist<Dim>> of_friction() const;
+  /// By what the last guard took from the water in front of bodies. Collective.
+  std::vector<Twist<Dim>> of_guard() const;
 
-/// What the last guard took from the water in front of bodies, at `time`, where the walls are. Collective.
-template <int Dim>
-std::vector<Twist<Dim>> guard_on_bodies(const Flow<Dim>& flow, double time);
+ private:
+  const Flow<Dim>& flow_;
+  double time_;
+};
 
 }  // namespace tailwater

@@ -43,13 +43,13 @@ PressureReport solve_with_bodies(Flow<Dim>& flow, const StepStart<Dim>& start, c
 template <int Dim>
 void carry_over_second_pressure(Flow<Dim>& flow, const std::vector<double>& correction, double dt) {
   if (flow.setup.bodies.empty()) return;
-  carry_over(flow, pressure_on_bodies(flow, correction, flow.state.time + dt), dt);
+  carry_over(flow, ForcesOnBodies<Dim>(flow, flow.state.time + dt).of_pressure(correction), dt);
 }
 
 template <int Dim>
 void carry_over_guard(Flow<Dim>& flow, double dt) {
   if (flow.setup.bodies.empty()) return;
-  carry_over(flow, guard_on_bodies(flow, flow.state.time + dt), dt);
+  carry_over(flow, ForcesOnBodies<Dim>(flow, flow.state.time + dt).of_guard(), dt);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                \

@@ -705,7 +705,7 @@ struct LimitsTable {
   static void describe(Self& self, Visitor& v) {
     v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
              "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of "
-             "m g L/2 plus the kinetic energy; 0: never");
+             "m g L/2 plus the kinetic energy, and by more than lifts the water's surface by dx/10; 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "
@@ -780,7 +780,8 @@ struct ProbeTable {
                   "Lowest corner of a box; only what is inside of these walls, as drawn, counts");
     v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
     v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
-    v.coordinates("moment_about", self.moment_about, "m", "Point, which does not move, that the moment is taken about");
+    v.coordinates("moment_about", self.moment_about, "m",
+                  "Point, which does not move, that the moment is taken about (default: no moment is written)");
     v.text("body", self.body, "Name of the body whose motion is written");
     v.number("diameter", self.diameter, "m", Range::at_least(0.0),
              "Diameter of the round sensor in the wall, over which the pressure is averaged (2D: its length); 0: a "

@@ -143,6 +143,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       sections(make_sections<Dim>(spec)),
       wave_plates(make_wave_plates<Dim>(spec)),
       bodies(make_bodies<Dim>(spec)),
+      moorings(make_moorings<Dim>(spec)),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       damping(make_damping<Dim>(spec)),
       kernel(make_kernel<Dim>(scheme.kernel, traits_of(spec).support * spacing)),

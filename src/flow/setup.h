@@ -61,6 +61,7 @@ struct Setup {
   std::vector<Opening<Dim>> sections;       ///< one per discharge probe
   std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
   std::vector<FloatingBody<Dim>> bodies;
+  std::vector<Mooring<Dim>> moorings;
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
   ContactSurfaces<Dim> contact;   ///< of the bodies
   std::vector<DampingZone<Dim>> damping;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
@@ -15,6 +16,9 @@ constexpr double time_between_looks = 0.01;
 /// [dx]; how much nearer two particles may come in a step. Those that would meet at one place gain energy
 /// (docs/theory/robustness.md).
 constexpr double largest_way_together = 0.9;
+
+/// [1 over the frequency of a line with what hangs on it]; the force of a line is that at the start of the step.
+constexpr double longest_step_of_moorings = 0.5;
 
 template <int Dim>
 double largest_layer_diffusivity(const Flow<Dim>& flow) {
@@ -35,6 +39,27 @@ double farthest_way_within(const Flow<Dim>& flow, double dt) {
     farthest = std::max(farthest, flow.setup.wall_motion.farthest_way(time, to, flow.state.motion));
   }
   return farthest;
+}
+
+/// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
+template <int Dim>
+double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
+  const auto is_turn = [](int entry) { return entry >= Dim; };
+  const bool turns_at_all = std::ranges::any_of(body.free, is_turn);
+  const bool goes = !std::ranges::all_of(body.free, is_turn);
+  return (goes ? 1.0 / body.mass : 0.0) +
+         (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
+}
+
+template <int Dim>
+double step_of_moorings(const Setup<Dim>& setup) {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const Mooring<Dim>& mooring : setup.moorings) {
+    double mobility = mobility_at<Dim>(setup.bodies[mooring.body], mooring.at);
+    if (mooring.to_body >= 0) mobility += mobility_at<Dim>(setup.bodies[mooring.to_body], mooring.anchor);
+    if (mobility > 0.0) dt = std::min(dt, longest_step_of_moorings / std::sqrt(mooring.stiffness * mobility));
+  }
+  return dt;
 }
 
 }  // namespace
@@ -84,6 +109,7 @@ double next_time_step(const Flow<Dim>& flow) {
   if (setup.wall_motion.moving().empty()) return dt;
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
   // gate may start within the step.
+  dt = std::min(dt, step_of_moorings(setup));
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   const double longest_way = setup.time_step_rule.courant * setup.spacing;
   for (double way = 0.0; (way = farthest_way_within(flow, dt)) > longest_way;) {

@@ -12,6 +12,8 @@ struct AffineMap {
   Vec<Dim> constant = Vec<Dim>::Zero();
 
   Vec<Dim> operator()(const Vec<Dim>& x) const { return linear * x + constant; }
+  /// Where a rigid motion takes x from.
+  Vec<Dim> inverse(const Vec<Dim>& x) const { return linear.transpose() * (x - constant); }
 };
 
 /// The motion of a body from its place under `before` to its place under `after`.

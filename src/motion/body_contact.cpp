@@ -8,23 +8,42 @@
 namespace tailwater {
 namespace {
 
-template <int Dim>
-Boundary<Dim> resting_part(const Boundary<Dim>& boundary, double reach) {
-  Boundary<Dim> resting;
-  resting.walls = boundary.walls;
-  resting.plates = boundary.plates;  // that there are any; they are not asked for their faces
+/// The walls for which `is_part(wall)`, filed for searches up to `reach` (m).
+template <int Dim, class IsPart>
+Boundary<Dim> part_of(const Boundary<Dim>& boundary, double reach, IsPart&& is_part) {
+  Boundary<Dim> part;
+  part.walls = boundary.walls;
+  for (WallProperties& wall : part.walls) wall.body = resting_body;
+  part.plates = boundary.plates;  // that there are any; they are not asked for their faces
   boundary.visit_plain_faces([&](int f) {
-    if (!boundary.walls[boundary.faces[f].wall].moves()) resting.faces.push_back(boundary.faces[f]);
+    if (is_part(boundary.faces[f].wall)) part.faces.push_back(boundary.faces[f]);
   });
   for (const WallMesh& mesh : boundary.meshes) {
-    if (boundary.walls[mesh.wall].moves()) continue;
-    const int first = static_cast<int>(resting.faces.size());
-    resting.faces.insert(resting.faces.end(), boundary.faces.begin() + mesh.first_face,
-                         boundary.faces.begin() + mesh.end_face());
-    resting.meshes.push_back({mesh.surface, first, mesh.wall});
+    if (!is_part(mesh.wall)) continue;
+    const int first = static_cast<int>(part.faces.size());
+    part.faces.insert(part.faces.end(), boundary.faces.begin() + mesh.first_face,
+                      boundary.faces.begin() + mesh.end_face());
+    part.meshes.push_back({mesh.surface, first, mesh.wall});
   }
-  resting.file_faces(reach);
-  return resting;
+  part.file_faces(reach);
+  return part;
+}
+
+/// Corners of the body's patches, each once.
+template <int Dim>
+std::vector<Vec<Dim>> points_of(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary,
+                                const std::vector<WallPatch<Dim>>& patches) {
+  std::vector<Vec<Dim>> points;
+  for (const WallPatch<Dim>& patch : patches) {
+    if (std::ranges::find(body.walls, boundary.faces[patch.face].wall) == body.walls.end()) continue;
+    for (int c = 0; c < Dim; ++c) points.push_back(patch.corner(boundary, c));
+  }
+  const auto is_before = [](const Vec<Dim>& one, const Vec<Dim>& other) {
+    return std::lexicographical_compare(one.begin(), one.end(), other.begin(), other.end());
+  };
+  std::ranges::sort(points, is_before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
 }
 
 }  // namespace
@@ -34,20 +53,20 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
                                            double spacing) {
   ContactSurfaces<Dim> surfaces;
   if (bodies.empty()) return surfaces;
-  surfaces.resting = resting_part(boundary, spacing);
-  surfaces.points.resize(bodies.size());
-  const std::vector<WallPatch<Dim>> patches = make_wall_patches(boundary, longest_patch_edge * spacing);
+  const double reach = contact_reach * spacing;
+  std::vector<int> body_of_wall(boundary.walls.size(), -1);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    std::vector<Vec<Dim>>& points = surfaces.points[b];
-    for (const WallPatch<Dim>& patch : patches) {
-      if (std::ranges::find(bodies[b].walls, boundary.faces[patch.face].wall) == bodies[b].walls.end()) continue;
-      for (int c = 0; c < Dim; ++c) points.push_back(patch.corner(boundary, c));
-    }
-    const auto is_before = [](const Vec<Dim>& one, const Vec<Dim>& other) {
-      return std::lexicographical_compare(one.begin(), one.end(), other.begin(), other.end());
-    };
-    std::ranges::sort(points, is_before);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
+  }
+  surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return !boundary.walls[wall].moves(); })});
+  for (int w = 0; w < static_cast<int>(boundary.walls.size()); ++w) {
+    if (!boundary.walls[w].moves() || body_of_wall[w] >= 0) continue;
+    surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return wall == w; }), w, -1});
+  }
+  const std::vector<WallPatch<Dim>> patches = make_wall_patches(boundary, longest_patch_edge * spacing);
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+    surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return body_of_wall[wall] == b; }), -1, b});
+    surfaces.points.push_back(points_of(bodies[b], boundary, patches));
   }
   return surfaces;
 }

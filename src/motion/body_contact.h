@@ -1,4 +1,4 @@
-// Where floating bodies can touch the walls that rest.
+// Where floating bodies can touch: each other, and all other walls.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,21 @@
 
 namespace tailwater {
 
+/// Bodies are felt from so far, dx: two that approach each other come nearer by less in a step.
+inline constexpr double contact_reach = 2.0;
+
+/// Walls that bodies can touch and that move together: those that rest, those of one body, or one that moves as
+/// prescribed. Alone, as drawn; filed as if they rested.
+template <int Dim>
+struct ContactSurface {
+  Boundary<Dim> boundary;
+  int wall = -1;  ///< index into Boundary::walls of one that moves as prescribed, else -1
+  int body = -1;  ///< index of the body that they are of, or -1
+};
+
 template <int Dim>
 struct ContactSurfaces {
-  Boundary<Dim> resting;                      ///< the walls that rest, alone; filed
+  std::vector<ContactSurface<Dim>> each;
   std::vector<std::vector<Vec<Dim>>> points;  ///< of each body, as drawn: its corners, and others 1.5 dx apart
 };
 

@@ -21,19 +21,11 @@ int entry_of(std::string_view way) {
   }
 }
 
-/// Where a line is fastened, how far it is stretched, and the direction in which it pulls.
-template <int Dim>
-struct Line {
-  Line(const Mooring<Dim>& mooring, const BodyState<Dim>& state) : end(state.placement(mooring.at)) {
-    const Vec<Dim> way = mooring.anchor - end;
-    const double length = way.norm();
-    stretch = length - mooring.length;
-    if (length > 0.0) direction = way / length;
-  }
-  Vec<Dim> end;
-  Vec<Dim> direction = Vec<Dim>::Zero();
-  double stretch;
-};
+/// Index of the body of that name, or -1.
+int body_named(const CaseSpec& spec, const std::string& name) {
+  const auto body = std::ranges::find(spec.bodies, name, &BodyTable::name);
+  return body == spec.bodies.end() ? -1 : static_cast<int>(body - spec.bodies.begin());
+}
 
 }  // namespace
 
@@ -65,12 +57,6 @@ FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
   free.erase(std::unique(free.begin(), free.end()), free.end());
   drawn.centre = to_vec<Dim>(table.centre, owner, "centre");
   drawn.velocity.template head<Dim>() = to_vec<Dim>(table.velocity, owner, "velocity");
-  for (const MooringTable& mooring : spec.moorings) {
-    if (mooring.body != name) continue;
-    const std::string line = "mooring '" + mooring.name + "'";
-    moorings.push_back({to_vec<Dim>(mooring.at, line, "at"), to_vec<Dim>(mooring.anchor, line, "anchor"),
-                        mooring.stiffness, mooring.length, mooring.damping});
-  }
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (std::ranges::find(table.walls, spec.walls[w].name) != table.walls.end()) walls.push_back(static_cast<int>(w));
   }
@@ -109,14 +95,6 @@ Twist<Dim> FloatingBody<Dim>::load(const BodyState<Dim>& state, const Vec<Dim>& 
     const Vec<3> omega = state.angular_velocity();
     load.template tail<3>() = -omega.cross(Vec<3>(inertia_of(state) * omega));
   }
-  for (const Mooring<Dim>& mooring : moorings) {
-    const Line<Dim> line(mooring, state);
-    if (line.stretch <= 0.0) continue;
-    const double stretching = -line.direction.dot(state.velocity_at(line.end));
-    const double pull = std::max(0.0, mooring.stiffness * line.stretch + mooring.damping * stretching);
-    load.template head<Dim>() += pull * line.direction;
-    load.template tail<turns<Dim>>() += moment_of<Dim>(line.end - state.centre, pull * line.direction);
-  }
   return load;
 }
 
@@ -127,11 +105,28 @@ std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec) {
   return bodies;
 }
 
+template <int Dim>
+std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec) {
+  std::vector<Mooring<Dim>> moorings;
+  for (const MooringTable& table : spec.moorings) {
+    const std::string owner = "mooring '" + table.name + "'";
+    moorings.push_back({.body = body_named(spec, table.body),
+                        .at = to_vec<Dim>(table.at, owner, "at"),
+                        .anchor = to_vec<Dim>(table.anchor, owner, "anchor"),
+                        .stiffness = table.stiffness,
+                        .length = table.length,
+                        .damping = table.damping});
+  }
+  return moorings;
+}
+
 template struct BodyState<2>;
 template struct BodyState<3>;
 template struct FloatingBody<2>;
 template struct FloatingBody<3>;
 template std::vector<FloatingBody<2>> make_bodies(const CaseSpec&);
 template std::vector<FloatingBody<3>> make_bodies(const CaseSpec&);
+template std::vector<Mooring<2>> make_moorings(const CaseSpec&);
+template std::vector<Mooring<3>> make_moorings(const CaseSpec&);
 
 }  // namespace tailwater

@@ -65,11 +65,13 @@ Turn<Dim> angle_of(const Mat<Dim>& rotation) {
   }
 }
 
-/// A line that holds a body.
+/// A line from a body to where it rests, or to another body.
 template <int Dim>
 struct Mooring {
-  Vec<Dim> at;      ///< m; on the body, as drawn
-  Vec<Dim> anchor;  ///< m
+  int body;          ///< index into CaseSpec::bodies
+  int to_body = -1;  ///< the same of its other end; -1: that rests
+  Vec<Dim> at;       ///< m; on the body, as drawn
+  Vec<Dim> anchor;   ///< m; the other end, as drawn
   double stiffness;
   double length;  ///< m
   double damping;
@@ -112,18 +114,17 @@ struct FloatingBody {
   FloatingBody(const CaseSpec& spec, const BodyTable& table);
 
   std::string name;
-  double mass;            ///< kg; in 2D per metre of width
-  Turn<Dim> inertia;      ///< kg m^2; about the axes as drawn
-  std::vector<int> free;  ///< entries of a Twist
-  BodyState<Dim> drawn;   ///< at the start
-  std::vector<Mooring<Dim>> moorings;
+  double mass;             ///< kg; in 2D per metre of width
+  Turn<Dim> inertia;       ///< kg m^2; about the axes as drawn
+  std::vector<int> free;   ///< entries of a Twist
+  BodyState<Dim> drawn;    ///< at the start
   std::vector<int> walls;  ///< indices into Boundary::walls
 
   /// The force and moment that give the body an acceleration, beside gyration.
   Twist<Dim> force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const;
   /// Mass, or the mean moment of inertia, of each entry of a Twist: for comparing them.
   Twist<Dim> scale() const;
-  /// Of weight, gyration and moorings.
+  /// Of weight and gyration.
   Twist<Dim> load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
 
  private:
@@ -132,5 +133,9 @@ struct FloatingBody {
 
 template <int Dim>
 std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec);
+
+/// Throws InputError as a body does.
+template <int Dim>
+std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec);
 
 }  // namespace tailwater

@@ -165,6 +165,15 @@ AffineMap<Dim> WallMotion<Dim>::MovingWall::at(double time, const MotionState<Di
 }
 
 template <int Dim>
+AffineMap<Dim> WallMotion<Dim>::MovingWall::in_period(AffineMap<Dim> placement) const {
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (period[axis] > 0.0)
+      placement.constant[axis] -= period[axis] * std::floor(placement.constant[axis] / period[axis]);
+  }
+  return placement;
+}
+
+template <int Dim>
 AffineMap<Dim> WallMotion<Dim>::MovingWall::mean_velocity(double from, double to, const MotionState<Dim>& state) const {
   return mean_velocity_between(at(from, state), at(to, state), to - from);
 }
@@ -205,11 +214,7 @@ template <int Dim>
 void WallMotion<Dim>::place(double time, const MotionState<Dim>& state, Boundary<Dim>& boundary,
                             WallParticles<Dim>& particles) const {
   for (const MovingWall& moving : moving_) {
-    AffineMap<Dim> motion = moving.at(time, state);
-    for (int axis = 0; axis < Dim; ++axis) {
-      const double period = moving.period[axis];
-      if (period > 0.0) motion.constant[axis] -= period * std::floor(motion.constant[axis] / period);
-    }
+    const AffineMap<Dim> motion = moving.in_period(moving.at(time, state));
     for (std::size_t f = 0; f < drawn_faces_.size(); ++f) {
       if (drawn_faces_[f].wall == moving.wall) boundary.faces[f] = moved(motion, drawn_faces_[f]);
     }

@@ -138,6 +138,8 @@ class WallMotion {
 
     /// From where it is drawn to where it is at `time` [s].
     AffineMap<Dim> at(double time, const MotionState<Dim>& state) const;
+    /// The same place one or more periods back, so that the wall and its image cover the domain.
+    AffineMap<Dim> in_period(AffineMap<Dim> placement) const;
     /// From where it is drawn to its mean velocity [m/s] between two times [s].
     AffineMap<Dim> mean_velocity(double from, double to, const MotionState<Dim>& state) const;
   };

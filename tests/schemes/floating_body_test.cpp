@@ -13,7 +13,7 @@ namespace {
 
 BodyTable body_of(const std::string& wall, double mass, const Coordinates& centre, std::vector<double> inertia) {
   BodyTable body;
-  body.name = "body";
+  body.name = wall;
   body.walls = {wall};
   body.mass = mass;
   body.centre = centre;
@@ -32,9 +32,10 @@ void add_body(CaseSpec& spec, const WallTable& hull, const BodyTable& body) {
 }
 
 /// A box whose centre of mass is its own.
-void add_box(CaseSpec& spec, const Coordinates& min, const Coordinates& max, double density) {
+void add_box(CaseSpec& spec, const Coordinates& min, const Coordinates& max, double density,
+             const std::string& name = "hull") {
   WallTable hull;
-  hull.name = "hull";
+  hull.name = name;
   hull.shape = WallShape::box;
   hull.min = min;
   hull.max = max;
@@ -51,7 +52,7 @@ void add_box(CaseSpec& spec, const Coordinates& min, const Coordinates& max, dou
       min.size() == 2 ? std::vector<double>{mass * (squares[0] + squares[1])}
                       : std::vector<double>{mass * (squares[1] + squares[2]), mass * (squares[0] + squares[2]),
                                             mass * (squares[0] + squares[1])};
-  add_body(spec, hull, body_of("hull", mass, centre, inertia));
+  add_body(spec, hull, body_of(name, mass, centre, inertia));
 }
 
 template <class D>
@@ -187,7 +188,7 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   spec.bodies[0].free = {"x"};
   MooringTable line;
   line.name = "line";
-  line.body = "body";
+  line.body = "hull";
   line.at = {2.1, 5.1};
   line.anchor = {2.0, 5.1};
   line.stiffness = mass * omega * omega;
@@ -197,6 +198,86 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   while (flow.state.time < 0.5) longest = std::max(longest, step(flow).dt);
   const double expected = 2.0 + 0.1 * std::cos(omega * flow.state.time);
   EXPECT_NEAR(flow.state.motion.bodies.each[0].centre[0], expected, 0.1 * omega * longest);
+}
+
+// In the air beside a tank: two boxes run into each other, and a piston into both. They do not rebound, so each time
+// they go on with the velocity that their momentum says, or that the piston has, and touch to rounding.
+TEST(FloatingBody, MeetsOthersWithoutPassingOrRebounding) {
+  CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
+  add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0, "a");
+  add_box(spec, {2.4, 5.1}, {2.6, 5.3}, 1000.0, "b");
+  for (BodyTable& body : spec.bodies) body.free = {"x"};
+  spec.bodies[0].velocity = {1.0, 0.0};
+  spec.bodies[1].velocity = {-0.2, 0.0};
+  WallTable piston;
+  piston.name = "piston";
+  piston.shape = WallShape::box;
+  piston.min = {1.6, 4.9};
+  piston.max = {1.9, 5.3};
+  piston.fluid_side = FluidSide::outside;
+  piston.displacement = {"0.5*t", 0.0};
+  spec.walls.push_back(piston);
+  Flow<2> flow(spec);
+  const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
+  const auto gap = [&] { return bodies[1].centre[0] - bodies[0].centre[0] - 0.2; };
+  const double common = (500.0 * 1.0 - 1000.0 * 0.2) / 1500.0;
+  const auto advance_to = [&](double end) {
+    while (flow.state.time < end) {
+      step(flow);
+      ASSERT_GT(gap(), -1e-9) << "t = " << flow.state.time;
+    }
+  };
+  advance_to(0.25);
+  EXPECT_NEAR(gap(), 0.0, 1e-9);
+  EXPECT_NEAR(bodies[0].velocity[0], common, 1e-9);
+  EXPECT_NEAR(bodies[1].velocity[0], common, 1e-9);
+  advance_to(1.5);
+  EXPECT_NEAR(bodies[0].velocity[0], 0.5, 1e-9);
+  EXPECT_NEAR(bodies[1].velocity[0], 0.5, 1e-9);
+  EXPECT_NEAR(bodies[0].centre[0] - 0.1 - (1.9 + 0.5 * flow.state.time), 0.0, 1e-9);
+}
+
+// Two barges drift together in a basin and stay two.
+TEST(FloatingBody, MeetsAnotherInTheWater) {
+  constexpr double dx = 0.05;
+  CaseSpec spec = tank_case<2>(dx, 2.0, 0.4);
+  add_box(spec, {0.4, 0.3}, {0.8, 0.5}, 500.0, "a");
+  add_box(spec, {1.1, 0.3}, {1.5, 0.5}, 500.0, "b");
+  for (BodyTable& body : spec.bodies) body.free = {"x", "y"};
+  spec.bodies[0].velocity = {0.8, 0.0};
+  spec.bodies[1].velocity = {-0.8, 0.0};
+  Flow<2> flow(spec);
+  start(flow);
+  const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
+  double least = 1.0;
+  while (flow.state.time < 1.0) {
+    step(flow);
+    least = std::min(least, bodies[1].centre[0] - bodies[0].centre[0] - 0.4);
+    ASSERT_GT(least, -1e-9) << "t = " << flow.state.time;
+  }
+  EXPECT_LT(least, dx);  // they have met
+}
+
+// A line that is damped a million times more than a step can bear explicitly lets its body down as slowly as its weight
+// stretches it, m g/c, and does not shake it.
+TEST(FloatingBody, HangsOnALineOfAnyDamping) {
+  CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
+  add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0);
+  spec.bodies[0].free = {"x", "y"};
+  MooringTable line;
+  line.name = "line";
+  line.body = "hull";
+  line.at = {2.1, 5.1};
+  line.anchor = {2.1, 6.1};
+  line.length = 1.05;
+  line.stiffness = 50.0;
+  line.damping = 1e9;
+  spec.moorings = {line};
+  Flow<2> flow(spec);
+  while (flow.state.time < 0.3) step(flow);
+  const BodyState<2>& body = flow.state.motion.bodies.each[0];
+  EXPECT_NEAR(body.centre[1], 5.05, 0.01);  // fallen until the line was straight, to the way of a step
+  EXPECT_NEAR(body.velocity[1], -spec.bodies[0].mass * g / line.damping, 1e-7);
 }
 
 }  // namespace

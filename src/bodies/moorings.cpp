@@ -1,0 +1,34 @@
+#include "bodies/moorings.h"
+
+namespace tailwater {
+
+template <int Dim>
+std::vector<OneSidedForce> find_moorings(const Setup<Dim>& setup, const std::vector<BodyState<Dim>>& bodies,
+                                         std::span<const Freedom> freedoms) {
+  std::vector<OneSidedForce> lines;
+  for (const Mooring<Dim>& mooring : setup.moorings) {
+    const BodyState<Dim>& body = bodies[mooring.body];
+    const Vec<Dim> at = body.placement(mooring.at);
+    const bool is_tied = mooring.to_body >= 0;
+    const Vec<Dim> anchor = is_tied ? bodies[mooring.to_body].placement(mooring.anchor) : mooring.anchor;
+    const double length = (anchor - at).norm();
+    const double stretch = length - mooring.length;
+    if (stretch <= 0.0) continue;
+    const Vec<Dim> pull = (anchor - at) / length;
+    Vec<Dim> velocity = body.velocity_at(at);
+    if (is_tied) velocity -= bodies[mooring.to_body].velocity_at(anchor);
+    lines.push_back({.direction = on_body<Dim>(freedoms, bodies, mooring.body, at, pull) -
+                                  on_body<Dim>(freedoms, bodies, mooring.to_body, anchor, pull),
+                     .speed = pull.dot(velocity),
+                     .damping = mooring.damping,
+                     .load = mooring.stiffness * stretch});
+  }
+  return lines;
+}
+
+template std::vector<OneSidedForce> find_moorings<2>(const Setup<2>&, const std::vector<BodyState<2>>&,
+                                                     std::span<const Freedom>);
+template std::vector<OneSidedForce> find_moorings<3>(const Setup<3>&, const std::vector<BodyState<3>>&,
+                                                     std::span<const Freedom>);
+
+}  // namespace tailwater
