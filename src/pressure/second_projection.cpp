@@ -2,6 +2,7 @@
 // no density source. It is done once. What is left then is what the pair of divergence and gradient reads in a
 // disordered set; taking that out too costs pressure and velocity more than it mends (docs/theory/robustness.md).
 #include "base/for_each.h"
+#include "pressure/full_water.h"
 #include "pressure/operators.h"
 #include "pressure/solve_rows.h"
 #include "pressure/suction.h"
@@ -35,9 +36,12 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   report.interventions.fallback_rows = assemble_weights(flow, drive);
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   const Divergence<Dim> divergence(flow, particles.velocity);
-  for_each(particles.owned, [&](std::size_t i) {
-    flow.pressure_rows.set_rhs(i, flow.role[i] == Role::water ? -density / dt * divergence(i) : 0.0);
-  });
+  std::vector<double> source(particles.owned);
+  for_each(particles.owned,
+           [&](std::size_t i) { source[i] = flow.role[i] == Role::water ? -density / dt * divergence(i) : 0.0; });
+  const double fullness = find_fullness(flow);
+  take_out_mean(flow, fullness, source);
+  for_each(particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, source[i]); });
   const SolveReport solved =
       solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance()));
   report.iterations = solved.iterations;
@@ -47,6 +51,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
+  lift_to_zero<Dim>(flow, fullness, particles.pressure, correction);
   admit(flow, correction);
   flow.halo().exchange(correction);
   for_each(particles.owned, [&](std::size_t i) {

@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "pressure/full_water.h"
 #include "pressure/solve_rows.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
@@ -54,8 +55,10 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallD
   if (flow.setup.has_air()) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
     const PressureReport rough = report_of(rows.solve_roughly(rough_tolerance(tolerance)));
+    lift_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
     hold_suction(flow);
     report = report_of(rows.solve(tolerance));
+    lift_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
     report.iterations += rough.iterations;
     report.interventions += rough.interventions;
   } else {

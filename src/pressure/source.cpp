@@ -8,6 +8,7 @@
 // gamma  share of the density error that a step corrects; s_i is what the energy leaves of it for particles too close
 //        (`balance_energy`), and `pull` times `interior` for particles too far apart: at the surface nothing pulls
 #include "base/for_each.h"
+#include "pressure/full_water.h"
 #include "pressure/operators.h"
 #include "pressure/verbs.h"
 
@@ -71,6 +72,9 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
       if (is_sought(i)) source[i] -= unit * (divergence(i) - target[i]);
     });
   }
+  equation.fullness = find_fullness(flow);
+  take_out_mean(flow, equation.fullness, source);
+  take_out_mean(flow, equation.fullness, equation.density_source);
   equation.fallback_rows = assemble_weights(flow, drive);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (is_sought(i)) flow.pressure_rows.set_rhs(i, source[i] + equation.density_source[i]);

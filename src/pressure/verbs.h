@@ -27,6 +27,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 struct PosedEquation {
   std::size_t fallback_rows = 0;
   std::vector<double> density_source;  ///< Pa/m^2; the part of owned rows' sources that answers the density error
+  double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
 };
 
 /// (F15), (F22): lap p = rho/dt (div u_star - target), or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources.

@@ -3,6 +3,7 @@
 // hydrostatic one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -116,6 +117,29 @@ TEST(PublishedTank, StaysHydrostatic) {
       expect_hydrostatic<2>(flow, depth);
     }
     EXPECT_EQ(flow.state.particles.owned, count);
+  }
+}
+
+// Water that fills its box has no surface that would fix its pressure: it depends on nothing and stays that of water at
+// rest, with its least value 0. The speed stays below that with which a tank with a surface settles.
+TYPED_TEST(TankTest, FullOfWaterStaysAtRest) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = tank_case<Dim>(0.1, 1.0, 1.0);
+  if (Dim == 3) spec.fluid[0].max[1] = 0.5;
+  spec.walls[0].max = spec.fluid[0].max;
+  spec.walls[0].open = {};
+  Flow<Dim> flow(spec);
+  start(flow);
+  const double settling = std::sqrt(g * 0.1 / std::numbers::pi);
+  const double weight = flow.setup.density * g * 1.0;
+  while (flow.state.time < 1.5) {
+    step(flow);
+    ASSERT_LT(measure(flow).largest_speed, settling) << "t = " << flow.state.time;
+    double highest = 0.0;
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (flow.state.particles.is_fluid(i)) highest = std::max(highest, flow.state.particles.pressure[i]);
+    }
+    ASSERT_LT(highest, 2.0 * weight) << "t = " << flow.state.time;
   }
 }
 

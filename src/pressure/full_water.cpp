@@ -1,0 +1,57 @@
+#include "pressure/full_water.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+
+template <int Dim>
+double find_fullness(const Flow<Dim>& flow) {
+  if (!flow.setup.has_air() || !flow.setup.open_ends.empty()) return 0.0;
+  const Vec<2> nothing = Vec<2>::Zero();
+  Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
+    return flow.role[i] == Role::water ? Vec<2>(1.0 - flow.here.interior[i], 1.0) : nothing;
+  });
+  flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
+  return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;
+}
+
+template <int Dim>
+void take_out_mean(const Flow<Dim>& flow, double fullness, std::vector<double>& source) {
+  if (fullness == 0.0) return;
+  const Particles<Dim>& particles = flow.state.particles;
+  const Vec<2> nothing = Vec<2>::Zero();
+  Vec<2> sums = sum_over(source.size(), nothing, [&](std::size_t i) {
+    return flow.role[i] == Role::water ? Vec<2>(particles.volume[i] * source[i], particles.volume[i]) : nothing;
+  });
+  flow.setup.ranks.sum_each(sums[0], sums[1]);
+  const double mean = sums[0] / sums[1];
+  for_each(source.size(), [&](std::size_t i) {
+    if (flow.role[i] == Role::water) source[i] -= fullness * mean;
+  });
+}
+
+template <int Dim>
+void lift_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double> rest, std::span<double> part) {
+  if (fullness == 0.0) return;
+  const std::size_t owned = flow.state.particles.owned;
+  constexpr double none = std::numeric_limits<double>::lowest();
+  const double least = -flow.setup.ranks.largest(largest_over(owned, none, [&](std::size_t i) {
+    return flow.here.takes_part[i] ? -part[i] - (rest.empty() ? 0.0 : rest[i]) : none;
+  }));
+  for_each(owned, [&](std::size_t i) {
+    if (flow.here.takes_part[i]) part[i] -= fullness * least;
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                  \
+  template double find_fullness<Dim>(const Flow<Dim>&);                             \
+  template void take_out_mean<Dim>(const Flow<Dim>&, double, std::vector<double>&); \
+  template void lift_to_zero<Dim>(const Flow<Dim>&, double, std::span<const double>, std::span<double>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater
