@@ -35,7 +35,12 @@ constexpr double least_share_of_mass = 0.5;
 
 template <int Dim>
 BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive)
-    : flow_(flow), start_(start), dt_(dt), drive_(drive), forces_(flow, flow.state.time) {
+    : flow_(flow),
+      start_(start),
+      dt_(dt),
+      drive_(drive),
+      forces_(flow, flow.state.time),
+      covered_(find_covered(flow, flow.state.time)) {
   const std::vector<FloatingBody<Dim>>& bodies = flow.setup.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (const int entry : bodies[b].free) freedoms_.push_back({b, entry});
@@ -82,7 +87,7 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
   const std::vector<double> solved = flow_.state.particles.pressure;
   finish_pressure(flow_, drive_);
-  const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure);
+  const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
   flow_.state.particles.pressure = solved;
   const std::vector<Twist<Dim>> frictions = forces_.of_friction();
   Eigen::VectorXd g(scale_.size());

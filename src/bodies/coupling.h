@@ -62,6 +62,7 @@ class BodyCoupling {
   double dt_;
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;
+  std::vector<CoveredParticle> covered_;
   std::vector<Freedom> freedoms_;
   Eigen::VectorXd scale_;                 ///< mass or moment of inertia of each degree of freedom
   std::vector<BodyState<Dim>> before_;    ///< the bodies as they are at the start of the step

@@ -56,13 +56,17 @@ void add_of_bodies(const Flow<Dim>& flow, ForceSums<Dim>& sums, Force&& force) {
 }  // namespace
 
 template <int Dim>
-std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure) const {
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
+                                                         const std::vector<CoveredParticle>& covered) const {
   const Particles<Dim>& particles = flow_.state.particles;
   const auto force = [&](std::size_t i) {
     return Vec<Dim>(-particles.volume[i] * push_of_wall_particle(flow_, i, pressure));
   };
   ForceSums<Dim> sums(flow_, time_);
   add_of_bodies(flow_, sums, force);
+  for (const CoveredParticle& one : covered) {
+    sums.add(one.body, flow_.walls.particles.position[particles.wall_row[one.i]], one.share * force(one.i));
+  }
   return sums.gather();
 }
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "flow/flow.h"
+#include "bodies/covered_walls.h"
 
 namespace tailwater {
 
@@ -14,8 +14,10 @@ class ForcesOnBodies {
  public:
   ForcesOnBodies(const Flow<Dim>& flow, double time) : flow_(flow), time_(time) {}
 
-  /// By a pressure field [Pa] that is up to date on ghosts. Collective.
-  std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure) const;
+  /// By a pressure field [Pa] that is up to date on ghosts, on the bodies' particles and those that they cover.
+  /// Collective.
+  std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure,
+                                      const std::vector<CoveredParticle>& covered) const;
   /// By the friction that the present step has found. Collective.
   std::vector<Twist<Dim>> of_friction() const;
   /// By what the last guard took from the water in front of bodies. Collective.

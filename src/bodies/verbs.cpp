@@ -43,7 +43,8 @@ PressureReport solve_with_bodies(Flow<Dim>& flow, const StepStart<Dim>& start, c
 template <int Dim>
 void carry_over_second_pressure(Flow<Dim>& flow, const std::vector<double>& correction, double dt) {
   if (flow.setup.bodies.empty()) return;
-  carry_over(flow, ForcesOnBodies<Dim>(flow, flow.state.time + dt).of_pressure(correction), dt);
+  const double time = flow.state.time + dt;
+  carry_over(flow, ForcesOnBodies<Dim>(flow, time).of_pressure(correction, find_covered(flow, time)), dt);
 }
 
 template <int Dim>

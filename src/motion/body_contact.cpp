@@ -58,7 +58,8 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
   }
-  surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return !boundary.walls[wall].moves(); })});
+  surfaces.each.push_back(
+      {part_of(boundary, reach_behind_walls * spacing, [&](int wall) { return !boundary.walls[wall].moves(); })});
   for (int w = 0; w < static_cast<int>(boundary.walls.size()); ++w) {
     if (!boundary.walls[w].moves() || body_of_wall[w] >= 0) continue;
     surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return wall == w; }), w, -1});

@@ -11,6 +11,9 @@ namespace tailwater {
 /// Bodies are felt from so far, dx: two that approach each other come nearer by less in a step.
 inline constexpr double contact_reach = 2.0;
 
+/// Walls at rest are found from so far behind them, dx: by all of their particles.
+inline constexpr double reach_behind_walls = 3.0;
+
 /// Walls that bodies can touch and that move together: those that rest, those of one body, or one that moves as
 /// prescribed. Alone, as drawn; filed as if they rested.
 template <int Dim>
@@ -22,7 +25,7 @@ struct ContactSurface {
 
 template <int Dim>
 struct ContactSurfaces {
-  std::vector<ContactSurface<Dim>> each;
+  std::vector<ContactSurface<Dim>> each;      ///< all walls at rest are the first
   std::vector<std::vector<Vec<Dim>>> points;  ///< of each body, as drawn: its corners, and others 1.5 dx apart
 };
 

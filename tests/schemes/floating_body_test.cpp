@@ -123,6 +123,23 @@ TEST(FloatingBody, StaysAtItsDraught) {
   }
 }
 
+// The same in a flume 6 dx wide that the box spans from side wall to side wall. Water presses under its edges at wall
+// particles of the side walls as well, by 7 % of its weight.
+TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
+  constexpr double dx = 0.025;
+  CaseSpec spec = tank_case<3>(dx, 0.8, 0.3);
+  spec.fluid[0].max[1] = spec.walls[0].max[1] = 6.0 * dx;
+  add_box(spec, {0.25, 0.0, 0.2}, {0.55, 6.0 * dx, 0.4}, 500.0);
+  spec.bodies[0].free = {"z"};
+  Flow<3> flow(spec);
+  start(flow);
+  const double drawn = flow.setup.bodies[0].drawn.centre[2];
+  while (flow.state.time < 0.3) {
+    step(flow);
+    ASSERT_NEAR(flow.state.motion.bodies.each[0].centre[2], drawn, 0.1 * dx) << "t = " << flow.state.time;
+  }
+}
+
 // A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
 // it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
 // pressure needs a few steps to be there (softness, weights.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %

@@ -1,0 +1,66 @@
+#include "bodies/covered_walls.h"
+
+#include <algorithm>
+
+namespace tailwater {
+namespace {
+
+/// [dx]; wall particles behind a gap that is this wide are not covered any more.
+constexpr double widest_cover = 0.5;
+
+/// Where bodies are, as boxes that hold all that they may cover.
+template <int Dim>
+std::vector<Eigen::AlignedBox<double, Dim>> boxes_around(const Flow<Dim>& flow,
+                                                         const std::vector<AffineMap<Dim>>& placement) {
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes(placement.size());
+  const double margin = (reach_behind_walls + widest_cover) * flow.setup.spacing;
+  for (std::size_t b = 0; b < placement.size(); ++b) {
+    for (const Vec<Dim>& point : flow.setup.contact.points[b]) boxes[b].extend(placement[b](point));
+    boxes[b].min().array() -= margin;
+    boxes[b].max().array() += margin;
+  }
+  return boxes;
+}
+
+/// How far a place in front of a wall is inside a body: 1 if it is deep inside, 0 if it is well outside.
+template <int Dim>
+double share_inside(const ContactSurface<Dim>& surface, const AffineMap<Dim>& placement, const Vec<Dim>& x,
+                    double width, double reach) {
+  const NearestWall<Dim> hull = surface.boundary.nearest(placement.inverse(x), reach);
+  return hull.face < 0 ? 0.0 : std::clamp(0.5 - hull.signed_distance / width, 0.0, 1.0);
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<CoveredParticle> find_covered(const Flow<Dim>& flow, double time) {
+  std::vector<CoveredParticle> covered;
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const double width = widest_cover * setup.spacing;
+  std::vector<AffineMap<Dim>> placement;
+  for (const BodyState<Dim>& body : flow.state.motion.bodies.each) placement.push_back(body.at(time));
+  const std::vector<Eigen::AlignedBox<double, Dim>> boxes = boxes_around(flow, placement);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are covered
+    if (particles.is_fluid(i) || !flow.here.is_wet[i]) continue;
+    const auto row = particles.wall_row[i];
+    const Vec<Dim>& x = flow.walls.particles.position[row];
+    if (std::ranges::none_of(boxes, [&](const auto& box) { return box.contains(x); })) continue;
+    if (flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) continue;
+    const NearestWall<Dim> wall = setup.contact.each.front().boundary.nearest(x, reach_behind_walls * setup.spacing);
+    if (wall.face < 0 || wall.signed_distance >= 0.0) continue;
+    const Vec<Dim> in_front = wall.point + (0.5 * width / wall.signed_distance) * (x - wall.point);
+    for (const ContactSurface<Dim>& surface : setup.contact.each) {
+      if (surface.body < 0 || !boxes[surface.body].contains(x)) continue;
+      const double share =
+          share_inside(surface, placement[surface.body], in_front, width, contact_reach * setup.spacing);
+      if (share > 0.0) covered.push_back({i, surface.body, share});
+    }
+  }
+  return covered;
+}
+
+template std::vector<CoveredParticle> find_covered<2>(const Flow<2>&, double);
+template std::vector<CoveredParticle> find_covered<3>(const Flow<3>&, double);
+
+}  // namespace tailwater

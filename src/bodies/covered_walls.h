@@ -1,0 +1,23 @@
+// Walls at rest that floating bodies touch. In front of their particles behind such a place is no water, and none would
+// have room. The water beside it sees the body go on there, mirrored in the wall: what it does to these particles acts
+// on the body. At a plane of symmetry that is exact, so a box that spans a flume floats as it does in 2D.
+#pragma once
+
+#include <vector>
+
+#include "flow/flow.h"
+
+namespace tailwater {
+
+/// An owned particle of a wall at rest, behind a place that a body covers.
+struct CoveredParticle {
+  std::size_t i;
+  int body;
+  double share;  ///< of what acts on it; 1 where the body is well over its place and touches the wall
+};
+
+/// With the walls where they are, at `time` [s].
+template <int Dim>
+std::vector<CoveredParticle> find_covered(const Flow<Dim>& flow, double time);
+
+}  // namespace tailwater
