@@ -17,10 +17,17 @@ constexpr double least_depth_over_spacing = 0.1;
 /// long compared with the waves that must leave, because whatever the mean follows is let back in
 /// (docs/theory/open_ends.md).
 constexpr double memory = 100.0;
+/// Time after which an end stretch with a level moves with the water beside it, in travel times of a long wave from the
+/// gauge into it. Until then what the pressure does to it counts: the water beside it may be off by what the density
+/// and the shifts do there, and would hold a stretch that follows it at once (docs/theory/open_ends.md).
+constexpr double way_of_following = 10.0;
+/// [speed of a long wave]; of the water at the opening against that at the border of an end stretch that becomes deeper
+/// or shallower. Levels that step change it so fast.
+constexpr double most_stretching = 0.1;
 /// Depths that a long wave goes while the error of a prescribed level is averaged, and so many of these times the level
 /// may be missed by more than dx before it is told.
 constexpr double depths_of_watch = 5.0;
-constexpr double patience = 4.0;
+constexpr double patience = 2.0;
 /// [dx]; rows of the entering lattice are one more or one less when they have become that much too high or too low
 /// together. Half of it would do; the rest keeps a level that trembles from changing them again and again.
 constexpr double most_row_error = 0.75;
@@ -30,11 +37,13 @@ struct Reading {
   double volume = 0.0;  ///< m^Dim
   double flux = 0.0;    ///< m^(Dim+1)/s; times the velocity along the opening's normal
   double push = 0.0;    ///< N m; times the pressure
+  double excess = 0.0;  ///< N m; times what the pressure is above that in the end stretch, at the same height
 
   Reading& operator+=(const Reading& other) {
     volume += other.volume;
     flux += other.flux;
     push += other.push;
+    excess += other.excess;
     return *this;
   }
   /// Mean velocity out [m/s], or `other` without water.
@@ -56,7 +65,7 @@ struct Readings {
 };
 
 template <int Dim>
-Readings read_end(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
+Readings read_end(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const double spacing = flow.setup.spacing;
   Readings readings = sum_over(particles.owned, Readings{}, [&](std::size_t i) -> Readings {
@@ -67,7 +76,9 @@ Readings read_end(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
     const double u = end.opening.normal.dot(particles.velocity[i]);
     const auto of_share = [&](double share) -> Reading {
       const double volume = share * particles.volume[i];
-      return {volume, volume * u, volume * particles.pressure[i]};
+      const Vec<Dim> at_border = x + std::max(0.0, before) * end.opening.normal;
+      const double excess = particles.pressure[i] - end.pressure_at(state, at_border, flow.setup.density);
+      return {volume, volume * u, volume * particles.pressure[i], volume * excess};
     };
     if (before < 0.0) return {{}, {}, of_share(1.0)};
     const double off = std::abs(before - end.gauge) / end.gauge;
@@ -77,7 +88,7 @@ Readings read_end(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
   Reading& g = readings.gauge;
   Reading& b = readings.border;
   Reading& s = readings.inside;
-  flow.setup.ranks.sum_each(g.volume, g.flux, g.push, b.volume, b.flux, b.push, s.volume, s.flux, s.push);
+  flow.setup.ranks.sum_each(g.volume, g.flux, g.push, b.volume, b.flux, b.excess, s.volume, s.flux);
   return readings;
 }
 
@@ -149,28 +160,49 @@ void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow,
   if (std::abs(miss.mean) > std::abs(miss.most)) miss.most = miss.mean;
 }
 
-/// Mean speed out [m/s] of an end stretch whose level is prescribed: that of the water beside it, continued over the
-/// spacing between them. If the stretch were slower or faster, a gap or a crush would grow beside it and hold the water
-/// back or drive it.
+/// Speed out [m/s] at the border of an end stretch whose level is prescribed. The difference of pressure between the
+/// water beside it and the level drives it; slowly it follows the speed of that water, continued over the spacing
+/// between them.
 template <int Dim>
-double speed_of_stretch(const OpenEnd<Dim>& end, const Readings& readings, double dt, OpenEndState& state) {
+double border_speed(const OpenEnd<Dim>& end, const Readings& readings, double density, double dt,
+                    const OpenEndState& state, double& gain) {
+  const double spacing = 0.5 * end.gauge;
   const double at_border = readings.border.speed_or(state.speed);
   const double celerity = std::sqrt(end.gravity * std::max(state.depth_at_gauge, end.gauge));
-  state.gain += (1.0 - std::exp(-dt * celerity / end.distance())) * (at_border - state.speed - state.gain);
-  return at_border + state.gain;
+  const double rate = celerity / end.distance();
+  gain += (1.0 - std::exp(-dt * rate)) * (at_border - state.speed - gain);
+  if (readings.border.volume == 0.0) return at_border + gain;
+  // The water beside it is read a spacing before the border on the mean, and the stretch begins half a spacing after.
+  const double push = readings.border.excess / (density * 1.5 * spacing * readings.border.volume);
+  const double driven = state.border_speed + dt * (push - state.border_speed * gain / spacing);
+  return driven + (1.0 - std::exp(-dt * rate / way_of_following)) * (at_border + gain - driven);
 }
 
-/// Where a level is prescribed: depths in the end stretch and at the gauge, and the speed with which water enters. The
-/// level holds for the mean flow; waves pass.
+/// Where a level is prescribed: the depth of the end stretch goes where that of its pressure is, slowly enough that
+/// what it gains or loses along the channel can make up for it.
+template <int Dim>
+void deepen(const OpenEnd<Dim>& end, double dt, OpenEndState& state) {
+  const double celerity = std::sqrt(end.gravity * std::max(state.depth, end.gauge));
+  const double most = most_stretching * celerity * state.depth / end.stretch;
+  const double wanted = celerity * (state.depth_in_middle - state.depth) / end.distance();
+  state.depth_rate = std::clamp(wanted, -most, most);
+  state.depth = std::max(state.depth + dt * state.depth_rate, least_depth_over_spacing * 0.5 * end.gauge);
+}
+
+/// Where a level is prescribed: depths in the end stretch and at the gauge, and the speed of the stretch. The level
+/// holds for the mean flow; waves pass.
 template <int Dim>
 void hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Readings& readings, double time, double dt,
                 OpenEndState& state) {
+  const bool was_wet = state.is_wet;
   read_flow(end, flow, readings.gauge, dt, state);
   LevelBeyond beyond{end.gravity, end.depth_at_level(end.flow.level->at(time)), 0.0};
   const double fastest = beyond.fastest();
   if (!state.is_wet) {
     beyond.inwards = state.entry_speed = fastest;
-    state.depth = state.depth_at_gauge = beyond.mean_depth();
+    state.border_speed = -fastest;
+    state.depth = state.depth_in_middle = state.depth_at_gauge = beyond.mean_depth();
+    state.depth_rate = 0.0;
     watch_level(-beyond.mean_depth(), beyond, flow, dt, state.miss);
     return;
   }
@@ -183,19 +215,28 @@ void hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Readings& 
     return std::min(std::max(depth_at_speed(invariant, end.gravity, std::max(u, -fastest)), least), end.height);
   };
   state.depth_at_gauge = depth_at(state.speed);
-  state.depth = depth_at(state.speed_beyond);
-  state.entry_speed = std::min(-speed_of_stretch(end, readings, dt, state), fastest);
-  const bool is_felt = state.speed < 0.0 || state.depth_at_gauge <= depth_at_speed(invariant, end.gravity, state.speed);
+  state.depth_in_middle = depth_at(state.speed_beyond);
   const double stands = readings.gauge.volume / (end.gauge * end.width);
+  if (!was_wet) {
+    state.border_speed = readings.border.speed_or(state.speed);
+    if (state.depth == 0.0) state.depth = std::min(stands, end.height);
+  }
+  deepen(end, dt, state);
+  state.border_speed = std::max(border_speed(end, readings, flow.setup.density, dt, state, state.gain), -fastest);
+  state.entry_speed = -state.border_speed + end.stretch * state.depth_rate / state.depth;
+  const bool is_felt = state.speed < 0.0 || state.depth_at_gauge <= depth_at_speed(invariant, end.gravity, state.speed);
   watch_level(is_felt ? stands - beyond.mean_depth() : 0.0, beyond, flow, dt, state.miss);
 }
 
-/// Speed out [m/s] of a particle in an end stretch whose level is prescribed; `deviation` is that of its own speed from
+/// Velocity of a particle in an end stretch whose level is prescribed; `deviation` is that of its own speed out from
 /// the mean there. What comes in has one speed. What goes out keeps the profile that it came with, as long as all goes
 /// out: particles that go to and fro on their own would leave one by one while the water rests.
-double speed_at_level(const OpenEndState& state, double deviation) {
-  const double mean = -state.entry_speed;
-  return mean > 0.0 ? mean + std::clamp(deviation, -mean, mean) : mean;
+template <int Dim>
+Vec<Dim> velocity_at_level(const OpenEnd<Dim>& end, const OpenEndState& state, const Vec<Dim>& x, double deviation) {
+  const double rate = state.depth > 0.0 ? state.depth_rate / state.depth : 0.0;
+  const double mean = -state.entry_speed - end.opening.beyond(x) * rate;
+  const double speed = mean > 0.0 ? mean + std::clamp(deviation, -mean, mean) : mean;
+  return speed * end.opening.normal + std::min(end.rise.dot(x - end.low), state.depth) * rate * end.rise;
 }
 
 /// Where a discharge or a velocity is prescribed: the depth follows the water inside, unless it is prescribed too.
@@ -267,7 +308,7 @@ double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, d
   if (!this->flow.feeds()) {
     const auto depth_at = [&](double speed) { return depth_at_speed(state.invariant, this->gravity, speed); };
     const double at_gauge = this->is_driven() ? state.depth_at_gauge : depth_at(state.speed);
-    const double in_middle = this->is_driven() ? state.depth : depth_at(state.speed_beyond);
+    const double in_middle = this->is_driven() ? state.depth_in_middle : depth_at(state.speed_beyond);
     const double share = (this->opening.beyond(x) + stretch + gauge) / distance();
     level = this->floor + (1.0 - share) * at_gauge + share * in_middle;
   }
@@ -294,7 +335,7 @@ void hold_open_ends(Flow<Dim>& flow, double dt) {
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
     const OpenEnd<Dim>& end = flow.setup.open_ends[e];
     OpenEndState& state = flow.state.open_ends[e];
-    const Readings readings = read_end(end, flow);
+    const Readings readings = read_end(end, state, flow);
     double change = 0.0;
     if (end.flow.feeds()) {
       hold_inflow(end, readings.gauge, time, dt, flow.setup.spacing, state);
@@ -312,7 +353,7 @@ void hold_open_ends(Flow<Dim>& flow, double dt) {
       if (end.flow.feeds()) {
         velocity = end.inflow_at(state, particles.position[i]);
       } else if (end.holds_level()) {
-        velocity = speed_at_level(state, normal.dot(velocity) - mean) * normal;
+        velocity = velocity_at_level(end, state, particles.position[i], normal.dot(velocity) - mean);
       } else {
         velocity = (normal.dot(velocity) + change) * normal;
       }

@@ -44,11 +44,14 @@ struct OpenEndState {
   double invariant = 0.0;     ///< m/s; u - 2 sqrt(g h), which comes from beyond where flow is subcritical
   double mean_speed = 0.0;    ///< m/s; `speed`, its long waves only; where a level is prescribed
   // Where something is prescribed.
-  double depth = 0.0;           ///< m; of the water in the end stretch
-  double depth_at_gauge = 0.0;  ///< m; where a level is prescribed
-  double depth_rate = 0.0;      ///< m/s; of `depth`; where a discharge or a velocity is prescribed
-  double entry_speed = 0.0;     ///< m/s; mean over the opening, into the case
-  double gain = 0.0;            ///< m/s; from the gauge to the border of the end stretch; where a level is prescribed
+  double depth = 0.0;        ///< m; of the water in the end stretch
+  double depth_rate = 0.0;   ///< m/s; of `depth`
+  double entry_speed = 0.0;  ///< m/s; mean over the opening, into the case
+  // Where a level is prescribed.
+  double depth_at_gauge = 0.0;   ///< m; that the pressure there stands for
+  double depth_in_middle = 0.0;  ///< m; the same in the middle of the end stretch
+  double border_speed = 0.0;     ///< m/s; out, where the end stretch begins
+  double gain = 0.0;             ///< m/s; from the gauge to there, of the water's speed
   LevelMiss miss;
   double asked = 0.0;     ///< m^Dim; what should have come in less what should have left; where that is prescribed
   std::int64_t rows = 0;  ///< of the lattice on which particles enter

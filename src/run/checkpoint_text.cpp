@@ -29,8 +29,9 @@ LevelMiss miss_of(const nlohmann::json& json) {
 }
 
 nlohmann::json json_of(const OpenEndState& end) {
-  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_at_gauge, depth_rate,
-               entry_speed, gain, miss, asked, rows, departed, arrived, short_steps] = end;
+  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate, entry_speed,
+               depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived, short_steps] =
+      end;
   return {{"is_wet", is_wet},
           {"wet_time", wet_time},
           {"speed", speed},
@@ -38,9 +39,11 @@ nlohmann::json json_of(const OpenEndState& end) {
           {"invariant", invariant},
           {"mean_speed", mean_speed},
           {"depth", depth},
-          {"depth_at_gauge", depth_at_gauge},
           {"depth_rate", depth_rate},
           {"entry_speed", entry_speed},
+          {"depth_at_gauge", depth_at_gauge},
+          {"depth_in_middle", depth_in_middle},
+          {"border_speed", border_speed},
           {"gain", gain},
           {"miss", json_of(miss)},
           {"asked", asked},
@@ -58,9 +61,11 @@ OpenEndState open_end_of(const nlohmann::json& json) {
           json.at("invariant"),
           json.at("mean_speed"),
           json.at("depth"),
-          json.at("depth_at_gauge"),
           json.at("depth_rate"),
           json.at("entry_speed"),
+          json.at("depth_at_gauge"),
+          json.at("depth_in_middle"),
+          json.at("border_speed"),
           json.at("gain"),
           miss_of(json.at("miss")),
           json.at("asked"),
