@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "formulations/make_flow.h"
 #include "pressure/verbs.h"
 #include "schemes/advance.h"
 
@@ -51,7 +52,7 @@ constexpr int steps_between_sorts = 5;  // as a run has them
 /// A flow after some steps, with everything that the verbs of the next step hand to each other.
 template <int Dim>
 struct Stage {
-  Stage(const CaseSpec& spec, int steps) : flow(spec) {
+  Stage(const CaseSpec& spec, int steps) : flow(make_flow<Dim>(spec)) {
     locate(flow);
     tailwater::start(flow);
     for (int n = 0; n < steps; ++n) step();

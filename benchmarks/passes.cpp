@@ -41,10 +41,7 @@ void add_operators(Stage<Dim>& stage) {
   add_benchmark("operators/divergence", [&flow] { benchmark::DoNotOptimize(find_divergence(flow)); });
   const auto gradients = std::make_shared<std::vector<Vec<Dim>>>(owned);
   add_benchmark("operators/gradient", [&flow, gradients] {
-    const Particles<Dim>& particles = flow.state.particles;
-    for_each(particles.owned, [&](std::size_t i) {
-      if (particles.is_fluid(i)) (*gradients)[i] = gradient_at(flow, i, particles.pressure);
-    });
+    flow.discretisation().find_gradient(flow, flow.state.particles.pressure, *gradients);
   });
 }
 
@@ -53,11 +50,8 @@ void add_closures(Stage<Dim>& stage) {
   add_benchmark("closures/predict",
                 [&stage] { benchmark::DoNotOptimize(predict(stage.flow, stage.begin, stage.drive, stage.dt)); });
   const auto shifts = std::make_shared<std::vector<Vec<Dim>>>(stage.flow.state.particles.owned);
-  add_benchmark("closures/shift", [&stage, shifts] {
-    const Flow<Dim>& flow = stage.flow;
-    compute_shift<Dim>(flow.setup.shifting_law, stage.dt, largest_speed(flow), flow.pairs(), flow.state.particles,
-                       flow.here, *shifts);
-  });
+  add_benchmark("closures/shift",
+                [&stage, shifts] { stage.flow.discretisation().find_shifts(stage.flow, stage.dt, *shifts); });
 }
 
 template <int Dim>

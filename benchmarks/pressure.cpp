@@ -81,9 +81,7 @@ void add_pressure(Stage<Dim>& stage) {
   const auto iterations = std::make_shared<int>(0);
   add_benchmark(
       "pressure/step",
-      [&stage, iterations] {
-        *iterations = solve(stage.flow, stage.begin, stage.equation, stage.dt, stage.drive).iterations;
-      },
+      [&stage, iterations] { *iterations = solve(stage.flow, stage.equation, stage.drive).iterations; },
       [&stage, before] {
         stage.pose();
         stage.flow.state.particles.pressure = *before;

@@ -10,7 +10,7 @@
 
 #include "case/reader.h"
 #include "checks/check.h"
-#include "flow/flow.h"
+#include "formulations/make_flow.h"
 #include "linear/session.h"
 
 namespace tailwater {
@@ -45,7 +45,7 @@ void set_up(const CaseSpec& spec, const Communicator& ranks) {
     }
     tell(ranks, "checks", start);
   }
-  const Flow<Dim> flow(spec, ranks);
+  const Flow<Dim> flow = make_flow<Dim>(spec, ranks);
   tell(ranks, "flow", start);
   const std::size_t all = ranks.sum(flow.state.particles.owned);
   const std::size_t rows = ranks.largest(flow.walls.particles.size());

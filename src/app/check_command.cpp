@@ -19,7 +19,7 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/preview.h"
-#include "flow/flow.h"
+#include "formulations/make_flow.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "linear/session.h"
@@ -117,7 +117,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
     throw;
   }
   const LinearSession session;
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   make_probes<Dim>(spec, flow.walls.boundary);
   require_reachable_end(spec, flow.setup.time_step_rule);
   const RunEstimate estimate = estimate_run(spec, flow);

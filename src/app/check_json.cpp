@@ -14,7 +14,7 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/check.h"
-#include "flow/flow.h"
+#include "formulations/make_flow.h"
 #include "io/base64.h"
 #include "linear/session.h"
 #include "probes/probe_set.h"
@@ -131,7 +131,7 @@ Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const Fluid
 template <int Dim>
 void add_time(const CaseSpec& spec, Json& answer) {
   const LinearSession session;
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   require_reachable_end(spec, flow.setup.time_step_rule);
   const RunEstimate estimate = estimate_run(spec, flow);
   answer["cost"].update(

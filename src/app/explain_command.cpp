@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "case/reader.h"
+#include "formulations/make_flow.h"
 #include "linear/session.h"
 #include "run/estimate.h"
 #include "run/explain.h"
@@ -19,7 +20,7 @@ template <int Dim>
 void explain_in(const CaseSpec& spec) {
   require_sound_geometry(spec);
   const LinearSession session;
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   require_reachable_end(spec, flow.setup.time_step_rule);
   for (const std::string& sentence : explain_case(spec, estimate_run(spec, flow))) fmt::print("{}\n", sentence);
 }

@@ -74,7 +74,7 @@ void BodyCoupling<Dim>::accelerate(const Eigen::VectorXd& A) {
   }
   steer_bodies(flow_, start_, dt_);
   drive_ = drive_walls(flow_, start_, dt_);
-  flow_.setup.wall_model->set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.pressure_rows);
+  flow_.wall_model().set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.pressure_rows);
 }
 
 template <int Dim>

@@ -40,16 +40,25 @@ class ForceSums {
   std::vector<double> sums_;
 };
 
-/// Adds what `force(i)` does to the body of each owned wall particle i of a body.
-template <int Dim, class Force>
-void add_of_bodies(const Flow<Dim>& flow, ForceSums<Dim>& sums, Force&& force) {
+/// The owned wall particles of bodies.
+template <int Dim>
+std::vector<std::size_t> walls_of_bodies(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const WallParticles<Dim>& table = flow.walls.particles;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
+  std::vector<std::size_t> walls;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
     if (particles.is_fluid(i)) continue;
-    const auto row = particles.wall_row[i];
-    const int body = flow.setup.body_of_wall[table.wall[row]];
-    if (body >= 0) sums.add(body, table.position[row], force(i));
+    if (flow.setup.body_of_wall[flow.walls.particles.wall[particles.wall_row[i]]] >= 0) walls.push_back(i);
+  }
+  return walls;
+}
+
+/// Adds force(n) on each of these wall particles of bodies to its body.
+template <int Dim, class Force>
+void add_on_bodies(const Flow<Dim>& flow, const std::vector<std::size_t>& walls, ForceSums<Dim>& sums, Force&& force) {
+  const WallParticles<Dim>& table = flow.walls.particles;
+  for (std::size_t n = 0; n < walls.size(); ++n) {  // in order: all add to the same few sums
+    const auto row = flow.state.particles.wall_row[walls[n]];
+    sums.add(flow.setup.body_of_wall[table.wall[row]], table.position[row], force(n));
   }
 }
 
@@ -59,21 +68,26 @@ template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
                                                          const std::vector<CoveredParticle>& covered) const {
   const Particles<Dim>& particles = flow_.state.particles;
-  const auto force = [&](std::size_t i) {
-    return Vec<Dim>(-particles.volume[i] * push_of_wall_particle(flow_, i, pressure));
-  };
+  std::vector<std::size_t> walls = walls_of_bodies(flow_);
+  const std::size_t of_bodies = walls.size();
+  for (const CoveredParticle& one : covered) walls.push_back(one.i);
+  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow_, walls, pressure);
+  const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
-  add_of_bodies(flow_, sums, force);
-  for (const CoveredParticle& one : covered) {
-    sums.add(one.body, flow_.walls.particles.position[particles.wall_row[one.i]], one.share * force(one.i));
+  walls.resize(of_bodies);
+  add_on_bodies(flow_, walls, sums, force);
+  for (std::size_t k = 0; k < covered.size(); ++k) {  // in order: all add to the same few sums
+    const auto& [i, body, share] = covered[k];
+    sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * force(of_bodies + k));
   }
   return sums.gather();
 }
 
 template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_friction() const {
+  const std::vector<std::size_t> walls = walls_of_bodies(flow_);
   ForceSums<Dim> sums(flow_, time_);
-  add_of_bodies(flow_, sums, [&](std::size_t i) { return flow_.wall_forces.friction[i]; });
+  add_on_bodies(flow_, walls, sums, [&](std::size_t n) { return flow_.wall_forces.friction[walls[n]]; });
   return sums.gather();
 }
 

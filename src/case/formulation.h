@@ -1,5 +1,5 @@
-// The four formulations of the case file: farzin2014 and farmani2020, each robust or as published. What a formulation
-// is made of is in scheme_choices.h; here is what must be known of it before there is a flow.
+// The four formulations of the case file: farzin2014 and farmani2020, each robust or as published. They are
+// made in robust/formulation.cpp and published/; here is what must be known of them before there is a flow.
 #pragma once
 
 #include <string_view>

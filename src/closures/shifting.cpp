@@ -1,25 +1,11 @@
 #include "closures/shifting.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/for_each.h"
 
 namespace tailwater {
 namespace {
-
-template <int Dim>
-Vec<Dim> farzin_direction(const Pairs<Dim>& pairs, std::size_t i) {
-  double sum = 0.0;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) sum += pairs.r(i, k);
-  const double mean_distance = sum / static_cast<double>(pairs.end(i) - pairs.begin(i));
-  Vec<Dim> direction = Vec<Dim>::Zero();
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const double ratio = mean_distance / pairs.r(i, k);
-    direction += ratio * ratio * ratio * pairs.e(i, k);
-  }
-  return direction;
-}
 
 /// Share of its shift that a particle keeps: 0 in the three outermost rows, whose support the surface cuts, 1 where all
 /// neighbours are inside. A flat surface reads a mean of `interior` over the neighbours of 0.26, 0.75, 0.98, 1 from the
@@ -36,17 +22,8 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || here.interior[i] == 0.0) return false;
-    double kept = here.interior[i];
-    if (law.kind == ShiftingKind::lind) {
-      shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * here.crowding[i];
-      kept = kept_share(here.interior[i], here.mean_interior[i]);
-    } else {
-      shift[i] = law.strength * particles.velocity[i].norm() * dt * farzin_direction(pairs, i);
-    }
-    shift[i] *= kept;
-    const double ratio = shift[i].norm() / law.cap;
-    shift[i] /= std::sqrt(1.0 + ratio * ratio);
-    return ratio > 1.0;
+    shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * here.crowding[i];
+    return bound_shift<Dim>(shift[i], kept_share(here.interior[i], here.mean_interior[i]), law.cap);
   });
 }
 

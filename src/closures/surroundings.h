@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "operators/pair_vectors.h"
-#include "operators/renormalisation.h"
 
 namespace tailwater {
 
@@ -19,7 +18,6 @@ struct Surroundings {
   std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
   std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
   std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too
-  std::vector<Renormalisation<Dim>> tensors;     ///< only where a consistent operator is chosen
   std::vector<std::uint8_t> is_surface;          ///< ghosts too
   std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
   std::vector<double> mean_interior;             ///< of owned fluid inside: over its fluid neighbours, weights W
@@ -27,14 +25,13 @@ struct Surroundings {
   PairVectorField<Dim> pair_vectors;             ///< what they are made of (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
 
-  void resize(std::size_t count, bool with_tensors, bool with_gradient) {
+  void resize(std::size_t count, bool with_gradient) {
     concentration.resize(count);
     if (with_gradient) concentration_gradient.resize(count);
     first_moment.resize(count);
     wall_fluid_weight.resize(count);
     is_wet.resize(count);
     takes_part.resize(count);
-    if (with_tensors) tensors.resize(count);
     is_surface.resize(count);
     interior.resize(count);
   }

@@ -8,7 +8,7 @@
 // speed proportional to 1/dt, and that speed shortens the next step. So `fastest` caps u_max there.
 //
 // The paper uses (F41) at the start only. Here it always holds: it costs nothing in violent flow, where u_max is
-// larger, and prevents huge steps in quiet water. The eddy viscosity of smagorinsky.h is at most of the order
+// larger, and prevents huge steps in quiet water. The eddy viscosity of published/smagorinsky.h is at most of the order
 // 0.01 u dx, far too small to limit the step.
 #pragma once
 

@@ -6,12 +6,9 @@
 #include <limits>
 
 #include "base/for_each.h"
-#include "closures/fluid_pairs.h"
 #include "closures/wall_law.h"
 #include "neighbours/pair_lanes.h"
-#include "operators/laplacian_consistent.h"
 #include "operators/laplacian_morris.h"
-#include "operators/laplacian_shao_lo.h"
 
 namespace tailwater {
 namespace {
@@ -33,7 +30,7 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
     ViscousEnd<Dim>& end = ends[i];
     for (int a = 0; a < Dim; ++a) end.velocity[a] = static_cast<float>(velocity[i][a]);
     for (int n = 0; n < Dim * Dim; ++n) end.gradient[n] = static_cast<float>(gradient[i].data()[n]);
-    end.viscosity = viscosity.empty() ? 0.0F : static_cast<float>(viscosity[i]);
+    end.viscosity = static_cast<float>(viscosity[i]);
     end.layer_viscosity = static_cast<float>(particles.layer_viscosity[i]);
   });
   return ends;
@@ -139,74 +136,11 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
   });
 }
 
-template <int Dim>
-void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
-                           std::span<const double> density, std::span<const double> viscosity,
-                           std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    acceleration[i] += sum_over_fluid(pairs, particles, i, [&](std::int32_t j, std::size_t k) -> Vec<Dim> {
-      const double weight = shao_lo_laplacian_weight(particles.volume[j], density[i], density[j], pairs.r(i, k),
-                                                     pairs.slope(i, k), eta_squared);
-      return weight * 0.5 * (viscosity[i] + viscosity[j]) * (velocity[j] - velocity[i]);
-    });
-  });
-}
-
-template <int Dim>
-void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
-                         std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
-                         std::span<Vec<Dim>> acceleration) {
-  const std::vector<ViscousEnd<Dim>> ends = viscous_ends<Dim>(particles, {}, velocity, gradient);
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    VecSum<Dim> sum;
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const PlaceLanes<Dim> place = several.place();
-      const ViscousPairs<Dim> pair(several, place, several.F(), particles, ends, spacing);
-      VecLanes<Dim> terms{};
-      pair.add_noise_force(viscosity, terms);
-      sum += terms;
-    });
-    acceleration[i] += sum.total() / particles.volume[i];
-  });
-}
-
-template <int Dim>
-void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                              std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,
-                              double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                              std::span<Vec<Dim>> acceleration) {
-  for_each(pairs.owned(), [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    if (tensors[i].laplacian_is_sound()) {
-      acceleration[i] += viscosity[i] * consistent_laplacian<Dim, Vec<Dim>>(pairs, i, tensors[i], particles.volume,
-                                                                            takes_part, velocity, Vec<Dim>::Zero());
-      return;
-    }
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      if (!takes_part[j]) continue;
-      sum += fallback_laplacian_weight(tensors[i], particles.volume[j], pairs.r(i, k), pairs.value(i, k), spacing) *
-             (velocity[j] - velocity[i]);
-    }
-    acceleration[i] += viscosity[i] * sum;
-  });
-}
-
 #define TAILWATER_INSTANTIATE(Dim)                                                                                    \
   template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
   template void add_newtonian_viscosity<Dim>(                                                                         \
       const Pairs<Dim>&, const Particles<Dim>&, double, const PairVectorField<Dim>&, std::span<const double>, double, \
-      std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);                                     \
-  template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
-                                           std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
-  template void add_noise_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,                    \
-                                         std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);  \
-  template void add_consistent_viscosity<Dim>(                                                                        \
-      const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
-      double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
+      std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -12,7 +12,6 @@
 #include <span>
 
 #include "operators/pair_vectors.h"
-#include "operators/renormalisation.h"
 #include "particles/particles.h"
 
 namespace tailwater {
@@ -42,40 +41,26 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// where a_ij is the pair vector and c_ij the Morris weight with a_ij . e_ij for dW_ij. The first term alone is nu lap
 /// u, whose natural condition at a free surface is du/dn = 0: waves then decay by a third too slowly. The second one,
 /// the divergence of (grad u)^T, vanishes inside and makes that condition zero stress. Conserves momentum; only the
-/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts. A `noise_viscosity` [m^2/s] above 0
-/// adds what add_noise_viscosity does, in the same pass.
-template <int Dim>
-void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
-                             const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
-                             double noise_viscosity, std::span<const Vec<Dim>> velocity,
-                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration);
-
-/// Two-point viscous acceleration with the weights of (B8), as in (B9): sum_j c_ij (nu_i + nu_j)/2 (u_j - u_i).
-/// Conserves momentum and never adds energy. `density` is each particle's density over the water's.
-template <int Dim>
-void add_shao_lo_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double eta_squared,
-                           std::span<const double> density, std::span<const double> viscosity,
-                           std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
-
-/// Dissipates noise only: a two-point viscous force between fluid particles. It acts on the part of their velocity
-/// difference that a linear field does not explain,
+/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts.
+///
+/// A `noise_viscosity` [m^2/s] above 0, one number for the whole flow, dissipates noise: a two-point viscous force on
+/// the part of the velocity difference that a linear field does not explain,
 ///
 ///   d_ij = u_j - u_i - l_ij,    l_ij = (grad u_i + grad u_j)/2 . (r_j - r_i),
 ///
 /// without its component along u_j - u_i where that would add energy. Between two particles of a boundary layer d_ij is
 /// without its component along l_ij too, so that it does not flatten the logarithmic profile. It vanishes for linear
 /// fields and is of fourth order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved,
-/// and energy never grows. `viscosity` [m^2/s] is one number for the whole flow; `gradient` [1/s] is needed on ghosts.
+/// and energy never grows.
 template <int Dim>
-void add_noise_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing, double viscosity,
-                         std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
-                         std::span<Vec<Dim>> acceleration);
+void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
+                             const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
+                             double noise_viscosity, std::span<const Vec<Dim>> velocity,
+                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration);
 
-/// nu_i lap u by the consistent operator (F12), or by its two-point fallback where that operator is unsound.
+/// Friction of a 2D channel's side walls on fluid particles. It only slows them.
 template <int Dim>
-void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
-                              std::span<const Renormalisation<Dim>> tensors, std::span<const std::uint8_t> takes_part,
-                              double spacing, std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
-                              std::span<Vec<Dim>> acceleration);
+void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
+                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
 
 }  // namespace tailwater

@@ -50,11 +50,13 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
 }  // namespace
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks) : Flow(spec, ranks, Drawing<Dim>(spec, ranks)) {}
+Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks)
+    : Flow(spec, formulation, ranks, Drawing<Dim>(spec, *formulation.walls, ranks)) {}
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing)
-    : setup(spec, ranks, drawing),
+Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks,
+                Drawing<Dim> drawing)
+    : setup(spec, formulation, ranks, drawing),
       decomposition(ranks, spec.parallel),
       neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
                     setup.domain, ranks),

@@ -22,9 +22,10 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles and walls of a case. Each rank keeps its share of the particles and of the rows of walls; all
-  /// ranks have the faces of all walls. Collective. Throws InputError for an impossible geometry.
-  explicit Flow(const CaseSpec& spec, const Communicator& ranks = {});
+  /// Builds the particles and walls of a case, of which `formulation` is (formulations/make_flow.h). Each rank keeps
+  /// its share of the particles and of the rows of walls; all ranks have the faces of all walls. Collective. Throws
+  /// InputError for an impossible geometry.
+  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks);
 
   Setup<Dim> setup;
   State<Dim> state;
@@ -50,7 +51,7 @@ struct Flow {
   double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
-  Flow(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim> drawing);
+  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks, Drawing<Dim> drawing);
 
   /// Frees the matrix of the pressure equation and what solvers have made of it.
   void forget_matrix() {
@@ -64,6 +65,8 @@ struct Flow {
 
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
   const Halo<Dim>& halo() const { return neighbourhood.halo(); }
+  Discretisation<Dim>& discretisation() const { return *setup.formulation.discretisation; }
+  const WallModel<Dim>& wall_model() const { return *setup.formulation.walls; }
   WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, here}; }
 
   WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {

@@ -30,7 +30,7 @@ void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& 
 template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   Particles<Dim>& particles = flow.state.particles;
-  const bool with_mean = flow.setup.scheme.displacement == Displacement::mean_velocity;
+  const bool with_mean = flow.setup.formulation.moves_with_mean_velocity;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     const Vec<Dim> velocity =

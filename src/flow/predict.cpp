@@ -1,56 +1,20 @@
 #include <algorithm>
 
 #include "base/for_each.h"
-#include "closures/smagorinsky.h"
 #include "flow/verbs.h"
 #include "operators/gradient_corrected.h"
 
 namespace tailwater {
 namespace {
 
-/// Adds the viscous force by the scheme's operator, and the dissipation of noise.
-template <int Dim>
-void add_viscosity(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
-                   std::vector<Vec<Dim>>& acceleration) {
-  const Setup<Dim>& setup = flow.setup;
-  const Particles<Dim>& particles = flow.state.particles;
-  std::vector<double> viscosity(particles.size());
-  const double noise_viscosity = setup.scheme.noise_viscosity > 0.0 ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
-  effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
-  if (setup.has_boundary_layers) {
-    for_each(viscosity.size(), [&](std::size_t i) {
-      viscosity[i] += spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], setup.viscosity_law.molecular);
-    });
-  }
-  switch (setup.scheme.laplacian) {
-    case LaplacianKind::consistent:
-      add_consistent_viscosity<Dim>(flow.pairs(), particles, flow.here.tensors, flow.here.takes_part, setup.spacing,
-                                    viscosity, particles.velocity, acceleration);
-      break;
-    case LaplacianKind::shao_lo:
-      add_shao_lo_viscosity<Dim>(flow.pairs(), particles, setup.eta_squared, flow.here.concentration, viscosity,
-                                 particles.velocity, acceleration);
-      break;
-    case LaplacianKind::morris:
-      add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.here.pair_vectors, viscosity,
-                                   noise_viscosity, particles.velocity, velocity_gradient, acceleration);
-      return;
-  }
-  if (noise_viscosity > 0.0) {
-    add_noise_viscosity<Dim>(flow.pairs(), particles, setup.spacing, noise_viscosity, particles.velocity,
-                             velocity_gradient, acceleration);
-  }
-}
-
 /// Adds the friction of the case's walls, and finds the layers that it makes.
 template <int Dim>
 void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
-  const bool is_in_laplacian = setup.scheme.laplacian == LaplacianKind::consistent && setup.wall_traits.shows_friction;
   const bool is_slippery =
       std::ranges::all_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction == 0.0; });
-  const bool adds_friction = !is_in_laplacian && !is_slippery;
+  const bool adds_friction = !setup.formulation.friction_is_viscous && !is_slippery;
   if (!adds_friction && !setup.has_boundary_layers) return;
 
   const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
@@ -61,7 +25,7 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   }
   if (!adds_friction) return;
   std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
-  setup.wall_model->find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
+  flow.wall_model().find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
   flow.halo().exchange(no_slip);
   std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
   add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, walls, no_slip, particles.velocity,
@@ -110,17 +74,6 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   return gradient;
 }
 
-/// Adds div tau/rho of the sub-particle stress.
-template <int Dim>
-void add_sub_particle_stress(const Flow<Dim>& flow, std::vector<Vec<Dim>>& acceleration) {
-  const Particles<Dim>& particles = flow.state.particles;
-  std::vector<Mat<Dim>> stress(particles.size());
-  sub_particle_stress<Dim>(flow.pairs(), particles, flow.setup.scheme.smagorinsky, flow.setup.spacing,
-                           particles.velocity, stress);
-  flow.halo().exchange(stress);
-  add_stress_divergence<Dim>(flow.pairs(), particles, stress, acceleration);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -133,15 +86,14 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   Prediction<Dim> predicted;
   std::vector<Vec<Dim>>& acceleration = predicted.acceleration;
   acceleration.assign(particles.owned, Vec<Dim>::Zero());
-  if (setup.uses_velocity_gradient()) predicted.velocity_gradient = find_velocity_gradient(flow);
-  add_viscosity<Dim>(flow, predicted.velocity_gradient, acceleration);
+  if (setup.formulation.needs_velocity_gradient) predicted.velocity_gradient = find_velocity_gradient(flow);
+  flow.discretisation().add_viscous_force(flow, predicted.velocity_gradient, acceleration);
   add_friction(flow, dt, predicted);
-  if (setup.scheme.smagorinsky > 0.0) add_sub_particle_stress(flow, acceleration);
 
   damp(flow, start, dt, acceleration);
   add_loads<Dim>(flow.loads, acceleration);
 
-  const bool with_gravity = setup.wall_traits.gravity_in_prediction;
+  const bool with_gravity = setup.formulation.gravity_in_prediction;
   const Vec<Dim> gravity = with_gravity ? setup.gravity : Vec<Dim>(Vec<Dim>::Zero());
   predicted.velocity.assign(particles.size(), Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {

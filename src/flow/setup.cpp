@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/formulation.h"
 #include "geometry/from_spec.h"
-#include "operators/laplacian_shao_lo.h"
 #include "sampling/water_lattice.h"
 #include "walls/halfway.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
 namespace {
-
-/// With the density source, only particles thrown out are faster than this multiple of sqrt(2 g L).
-constexpr double fastest_counted_over_reference = 2.0;
 
 template <int Dim>
 PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
@@ -115,29 +110,28 @@ std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
 }  // namespace
 
 template <int Dim>
-Drawing<Dim>::Drawing(const CaseSpec& spec, const Communicator& ranks)
-    : wall_model(make_wall_model<Dim>(choices_of(spec).walls)),
-      walls(make_walls(spec, *wall_model, ranks)),
+Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks)
+    : walls(make_walls(spec, model, ranks)),
       shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
       fluid(make_fluid_particles(spec, walls.boundary, ranks, static_cast<std::int64_t>(walls.moving))) {}
 
 template <int Dim>
-Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<Dim>& drawing)
+Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks,
+                  Drawing<Dim>& drawing)
     : ranks(all_ranks),
-      scheme(choices_of(spec)),
+      formulation(chosen),
       density(spec.physics.density),
       spacing(spec.particles.spacing),
       first_wall_id(drawing.fluid.all),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      length(spec.study.length > 0.0 ? spec.study.length
-                                     : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
+      length(formulation.length > 0.0 ? formulation.length
+                                      : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
       rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       finds_wall_forces(!spec.bodies.empty() || std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
-      wall_model(drawing.wall_model),
-      wall_traits(wall_model->traits()),
+      wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
       open_ends(make_ends<Dim>(spec)),
       sections(make_sections<Dim>(spec)),
@@ -146,11 +140,9 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
       moorings(make_moorings<Dim>(spec)),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       damping(make_damping<Dim>(spec)),
-      kernel(make_kernel<Dim>(scheme.kernel, traits_of(spec).support * spacing)),
+      kernel(formulation.kernel),
       lattice(lattice_sums(kernel, spacing)),
-      kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)},
-      eta_squared(shao_lo_eta_squared(kernel_radius(kernel))),
-      air_law(kernel, spacing) {
+      kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {
   for (OpenEnd<Dim>& end : open_ends) {
     const double at_end = end.opening.normal.dot(end.opening.corner);
     for (const WallFace<Dim>& face : drawing.walls.boundary.faces) {
@@ -165,57 +157,23 @@ Setup<Dim>::Setup(const CaseSpec& spec, const Communicator& all_ranks, Drawing<D
   }
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,
-                   .artificial = scheme.artificial_viscosity * spacing,
+                   .artificial = formulation.artificial_viscosity * spacing,
                    .channel_width = spec.physics.channel_width,
                    .channel_roughness = spec.physics.channel_roughness};
   const bool has_friction =
       std::ranges::any_of(drawing.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
-  has_boundary_layers = scheme.turbulence == Turbulence::spalart_allmaras && has_friction;
+  has_boundary_layers = formulation.has_eddy_viscosity && has_friction;
   friction_law = {.viscosity = spec.physics.viscosity,
                   .spacing = spacing,
                   .exchange_length = 1.0 / lattice.across_plane,
                   .knows_layers = has_boundary_layers};
-  shifting_law = {.kind = scheme.shifting,
-                  .strength = scheme.shifting_strength,
-                  .cap = scheme.shifting_cap * spacing,
-                  .spacing = spacing};
   const double reference_speed = std::sqrt(2.0 * g * length);
-  time_step_rule = {.courant = scheme.courant, .spacing = spacing, .reference_speed = reference_speed};
-  if (scheme.name == SchemeName::farmani2020) time_step_rule.viscous_share = 0.1;  // (B20)
-  if (scheme.source == SourceKind::density && reference_speed > 0.0) {
-    time_step_rule.fastest = fastest_counted_over_reference * reference_speed;
-  }
+  time_step_rule = {.courant = formulation.courant,
+                    .spacing = spacing,
+                    .reference_speed = reference_speed,
+                    .viscous_share = formulation.viscous_share};
+  if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
   require_wide_channel(viscosity_law, time_step_rule);
-}
-
-template <int Dim>
-bool Setup<Dim>::keeps_matrix() const {
-  return scheme.integrator == Integrator::implicit_projection && scheme.implicit_form == ImplicitForm::residual &&
-         scheme.laplacian == LaplacianKind::morris && scheme.walls == WallTreatment::dummies && open_ends.empty();
-}
-
-template <int Dim>
-bool Setup<Dim>::uses_tensors() const {
-  return scheme.laplacian == LaplacianKind::consistent || scheme.gradient == GradientKind::consistent ||
-         scheme.divergence == DivergenceKind::consistent || scheme.surface == SurfaceTreatment::cone ||
-         wall_traits.needs_tensors || scheme.shifting == ShiftingKind::farzin;
-}
-
-template <int Dim>
-bool Setup<Dim>::uses_pair_vectors() const {
-  return scheme.gradient == GradientKind::conservative || scheme.divergence == DivergenceKind::standard ||
-         scheme.laplacian == LaplacianKind::morris || has_air();
-}
-
-template <int Dim>
-bool Setup<Dim>::uses_velocity_gradient() const {
-  return scheme.noise_viscosity > 0.0 || scheme.laplacian == LaplacianKind::morris || has_boundary_layers ||
-         (scheme.name == SchemeName::farzin2014 && scheme.divergence_free == DivergenceFree::midway);
-}
-
-template <int Dim>
-bool Setup<Dim>::uses_concentration_gradient() const {
-  return scheme.surface == SurfaceTreatment::cone || scheme.pair_vectors == PairVectors::kernel;
 }
 
 template struct Drawing<2>;

@@ -4,12 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "case/scheme_choices.h"
-#include "closures/air.h"
-#include "closures/shifting.h"
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
 #include "flow/damping.h"
+#include "flow/formulation.h"
 #include "flow/open_end.h"
 #include "motion/body_contact.h"
 #include "motion/wall_motion.h"
@@ -29,9 +27,8 @@ namespace tailwater {
 template <int Dim>
 struct Drawing {
   /// Throws InputError for an impossible geometry. Collective.
-  Drawing(const CaseSpec& spec, const Communicator& ranks);
+  Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks);
 
-  std::shared_ptr<const WallModel<Dim>> wall_model;
   Walls<Dim> walls;
   SharedRows<Dim> shared_rows;
   WallMotion<Dim> wall_motion;
@@ -41,10 +38,10 @@ struct Drawing {
 template <int Dim>
 struct Setup {
   /// Takes the motion of the walls out of `drawing`.
-  Setup(const CaseSpec& spec, const Communicator& ranks, Drawing<Dim>& drawing);
+  Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks, Drawing<Dim>& drawing);
 
   Communicator ranks;
-  SchemeChoices scheme;
+  FlowFormulation<Dim> formulation;
   double density;              ///< kg/m^3
   double spacing;              ///< m
   std::int64_t first_wall_id;  ///< of a wall particle of number 0
@@ -54,7 +51,6 @@ struct Setup {
   PeriodicDomain<Dim> domain;
   bool finds_wall_forces;  ///< whether a probe or a floating body asks for them
   bool is_closed;          ///< periodic in every direction: no surface anywhere, pressure known up to a constant
-  std::shared_ptr<const WallModel<Dim>> wall_model;
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
   std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet
@@ -68,28 +64,20 @@ struct Setup {
   Kernel<Dim> kernel;
   LatticeSums lattice;
   KernelValues kernel_values;
-  double eta_squared;  ///< m^2; eta^2 of (B8)
-  AirLaw air_law;
   ViscosityLaw viscosity_law;
   FrictionLaw friction_law;
   bool has_boundary_layers;  ///< whether particles carry an eddy viscosity
-  ShiftingLaw shifting_law;
   TimeStepRule time_step_rule;
 
   /// Whether missing neighbours count as air, so that nothing pulls near the surface.
-  bool has_air() const { return scheme.surface == SurfaceTreatment::air && !is_closed; }
+  bool has_air() const { return formulation.surface_is_air && !is_closed; }
   /// Viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
   double noise_viscosity(double speed) const {
-    return scheme.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
+    return formulation.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }
-  /// Whether the matrix of a second projection serves the next step's first one too: it is made at the same positions.
-  /// Not where ends are open, which change rows between steps, nor with consistent weights, whose rows that fell back
-  /// are counted when they are made.
-  bool keeps_matrix() const;
-  bool uses_tensors() const;
-  bool uses_pair_vectors() const;
-  bool uses_velocity_gradient() const;
-  bool uses_concentration_gradient() const;
+  /// Whether the matrix of a second projection serves the next step's first one too: not where ends are open, which
+  /// change rows between steps.
+  bool keeps_matrix() const { return formulation.has_second_projection && open_ends.empty(); }
 };
 
 }  // namespace tailwater

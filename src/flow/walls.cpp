@@ -20,7 +20,7 @@ WallDrive<Dim> drive_to(const Flow<Dim>& flow, const StepStart<Dim>& start, std:
 
 template <int Dim>
 WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  if (flow.setup.scheme.displacement == Displacement::mean_velocity) return drive_walls_to_end(flow, start, dt);
+  if (flow.setup.formulation.moves_with_mean_velocity) return drive_walls_to_end(flow, start, dt);
   std::vector<Vec<Dim>> velocity = start.wall_velocity;
   const double time = flow.state.time;
   flow.setup.wall_motion.get_mean_velocity(time, time + dt, flow.state.motion, velocity);
@@ -65,7 +65,7 @@ WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt) {
 template <int Dim>
 void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity) {
   flow.halo().exchange(velocity);
-  flow.setup.wall_model->show_velocity(flow.wall_scene(), V, velocity);
+  flow.wall_model().show_velocity(flow.wall_scene(), V, velocity);
   flow.halo().exchange(velocity);
 }
 
@@ -73,11 +73,11 @@ template <int Dim>
 void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity) {
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
   const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
-  if (flow.setup.scheme.divergence_free != DivergenceFree::midway || !may_turn) return;
+  if (!flow.setup.formulation.is_divergence_free_midway || !may_turn) return;
   WallTurns<Dim> turns{.dt = dt,
                        .from_drawn = {},
                        .in_step = {},
-                       .comes_from_chord = flow.setup.scheme.integrator == Integrator::explicit_projection};
+                       .comes_from_chord = !flow.setup.formulation.has_second_projection};
   if (!motion.moving().empty()) {
     turns.from_drawn.resize(flow.walls.boundary.walls.size());
     turns.in_step.resize(turns.from_drawn.size());

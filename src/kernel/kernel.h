@@ -3,12 +3,13 @@
 
 #include <variant>
 
-#include "case/scheme_choices.h"
 #include "kernel/cubic_spline.h"
 #include "kernel/farzin.h"
 #include "kernel/wendland_c2.h"
 
 namespace tailwater {
+
+enum class KernelName { wendland_c2, cubic_spline, farzin };
 
 /// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim], `derivative(r)` =
 /// dW/dr [1/m^(Dim+1)] and `steepness(r)`, F = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the kind of its constants: double

@@ -3,7 +3,7 @@
 //   div u_i = sum_j w_j (u_j - u_i) . a_ij,   a_ij of pair_vectors.h
 //
 // Zero for a uniform velocity. Where neighbours are missing, the air counts as moving with the particle, which is right
-// at a free surface. The consistent form is the trace of (F9), gradient_consistent.h.
+// at a free surface. The consistent form is the trace of (F9), published/gradient_consistent.h.
 #pragma once
 
 #include <span>

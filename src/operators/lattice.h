@@ -9,10 +9,7 @@ namespace tailwater {
 struct LatticeSums {
   double concentration = 0.0;  ///< w W(0) + sum w W, close to 1
   double morris = 0.0;         ///< 1/m^2; sum of the Morris Laplacian weights
-  double across_plane =
-      0.0;                  ///< 1/m; dx times the Morris weights from a column on one side of a plane to the other side
-  double shao_lo = 0.0;     ///< 1/m^2; sum of the weights of (B8) at full density
-  double consistent = 0.0;  ///< 1/m^2; sum of the consistent Laplacian weights (F23)
+  double across_plane = 0.0;   ///< 1/m; dx times the Morris weights from a column on one side of a plane to the other
 };
 
 template <int Dim>

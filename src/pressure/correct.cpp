@@ -8,11 +8,12 @@ template <int Dim>
 void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<Dim>& drive, double dt) {
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
-  const Vec<Dim> gravity = setup.wall_traits.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : setup.gravity;
+  std::vector<Vec<Dim>> gradient(particles.owned);
+  flow.discretisation().find_gradient(flow, particles.pressure, gradient);
+  const Vec<Dim> gravity = setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : setup.gravity;
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    particles.velocity[i] =
-        predicted.velocity[i] + dt * (gravity - gradient_at(flow, i, particles.pressure) / setup.density);
+    particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
   });
   flow.state.wall_velocity = drive.velocity;
   add_wall_forces(flow, particles.pressure);
@@ -22,10 +23,13 @@ template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
   if (!flow.setup.finds_wall_forces) return;
   const Particles<Dim>& particles = flow.state.particles;
-  for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) return;
-    flow.wall_forces.pressure[i] -= particles.volume[i] * push_of_wall_particle(flow, i, pressure);
-  });
+  std::vector<std::size_t> walls;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
+    if (!particles.is_fluid(i)) walls.push_back(i);
+  }
+  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
+  for_each(walls.size(),
+           [&](std::size_t n) { flow.wall_forces.pressure[walls[n]] -= particles.volume[walls[n]] * pushes[n]; });
 }
 
 template void correct<2>(Flow<2>&, const Prediction<2>&, const WallDrive<2>&, double);

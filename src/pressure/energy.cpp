@@ -18,14 +18,6 @@ constexpr double in_doubt = 0.25;
 /// was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
-/// Work [J] of a moving wall's particle: its force on the fluid, times its velocity.
-template <int Dim>
-double work_of_wall_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
-  const Particles<Dim>& particles = flow.state.particles;
-  const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
-  return dt * particles.volume[i] * push_of_wall_particle(flow, i, particles.pressure).dot(V);
-}
-
 /// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done
 /// on itself.
 template <int Dim>
@@ -35,9 +27,8 @@ double work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) 
   const OpenEnd<Dim>& end = flow.setup.open_ends[flow.end_of[i]];
   const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
     if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
-    const Vec<Dim> pair = flow.setup.uses_pair_vectors() ? flow.here.pair_vectors.at(pairs, i, k)
-                                                         : Vec<Dim>(pairs.slope(i, k) * pairs.e(i, k));
-    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) * pair);
+    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
+                    flow.here.pair_vectors.at(pairs, i, k));
   });
   const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
@@ -55,10 +46,10 @@ double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pr
 }
 
 /// Work [J] of the pressure on the expansion that the density source asks for: the energy it takes to lift water that
-/// had come too close. The source of (B17) is all density error: it has no such share.
+/// had come too close.
 template <int Dim>
 double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double dt) {
-  if (flow.setup.scheme.source != SourceKind::mixed) return 0.0;
+  if (equation.density_source.empty()) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return 0.0;
@@ -73,8 +64,15 @@ template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt) {
   if (flow.setup.wall_motion.moving().empty()) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
-  return sum_over(particles.owned, 0.0, [&](std::size_t i) {
-    return !particles.is_fluid(i) && flow.here.is_wet[i] ? work_of_wall_particle(flow, i, dt) : 0.0;
+  std::vector<std::size_t> walls;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
+    if (!particles.is_fluid(i) && flow.here.is_wet[i]) walls.push_back(i);
+  }
+  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, particles.pressure);
+  return sum_over(walls.size(), 0.0, [&](std::size_t n) {
+    const std::size_t i = walls[n];
+    const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
+    return dt * particles.volume[i] * pushes[n].dot(V);  // its force on the fluid, times its velocity
   });
 }
 
@@ -111,7 +109,7 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
 
   const double at_hand = 0.5 * sums.mass * g * setup.length + sums.kinetic_energy;
   if (at_hand > 0.0) {
-    const double left = std::max(0.0, 1.0 - state.energy_rise / (setup.scheme.energy_slack * at_hand));
+    const double left = std::max(0.0, 1.0 - state.energy_rise / (setup.formulation.energy_slack * at_hand));
     state.density_share = left * left;
   }
   report.density_share = state.density_share;

@@ -27,6 +27,7 @@ void take_out_mean(const Flow<Dim>& flow, double fullness, std::vector<double>& 
     return flow.role[i] == Role::water ? Vec<2>(particles.volume[i] * source[i], particles.volume[i]) : nothing;
   });
   flow.setup.ranks.sum_each(sums[0], sums[1]);
+  if (sums[1] == 0.0) return;
   const double mean = sums[0] / sums[1];
   for_each(source.size(), [&](std::size_t i) {
     if (flow.role[i] == Role::water) source[i] -= fullness * mean;

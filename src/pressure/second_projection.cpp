@@ -35,10 +35,10 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   PressureReport& report = second.report;
   report.interventions.fallback_rows = assemble_weights(flow, drive);
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
-  const Divergence<Dim> divergence(flow, particles.velocity);
-  std::vector<double> source(particles.owned);
+  std::vector<double> source(particles.owned, 0.0);
+  flow.discretisation().find_divergence(flow, particles.velocity, source);
   for_each(particles.owned,
-           [&](std::size_t i) { source[i] = flow.role[i] == Role::water ? -density / dt * divergence(i) : 0.0; });
+           [&](std::size_t i) { source[i] = flow.role[i] == Role::water ? -density / dt * source[i] : 0.0; });
   const double fullness = find_fullness(flow);
   take_out_mean(flow, fullness, source);
   for_each(particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, source[i]); });
@@ -54,9 +54,11 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   lift_to_zero<Dim>(flow, fullness, particles.pressure, correction);
   admit(flow, correction);
   flow.halo().exchange(correction);
+  std::vector<Vec<Dim>> gradient(particles.owned);
+  flow.discretisation().find_gradient(flow, correction, gradient);
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    if (flow.role[i] == Role::water) particles.velocity[i] -= dt / density * gradient_at(flow, i, correction);
+    if (flow.role[i] == Role::water) particles.velocity[i] -= dt / density * gradient[i];
     particles.pressure[i] += correction[i];
   });
   add_wall_forces(flow, correction);

@@ -39,7 +39,7 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   std::vector<double>& pressure = flow.state.particles.pressure;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
-  if (flow.setup.wall_model->follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure)) {
+  if (flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure)) {
     flow.halo().exchange(pressure);
   }
 }

@@ -6,11 +6,11 @@
 namespace tailwater {
 
 /// Share of a pressure below 0 that owned particle i may keep where there is air: `interior` for fluid, 1 for fluid in
-/// an end stretch, 1 or 0 for walls as their model says.
+/// an end stretch, 0 for walls.
 template <int Dim>
 double suction_share(const Flow<Dim>& flow, std::size_t i) {
   if (flow.role[i] == Role::water) return flow.here.interior[i];
-  return flow.state.particles.is_fluid(i) || flow.setup.wall_traits.pulls ? 1.0 : 0.0;
+  return flow.state.particles.is_fluid(i) ? 1.0 : 0.0;
 }
 
 }  // namespace tailwater

@@ -26,7 +26,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 /// What is known of an equation that stands in the flow's rows.
 struct PosedEquation {
   std::size_t fallback_rows = 0;
-  std::vector<double> density_source;  ///< Pa/m^2; the part of owned rows' sources that answers the density error
+  std::vector<double> density_source;  ///< Pa/m^2; PressureSource::density
   double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
 };
 

@@ -13,6 +13,7 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "flow/verbs.h"
+#include "formulations/make_flow.h"
 #include "geometry/mesh_surface.h"
 #include "run/inflow_estimate.h"
 #include "schemes/advance.h"
@@ -173,7 +174,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   estimate.is_from_tank = at_start * neighbours > most_pairs || estimate.grows_much;
   double per_particle = 0.0;
   if (estimate.is_from_tank) {
-    Flow<Dim> tank(tank_instead_of<Dim>(spec));
+    Flow<Dim> tank = make_flow<Dim>(tank_instead_of<Dim>(spec));
     per_particle = time_of_a_step(tank, spec.time.end) / static_cast<double>(tank.state.particles.owned);
   } else {
     per_particle = time_of_a_step(flow, spec.time.end) / std::max(at_start, 1.0);

@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "flow/verbs.h"
+#include "formulations/make_flow.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -15,6 +16,10 @@ namespace {
 constexpr std::int64_t steps_between_sorts = 10;
 
 }  // namespace
+
+template <int Dim>
+Simulation<Dim>::Simulation(const CaseSpec& spec, const Communicator& ranks)
+    : end_(spec.time.end), flow_(make_flow<Dim>(spec, ranks)) {}
 
 template <int Dim>
 void Simulation<Dim>::observe(RunObserver<Dim>& observer, const RunFolder& folder) {

@@ -22,7 +22,7 @@ template <int Dim>
 class Simulation {
  public:
   /// Builds the flow of a case, whose geometry is sound (require_sound_geometry). Throws InputError.
-  explicit Simulation(const CaseSpec& spec, const Communicator& ranks = {}) : end_(spec.time.end), flow_(spec, ranks) {}
+  explicit Simulation(const CaseSpec& spec, const Communicator& ranks = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

@@ -1,23 +1,8 @@
 #include "schemes/advance.h"
 
 #include "bodies/verbs.h"
-#include "schemes/projection.h"
-#include "schemes/two_step.h"
 
 namespace tailwater {
-namespace {
-
-template <int Dim>
-StepReport take_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  const SchemeChoices& scheme = flow.setup.scheme;
-  if (scheme.name == SchemeName::farmani2020) return two_step(flow, start, dt);
-  if (scheme.integrator == Integrator::explicit_projection) return explicit_projection_step(flow, start, dt);
-  return scheme.implicit_form == ImplicitForm::residual ? two_projections_step(flow, start, dt)
-                                                        : repeated_projection_step(flow, start, dt);
-}
-
-}  // namespace
-
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
@@ -26,7 +11,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   steer_wave_makers(flow);
   const StepStart<Dim> start = remember(flow);
   steer_bodies(flow, start, dt);
-  StepReport report = take_step(flow, start, dt);
+  StepReport report = flow.setup.formulation.take_step(flow, start, dt);
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity);
   flow.state.approach = largest_approach(flow);

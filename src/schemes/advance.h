@@ -10,7 +10,7 @@ namespace tailwater {
 template <int Dim>
 void start(Flow<Dim>& flow);
 
-/// Takes a step with the scheme and integrator of the case. Advances the time and the number of the step.
+/// Takes a step in the order of the formulation. Advances the time and the number of the step.
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt);
 

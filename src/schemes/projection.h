@@ -1,4 +1,4 @@
-// One step of scheme F, with either time integrator.
+// One step of scheme F. Its implicit form as published is published/repeated_projection.h.
 #pragma once
 
 #include "flow/flow.h"
@@ -12,14 +12,9 @@ StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
 
 /// Implicit projection, residual form: the velocity at the end of the step is divergence-free at the new positions
 /// (F19). The explicit step comes first. A second projection then removes the divergence that the first projection and
-/// the move left at the new positions. With `divergence_free = "midway"` the velocity is divergence-free at both ends
-/// of the step and halfway, when it moves the particles: symmetric in time, like RATTLE (Andersen 1983).
+/// the move left at the new positions. Where the first one aims midway (`aim`) the velocity is divergence-free at both
+/// ends of the step and halfway, when it moves the particles: symmetric in time, like RATTLE (Andersen 1983).
 template <int Dim>
 StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
-
-/// Implicit projection, repeated form, as published (F20)-(F27): repeats the whole step until the derivatives are those
-/// at the new positions.
-template <int Dim>
-StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
 }  // namespace tailwater

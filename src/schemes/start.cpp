@@ -1,3 +1,5 @@
+#include "schemes/start.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,25 +11,19 @@
 namespace tailwater {
 
 template <int Dim>
-void start(Flow<Dim>& flow) {
-  const double dt = next_time_step(flow);
-  assign_roles(flow);
-  hold_open_ends(flow, 0.0);
-  const StepStart<Dim> start = remember(flow);
-  locate(flow);
-  flow.state.approach = largest_approach(flow);
-  if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
-  if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
+void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
-  if (flow.setup.scheme.name == SchemeName::farmani2020) {
-    predict_pressure(flow, start, drive, dt);
-    add_wall_forces(flow, flow.state.particles.pressure);
-    std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
-    place_walls(flow, flow.state.time);
-    flow.is_located = false;
-    locate(flow);
-    return;
-  }
+  predict_pressure(flow, start, drive, dt);
+  add_wall_forces(flow, flow.state.particles.pressure);
+  std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
+  place_walls(flow, flow.state.time);
+  flow.is_located = false;
+  locate(flow);
+}
+
+template <int Dim>
+void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
   solve_with_bodies(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
@@ -38,7 +34,25 @@ void start(Flow<Dim>& flow) {
   add_wall_forces(flow, flow.state.particles.pressure);
 }
 
-template void start<2>(Flow<2>&);
-template void start<3>(Flow<3>&);
+template <int Dim>
+void start(Flow<Dim>& flow) {
+  const double dt = next_time_step(flow);
+  assign_roles(flow);
+  hold_open_ends(flow, 0.0);
+  const StepStart<Dim> start = remember(flow);
+  locate(flow);
+  flow.state.approach = largest_approach(flow);
+  if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
+  if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
+  flow.setup.formulation.find_first_pressure(flow, start, dt);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                         \
+  template void project_at_start<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);          \
+  template void predict_pressure_at_start<Dim>(Flow<Dim>&, const StepStart<Dim>&, double); \
+  template void start<Dim>(Flow<Dim>&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

@@ -45,9 +45,7 @@ void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force
 template <int Dim>
 class Dummies final : public WallModel<Dim> {
  public:
-  WallTraits traits() const override {
-    return {.pairs = WallRows::fluid_only, .shows_friction = false, .pulls = false};
-  }
+  WallTraits traits() const override { return {.pairs = WallRows::fluid_only}; }
 
   WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers, const SpaceShare& share,
                                     const Lattice<Dim>& lattice) const override {

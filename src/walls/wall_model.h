@@ -1,14 +1,13 @@
 // How walls act on the water. A wall model represents the walls by particles of its own. It decides three things about
 // them: the velocity they show to the water, their rows of the pressure equation, and the pressure they keep. Each
-// model is one file, and no room above this one asks which was chosen. Its loops run over wall particles only and are
-// dispatched once per loop.
+// model is one file, dummies here and those of the papers in `published`, and no room asks which was chosen. Its loops
+// run over wall particles only and are dispatched once per loop.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "case/scheme_choices.h"
 #include "closures/surroundings.h"
 #include "geometry/boundary.h"
 #include "linear/linear_system.h"
@@ -52,20 +51,6 @@ struct WallTraits {
 
   /// The rows of particles on the wall itself are the fluid's pressure equation.
   bool solves_on_wall = false;
-
-  /// Gravity acts in the prediction, as both schemes publish it, not in the correction. The wall rows then feel gravity
-  /// and the wall's own motion through the predicted velocity of the fluid. The other models' rows prescribe
-  /// grad p . n = rho (g - a) . n; with them, gravity in the prediction would count twice.
-  bool gravity_in_prediction = false;
-
-  /// The velocity its particles show to the water includes the wall's friction; a Laplacian over them needs no other.
-  bool shows_friction = true;
-
-  /// Its particles may have a pressure below 0 where there is air.
-  bool pulls = true;
-
-  /// Its rows use the renormalisation tensors.
-  bool needs_tensors = false;
 };
 
 /// The water and the walls at the present positions.
@@ -134,9 +119,5 @@ class WallModel {
   virtual bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,
                                std::span<double> pressure) const = 0;
 };
-
-/// Makes the model of that name.
-template <int Dim>
-std::unique_ptr<const WallModel<Dim>> make_wall_model(WallTreatment name);
 
 }  // namespace tailwater

@@ -1,12 +1,13 @@
-"""Who asks which formulation a case has: the case room, which reads the keys, and the rooms that compute with it. Probes,
-checks, walls, operators and runs go by its traits (case/formulation.h). Texts and comments may name a key.
-Usage: formulations.py SRC"""
+"""Which formulation a case has is asked where it is made, and nowhere else: no other file of src/ above the case room
+names one or reads [scheme]. Texts and comments may. Usage: formulations.py SRC"""
 import pathlib
 import re
 import sys
 
+# The case room knows the keys; the factory and the makers of the formulations read them.
 # run/explain.cpp tells the case in words, as it is written.
-MAY_ASK = ("case/", "flow/", "pressure/", "schemes/", "run/explain.cpp")
+MAY_ASK = ("case/", "formulations/", "robust/formulation.cpp", "published/farzin2014.cpp", "published/farmani2020.cpp",
+           "run/explain.cpp")
 ASKS = re.compile(r"\b(SchemeName|Formulation|Integrator)::|\bscheme\.\w|\bstudy\.\w|\b(SchemeTable|StudyTable)\b")
 TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*')
 
@@ -24,7 +25,7 @@ def violations(src):
 
 def main():
     found = list(violations(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) or "no room asks that does not compute with it")
+    print("\n".join(found) or "no file above the formulations asks which one it is")
     sys.exit(1 if found else 0)
 
 

@@ -7,6 +7,7 @@
 
 #include "closures/fluid_pairs.h"
 #include "operators/concentration.h"
+#include "published/shifting.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
 
@@ -24,12 +25,15 @@ template <class D>
 class ShiftingTest : public testing::Test {};
 TYPED_TEST_SUITE(ShiftingTest, Dimensions);
 
+enum class ShiftingKind { lind, farzin };
+
 template <int Dim>
 struct Shifted {
-  Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, bool is_near_surface)
-      : Shifted(law, points, speed, std::vector<double>(points.size(), is_near_surface ? 0.0 : 1.0)) {}
+  Shifted(ShiftingKind kind, double cap, std::vector<Vec<Dim>> points, double speed, bool is_near_surface)
+      : Shifted(kind, cap, points, speed, std::vector<double>(points.size(), is_near_surface ? 0.0 : 1.0)) {}
 
-  Shifted(const ShiftingLaw& law, std::vector<Vec<Dim>> points, double speed, const std::vector<double>& interior)
+  Shifted(ShiftingKind kind, double cap, std::vector<Vec<Dim>> points, double speed,
+          const std::vector<double>& interior)
       : set(moving(points, speed), make_kernel<Dim>(KernelName::wendland_c2, radius), dx),
         shift(set.size(), Vec<Dim>::Ones()) {
     Surroundings<Dim> here;
@@ -40,7 +44,10 @@ struct Shifted {
       here.mean_interior.push_back(mean_over_fluid<Dim>(set.pairs(), i, interior, 0.0));
       here.crowding.push_back(kernel_sums<Dim>(set.pairs(), i, values).crowding);
     }
-    beyond_bound = compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, here, shift);
+    const bool is_lind = kind == ShiftingKind::lind;
+    const ShiftingLaw law{.strength = is_lind ? 2.0 : 0.1, .cap = cap, .spacing = dx};
+    beyond_bound = is_lind ? compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, here, shift)
+                           : find_published_shifts<Dim>(law, dt, set.pairs(), set.particles, here, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {
@@ -56,11 +63,6 @@ struct Shifted {
 };
 
 template <int Dim>
-ShiftingLaw law_of(ShiftingKind kind, double cap) {
-  return {.kind = kind, .strength = kind == ShiftingKind::lind ? 2.0 : 0.1, .cap = cap, .spacing = dx};
-}
-
-template <int Dim>
 constexpr int cube_count = Dim == 2 ? 13 : 9;
 
 constexpr std::array kinds{ShiftingKind::lind, ShiftingKind::farzin};
@@ -68,7 +70,7 @@ constexpr std::array kinds{ShiftingKind::lind, ShiftingKind::farzin};
 TYPED_TEST(ShiftingTest, LeavesTheInteriorOfALatticeAlone) {
   constexpr int Dim = TypeParam::value;
   for (const ShiftingKind kind : kinds) {
-    const Shifted<Dim> shifted(law_of<Dim>(kind, dx), jittered_cube<Dim>(cube_count<Dim>, dx, 0.0), 1.0, false);
+    const Shifted<Dim> shifted(kind, dx, jittered_cube<Dim>(cube_count<Dim>, dx, 0.0), 1.0, false);
     const double interior = (0.5 * (cube_count<Dim> - 1) - 3.0 + 1e-6) * dx;
     std::size_t tested = 0;
     for (std::size_t i = 0; i < shifted.set.size(); ++i) {
@@ -87,7 +89,7 @@ TYPED_TEST(ShiftingTest, MovesAwayFromTheCrowd) {
     auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.0);
     const std::size_t middle = points.size() / 2;
     points[middle] += 0.3 * dx * Vec<Dim>::UnitX();
-    const Shifted<Dim> shifted(law_of<Dim>(kind, dx), points, 1.0, false);
+    const Shifted<Dim> shifted(kind, dx, points, 1.0, false);
     EXPECT_LT(shifted.shift[middle][0], 0.0);
     // What is across vanishes by symmetry.
     EXPECT_LT((shifted.shift[middle] - shifted.shift[middle][0] * Vec<Dim>::UnitX()).norm(), 10.0 * single_eps * dt);
@@ -97,7 +99,7 @@ TYPED_TEST(ShiftingTest, MovesAwayFromTheCrowd) {
 TYPED_TEST(ShiftingTest, LeavesTheSurfaceAlone) {
   constexpr int Dim = TypeParam::value;
   for (const ShiftingKind kind : kinds) {
-    const Shifted<Dim> shifted(law_of<Dim>(kind, 1e6 * dx), jittered_cube<Dim>(cube_count<Dim>, dx, 0.3), 1.0, true);
+    const Shifted<Dim> shifted(kind, 1e6 * dx, jittered_cube<Dim>(cube_count<Dim>, dx, 0.3), 1.0, true);
     for (const Vec<Dim>& shift : shifted.shift) EXPECT_EQ(shift, Vec<Dim>::Zero());
   }
 }
@@ -105,13 +107,12 @@ TYPED_TEST(ShiftingTest, LeavesTheSurfaceAlone) {
 // The third row is inside, but the surface cuts its support; from the fifth row on all neighbours are inside.
 TYPED_TEST(ShiftingTest, IsWholeWhereAllNeighboursAreInside) {
   constexpr int Dim = TypeParam::value;
-  const ShiftingLaw law = law_of<Dim>(ShiftingKind::lind, 1e6 * dx);
   const std::vector<Vec<Dim>> points = jittered_cube<Dim>(13, dx, 0.1);
   const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is on top
   std::vector<double> interior(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) interior[i] = row(i) < 2 ? 0.0 : 1.0;
-  const Shifted<Dim> shifted(law, points, 1.0, interior);
-  const Shifted<Dim> whole(law, points, 1.0, false);
+  const Shifted<Dim> shifted(ShiftingKind::lind, 1e6 * dx, points, 1.0, interior);
+  const Shifted<Dim> whole(ShiftingKind::lind, 1e6 * dx, points, 1.0, false);
   int third_row = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].template head<Dim - 1>().cwiseAbs().maxCoeff() > 3.0 * dx) continue;
@@ -129,12 +130,12 @@ TYPED_TEST(ShiftingTest, BoundsItselfSmoothly) {
   constexpr int Dim = TypeParam::value;
   for (const ShiftingKind kind : kinds) {
     const auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.3);
-    const Shifted<Dim> unbounded(law_of<Dim>(kind, 1e12 * dx), points, 1.0, false);
+    const Shifted<Dim> unbounded(kind, 1e12 * dx, points, 1.0, false);
     double longest = 0.0;
     for (const Vec<Dim>& shift : unbounded.shift) longest = std::max(longest, shift.norm());
     ASSERT_GT(longest, 0.0);
     for (const double cap : {0.01 * longest, 0.5 * longest, 100.0 * longest}) {
-      const Shifted<Dim> bounded(law_of<Dim>(kind, cap), points, 1.0, false);
+      const Shifted<Dim> bounded(kind, cap, points, 1.0, false);
       const auto is_beyond = [&](const Vec<Dim>& shift) { return shift.norm() / cap > 1.0; };
       EXPECT_EQ(bounded.beyond_bound, std::count_if(unbounded.shift.begin(), unbounded.shift.end(), is_beyond));
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -154,13 +155,13 @@ TYPED_TEST(ShiftingTest, NothingForWallsLoneParticlesAndWaterAtRest) {
   const Vec<Dim> zero = Vec<Dim>::Zero();
   for (const ShiftingKind kind : kinds) {
     const auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.3);
-    EXPECT_EQ((Shifted<Dim>(law_of<Dim>(kind, dx), points, 1.0, false).shift[0]), zero);
-    for (const Vec<Dim>& shift : Shifted<Dim>(law_of<Dim>(kind, dx), points, 0.0, false).shift) EXPECT_EQ(shift, zero);
+    EXPECT_EQ((Shifted<Dim>(kind, dx, points, 1.0, false).shift[0]), zero);
+    for (const Vec<Dim>& shift : Shifted<Dim>(kind, dx, points, 0.0, false).shift) EXPECT_EQ(shift, zero);
     // A wall and two lone particles; then a pair in the air, whose only direction is its normal.
     const std::vector<Vec<Dim>> lone{Vec<Dim>::Constant(9.0), zero, Vec<Dim>::Constant(-9.0)};
-    for (const Vec<Dim>& shift : Shifted<Dim>(law_of<Dim>(kind, dx), lone, 1.0, false).shift) EXPECT_EQ(shift, zero);
+    for (const Vec<Dim>& shift : Shifted<Dim>(kind, dx, lone, 1.0, false).shift) EXPECT_EQ(shift, zero);
     const std::vector<Vec<Dim>> pair{Vec<Dim>::Constant(9.0), zero, 0.5 * dx * Vec<Dim>::UnitY()};
-    for (const Vec<Dim>& shift : Shifted<Dim>(law_of<Dim>(kind, dx), pair, 1.0, true).shift) {
+    for (const Vec<Dim>& shift : Shifted<Dim>(kind, dx, pair, 1.0, true).shift) {
       EXPECT_LT(shift.norm(), 100.0 * eps * dt);
     }
   }

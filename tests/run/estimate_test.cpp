@@ -77,7 +77,7 @@ TEST(ReachableEnd, IsUnknownWithoutGravity) {
 
 TEST(EstimateRun, CountsWhatThereIs) {
   const CaseSpec spec = pond_case<2>();
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const RunEstimate estimate = estimate_run(spec, flow);
   EXPECT_EQ(estimate.particles.fluid, 8.0);
   EXPECT_EQ(estimate.particles.wall, 0.0);
@@ -89,10 +89,10 @@ TEST(EstimateRun, CountsWhatThereIs) {
 
 TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
   CaseSpec spec = pond_case<2>();
-  Flow<2> tried(spec);
+  Flow<2> tried = make_flow<2>(spec);
   const RunEstimate from_case = estimate_run(spec, tried);
   EXPECT_FALSE(from_case.is_from_tank);
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const RunEstimate estimate = estimate_run(spec, flow, 1.0);
   EXPECT_TRUE(estimate.is_from_tank);
   EXPECT_EQ(estimate.particles.fluid, 8.0);
@@ -133,7 +133,7 @@ TEST(EstimateRun, CountsWhatComesIn) {
       "particles.spacing = 0.1\ntime.end = 10\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 2]]\n[[inlet]]\nfrom = [0, 0]\n"
       "to = [0, 2]\ndischarge = 0.1\n",
       "case.toml");
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const RunEstimate estimate = estimate_run(spec, flow);
   EXPECT_EQ(estimate.particles.fluid, 0.0);
   EXPECT_NEAR(estimate.largest_fluid, 100.0, 0.2);

@@ -17,7 +17,7 @@ class FindNonFinite : public testing::Test {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  Flow<Dim> flow{pond_case<Dim>()};
+  Flow<Dim> flow = make_flow<Dim>(pond_case<Dim>());
 };
 
 TYPED_TEST_SUITE(FindNonFinite, Dimensions);

@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(FluidFieldsTest, Dimensions);
 
 TYPED_TEST(FluidFieldsTest, HoldsTheWaterInTheOrderOfItsIds) {
   constexpr int Dim = TypeParam::value;
-  Flow<Dim> flow(pond_case<Dim>());
+  Flow<Dim> flow = make_flow<Dim>(pond_case<Dim>());
   Particles<Dim>& particles = flow.state.particles;
   const std::vector<Vec<Dim>> start(particles.position.begin(), particles.position.end());
   // As after sorting for the cache: particles swapped whole.
@@ -41,7 +41,7 @@ TYPED_TEST(FluidFieldsTest, HoldsTheWaterInTheOrderOfItsIds) {
 
 TYPED_TEST(FluidFieldsTest, GivesTheFieldsThatAreAskedFor) {
   constexpr int Dim = TypeParam::value;
-  const Flow<Dim> flow(pond_case<Dim>());
+  const Flow<Dim> flow = make_flow<Dim>(pond_case<Dim>());
   const std::vector<std::string> names(field_names.begin(), field_names.end());
   const FluidFields<Dim> all(flow, flow.state.particles, names);
   const auto view = all.view();

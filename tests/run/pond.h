@@ -2,6 +2,7 @@
 #pragma once
 
 #include "flow/flow.h"
+#include "formulations/make_flow.h"
 
 namespace tailwater {
 

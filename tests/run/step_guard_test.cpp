@@ -20,7 +20,7 @@ class StepGuardTest : public testing::Test {
 
   TemporaryFolder temporary;
   RunFolder folder = RunFolder::create(temporary.path(), false);
-  Flow<Dim> flow{pond_case<Dim>()};
+  Flow<Dim> flow = make_flow<Dim>(pond_case<Dim>());
   StepGuard<Dim> guard{flow};
 
   void SetUp() override {

@@ -1,5 +1,6 @@
 // Which water counts as lost.
 #include "run/water_books.h"
+#include "formulations/make_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ CaseSpec periodic_channel(double end, double slope) {
 
 template <int Dim>
 std::int64_t particles_outside(double end, double slope) {
-  return water_outside(Flow<Dim>(periodic_channel<Dim>(end, slope))).particles;
+  return water_outside(make_flow<Dim>(periodic_channel<Dim>(end, slope))).particles;
 }
 
 TEST(WaterOutside, WhatFallsThroughTheSeamOfAPeriodicDomainComesBack) {

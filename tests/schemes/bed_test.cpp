@@ -38,7 +38,7 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
   water.points.front()[1] = depth;
   water.points.back()[1] = depth;
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   // Rows cut by the slope do not fit: nobody falls farther than a spacing to its place.
   const double settling = std::sqrt(2.0 * g * dx);
   while (flow.state.time < 1.0) {
@@ -63,7 +63,7 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   water.min = {0.0, 0.0};
   water.max = {0.4, depth};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double reservoir = flow.setup.density * g * depth;
   const double bore = 2.0 * std::sqrt(g * depth);  // at most
   std::size_t put_back = 0;

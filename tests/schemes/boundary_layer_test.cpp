@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cases.h"
+#include "formulations/make_flow.h"
 #include "support/dimensions.h"
 
 namespace tailwater {
@@ -38,7 +39,7 @@ TYPED_TEST(BoundaryLayerTest, BeginsAtTheWallAndEndsWhereItHasNotCome) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = gliding_water<Dim>(Slip::no_slip);
   spec.walls[0].roughness = 0.001;
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   const int steps = Dim == 2 ? 100 : 30;
   double impulse = 0.0;
   for (int n = 0; n < steps; ++n) impulse += step(flow).dt;
@@ -75,7 +76,7 @@ TYPED_TEST(BoundaryLayerTest, IsNotThereWithoutFrictionNorInLaminarFlow) {
   for (const bool is_laminar : {false, true}) {
     CaseSpec spec = gliding_water<Dim>(is_laminar ? Slip::no_slip : Slip::free);
     if (is_laminar) spec.physics.viscosity = 1e-3;  // 1 m/s in dx/2: u y/nu = 5
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     EXPECT_EQ(flow.setup.has_boundary_layers, is_laminar);
     for (int n = 0; n < 5; ++n) step(flow);
     for (const double layer : flow.state.particles.layer_viscosity) EXPECT_EQ(layer, 0.0);
@@ -85,7 +86,7 @@ TYPED_TEST(BoundaryLayerTest, IsNotThereWithoutFrictionNorInLaminarFlow) {
 TEST(BoundaryLayer, GrowsAsTheBalanceOfMomentumAsks) {
   // d delta/dt = kappa u_tau while the layer is thinner than dx; the model's production gives c_b1/kappa u_tau, 0.81 of
   // it, and a little more diffuses upwards.
-  Flow<2> flow(gliding_water<2>(Slip::no_slip));
+  Flow<2> flow = make_flow<2>(gliding_water<2>(Slip::no_slip));
   const auto thickness = [&] {
     double sum = 0.0;
     int count = 0;

@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "formulations/make_flow.h"
 #include "pressure/verbs.h"
 #include "schemes/advance.h"
 

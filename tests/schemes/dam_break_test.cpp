@@ -29,7 +29,7 @@ CaseSpec dam_break(const Way& way) {
 class DamBreak : public testing::TestWithParam<Way> {};
 
 TEST_P(DamBreak, RunsSoundly) {
-  Flow<2> flow(dam_break(GetParam()));
+  Flow<2> flow = make_flow<2>(dam_break(GetParam()));
   const std::size_t count = count_fluid(flow);
   const double energy_at_start = measure(flow).energy();
   double least_energy = energy_at_start;
@@ -70,8 +70,8 @@ TEST_P(DamBreak, RunsSoundly) {
 }
 
 TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
-  Flow<2> one(dam_break(GetParam()));
-  Flow<2> two(dam_break(GetParam()));
+  Flow<2> one = make_flow<2>(dam_break(GetParam()));
+  Flow<2> two = make_flow<2>(dam_break(GetParam()));
   for (int n = 0; n < 60; ++n) {
     step(one);
     step(two);
@@ -86,7 +86,7 @@ TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
 }
 
 TEST_P(DamBreak, HasAllWallsThatTheWaterFeels) {
-  Flow<2> flow(dam_break(GetParam()));
+  Flow<2> flow = make_flow<2>(dam_break(GetParam()));
   const double support = kernel_radius(flow.setup.kernel);
   const WallParticles<2>& table = flow.walls.particles;
   const std::size_t walls_at_start = flow.state.particles.owned - count_fluid(flow);
@@ -114,9 +114,9 @@ TEST_P(DamBreak, HasAllWallsThatTheWaterFeels) {
 
 TEST(DamBreakInATankTwiceAsHigh, HasAsManyParticles) {
   CaseSpec spec = zhou_case(dx, Integrator::explicit_projection);
-  const Flow<2> low(spec);
+  const Flow<2> low = make_flow<2>(spec);
   spec.walls[0].points = {{0.0, 6.0}, {0.0, 0.0}, {3.22, 0.0}, {3.22, 6.0}};
-  const Flow<2> high(spec);
+  const Flow<2> high = make_flow<2>(spec);
   EXPECT_GT(high.walls.particles.size(), low.walls.particles.size());
   // A row of the two side walls may fall to either side of a cell's edge, by rounding.
   EXPECT_NEAR(static_cast<double>(high.state.particles.owned), static_cast<double>(low.state.particles.owned), 6.0);

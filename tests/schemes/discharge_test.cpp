@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "formulations/make_flow.h"
 #include "probes/discharge.h"
 #include "schemes/open_ends.h"
 
@@ -29,7 +30,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
   section.to = {0.6, 0.4};
   section.direction = {1.0, 0.0};
   spec.probes = {section};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const Reading<2> reading = discharge_reading<2>(section, spec);
   const auto read = [&] {
     return reading

@@ -67,7 +67,7 @@ class StretchingDrop : public testing::TestWithParam<Integrator> {};
 TEST_P(StretchingDrop, FollowsTheEllipse) {
   double previous_error = 1.0;
   for (const double dx : {0.1, 0.05}) {
-    Flow<2> flow(round_drop(dx, GetParam()));
+    Flow<2> flow = make_flow<2>(round_drop(dx, GetParam()));
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       const Vec<2>& x = flow.state.particles.position[i];
       flow.state.particles.velocity[i] = {-x[0], x[1]};
@@ -107,7 +107,7 @@ TEST(TimeStep, LeavesParticlesThatMeetApart) {
   water.min = {0.0, 0.0};
   water.max = {2.0 * dx, dx};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   std::vector<Vec<2>>& velocity = flow.state.particles.velocity;
   ASSERT_EQ(flow.state.particles.owned, 2u);
   const std::size_t left = flow.state.particles.position[0][0] < flow.state.particles.position[1][0] ? 0 : 1;

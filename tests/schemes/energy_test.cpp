@@ -33,7 +33,7 @@ Books run_to(Flow<2>& flow, double end) {
 
 /// Largest rise of the energy, over its start, of a dam break to T = t sqrt(g/H).
 double rise_of_dam_break(const CaseSpec& spec, double T) {
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
   double least = start;
   double rise = 0.0;
@@ -69,7 +69,7 @@ TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
 
 TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   stretch_up(flow);
   step(flow);
   const double start = measure(flow).density_error_mean;
@@ -90,7 +90,7 @@ TEST(DensitySource, CorrectsAsFastWhateverTheStep) {
     CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
     spec.scheme.courant /= static_cast<double>(n + 1);
     spec.study.shifting = 0.0;
-    Flow<2> flow(spec);
+    Flow<2> flow = make_flow<2>(spec);
     stretch_up(flow);
     locate(flow);
     const double start = measure(flow).density_error_mean;
@@ -127,7 +127,7 @@ TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
   water.max = {0.4, 0.4};
   water.velocity = {2.0, 0.0};  // off the wall, which cannot hold it
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
   while (flow.state.time < 0.06) {
     step(flow);
@@ -151,7 +151,7 @@ TEST_P(Energy, OfAPistonIsItsWork) {
   water.min = {0.0, 0.0};
   water.max = {1.0, 0.3};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   step(flow);  // the lattice finds its level
   const double start = energy(flow);
   const Books books = run_to(flow, 1.0);
@@ -177,7 +177,7 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
   water.min = {0.0, 0.0};
   water.max = {0.6, 0.5};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
   const Books books = run_to(flow, 0.1);
   EXPECT_GT(books.viscous_work, 1.0);  // J/m
@@ -191,7 +191,7 @@ TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
   spec.scheme.integrator = GetParam();
   spec.study.energy_slack = 1.0;  // all that the settling lattice does is small
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double mass = flow.setup.density * 0.5 * 0.5;
   flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;
   while (flow.state.time < 0.3) {

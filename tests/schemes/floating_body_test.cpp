@@ -81,7 +81,7 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
     low[0] = 0.9;
     high[0] = 1.7;
     add_box(spec, low, high, 500.0);
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     const auto momentum = [&] {
       Vec<Dim> sum = Vec<Dim>::Zero();
       const Particles<Dim>& particles = flow.state.particles;
@@ -111,7 +111,7 @@ TEST(FloatingBody, StaysAtItsDraught) {
       spec.scheme.integrator = integrator;
       const double height = 0.1 / lightness;
       add_box(spec, {0.35, 0.3}, {0.65, 0.3 + height}, lightness * 1000.0);
-      Flow<2> flow(spec);
+      Flow<2> flow = make_flow<2>(spec);
       start(flow);
       const Vec<2> drawn = flow.setup.bodies[0].drawn.centre;
       while (flow.state.time < 0.5) {
@@ -131,7 +131,7 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   spec.fluid[0].max[1] = spec.walls[0].max[1] = 6.0 * dx;
   add_box(spec, {0.25, 0.0, 0.2}, {0.55, 6.0 * dx, 0.4}, 500.0);
   spec.bodies[0].free = {"z"};
-  Flow<3> flow(spec);
+  Flow<3> flow = make_flow<3>(spec);
   start(flow);
   const double drawn = flow.setup.bodies[0].drawn.centre[2];
   while (flow.state.time < 0.3) {
@@ -142,7 +142,7 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
 
 // A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
 // it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
-// pressure needs a few steps to be there (softness, weights.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
+// pressure needs a few steps to be there (softness, robust/rows.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
 // each.
 TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
   constexpr double dx = 0.02;
@@ -157,7 +157,7 @@ TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
   BodyTable body = body_of("hull", 0.1 * displaced, {0.8, 0.8}, {});
   body.free = {"x", "y"};
   add_body(spec, hull, body);
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   for (int n = 0; n < 10; ++n) step(flow);
   const double expected = 0.9 / 1.1 * g;
@@ -170,7 +170,7 @@ TEST(FloatingBody, SinksToTheBedAndLiesThere) {
   constexpr double dx = 0.05;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.25);
   add_box(spec, {0.4, 0.15}, {0.8, 0.55}, 4000.0);
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
   const auto lowest = [&] {
@@ -191,7 +191,7 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   CaseSpec spec = tank_case<2>(dx, 0.4, 0.2);
   add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0);
   {
-    Flow<2> flow(spec);
+    Flow<2> flow = make_flow<2>(spec);
     double longest = 0.0;
     while (flow.state.time < 0.3) longest = std::max(longest, step(flow).dt);
     const BodyState<2>& body = flow.state.motion.bodies.each[0];
@@ -210,7 +210,7 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   line.anchor = {2.0, 5.1};
   line.stiffness = mass * omega * omega;
   spec.moorings = {line};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   double longest = 0.0;
   while (flow.state.time < 0.5) longest = std::max(longest, step(flow).dt);
   const double expected = 2.0 + 0.1 * std::cos(omega * flow.state.time);
@@ -234,7 +234,7 @@ TEST(FloatingBody, MeetsOthersWithoutPassingOrRebounding) {
   piston.fluid_side = FluidSide::outside;
   piston.displacement = {"0.5*t", 0.0};
   spec.walls.push_back(piston);
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
   const auto gap = [&] { return bodies[1].centre[0] - bodies[0].centre[0] - 0.2; };
   const double common = (500.0 * 1.0 - 1000.0 * 0.2) / 1500.0;
@@ -263,7 +263,7 @@ TEST(FloatingBody, MeetsAnotherInTheWater) {
   for (BodyTable& body : spec.bodies) body.free = {"x", "y"};
   spec.bodies[0].velocity = {0.8, 0.0};
   spec.bodies[1].velocity = {-0.8, 0.0};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
   double least = 1.0;
@@ -290,7 +290,7 @@ TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   line.stiffness = 50.0;
   line.damping = 1e9;
   spec.moorings = {line};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < 0.3) step(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
   EXPECT_NEAR(body.centre[1], 5.05, 0.01);  // fallen until the line was straight, to the way of a step

@@ -15,7 +15,7 @@ std::pair<int, std::vector<double>> run_steps(Integrator integrator, Preconditio
                                               BeforeStep&& before_step) {
   CaseSpec spec = zhou_case(0.03, integrator);
   spec.pressure_solver.preconditioner = preconditioner;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   int iterations = 0;
   for (int n = 0; n < steps; ++n) {

@@ -26,7 +26,7 @@ CaseSpec pushed_tank(PreconditionerName preconditioner) {
 /// The flow after so many steps. Calls before_step(flow) before each.
 template <int Dim, class BeforeStep>
 std::vector<Vec<Dim>> velocity_after(const CaseSpec& spec, int steps, BeforeStep&& before_step) {
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   for (int n = 0; n < steps; ++n) {
     before_step(flow);
     step(flow);

@@ -26,7 +26,7 @@ Vec<Dim> beside(double below) {
 
 TYPED_TEST(LetGoTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   constexpr int Dim = TypeParam::value;
-  Flow<Dim> flow(tank_case<Dim>(dx, 0.4, 0.2));
+  Flow<Dim> flow = make_flow<Dim>(tank_case<Dim>(dx, 0.4, 0.2));
   Particles<Dim>& particles = flow.state.particles;
   const double support = kernel_radius(flow.setup.kernel);
   const std::size_t owned = particles.owned;
@@ -61,7 +61,7 @@ TYPED_TEST(LetGoTest, WithoutGravityNothingFalls) {
   CaseSpec spec = tank_case<Dim>(dx, 0.4, 0.2);
   spec.physics.gravity = Coordinates(Dim, 0.0);
   spec.study.length = 0.2;
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   flow.state.particles.position[0] = beside<Dim>(100.0);
   EXPECT_FALSE(let_go(flow));
   EXPECT_EQ(flow.state.fallen.particles, 0);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/formulation.h"
+#include "formulations/make_flow.h"
 #include "schemes/open_ends.h"
 
 namespace tailwater {
@@ -50,7 +51,7 @@ CaseSpec tank_with_level(double depth, const Varying& level) {
 /// begins, and stays there.
 TEST(OpenEnd, ATankComesToTheLevelBeyond) {
   for (const double level : {0.25, 0.8}) {
-    Flow<2> flow(tank_with_level(0.5, level));
+    Flow<2> flow = make_flow<2>(tank_with_level(0.5, level));
     start(flow);
     while (flow.state.time < 7.0) {
       pass_and_step(flow);
@@ -70,7 +71,7 @@ template <int Dim>
 void expect_follows(const CaseSpec& spec, const Varying& level, double rate, double duration, double at_rest) {
   CaseSpec with_level = spec;
   (spec.inlets.empty() ? with_level.outlets[0].level : with_level.inlets[0].level) = level;
-  Flow<Dim> flow(with_level);
+  Flow<Dim> flow = make_flow<Dim>(with_level);
   start(flow);
   const double length = flow.setup.open_ends[0].reach;
   const double least = 0.3;  // m; of all levels here
@@ -146,7 +147,7 @@ TEST(OpenEnd, AChannelWhoseDischargeEndsKeepsItsTailwater) {
   spec.fluid[0].velocity = {speed, 0.0};
   spec.inlets[0].discharge = Varying(fmt::format("{}*max(0, 1 - t/{})", speed * depth, duration));
   spec.outlets[0].level = depth;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   double mean = 0.0;
   int count = 0;
@@ -168,7 +169,7 @@ TEST(OpenEnd, AReservoirGivesTheDischargeOfPotentialFlow) {
   CaseSpec spec = channel<2>(1.5, head);
   spec.fluid.clear();
   spec.inlets[0].level = head;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 2.0) pass_and_step(flow);
   const double at_start = arrived_at(flow, 0).volume;
@@ -187,7 +188,7 @@ TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
   spec.inlets[0].discharge = speed * depth;
   spec.inlets[0].level = depth;
   spec.outlets[0].level = 0.4;  // the conjugate depth is 0.72 m
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 6.0) pass_and_step(flow);
   const LevelMiss& miss = flow.state.open_ends[1].miss;
@@ -206,7 +207,7 @@ TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
   spec.inlets[0].discharge = speed * depth;
   spec.inlets[0].profile = "s^(-0.5)";
   spec.outlets[0].level = depth;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 3.0) pass_and_step(flow);
   const double asked = speed * depth * flow.state.time;
@@ -224,7 +225,7 @@ TEST(OpenEnd, ThePublishedFormulationsHaveThem) {
     apply_formulation(spec.scheme);
     spec.inlets[0].discharge = 0.0;
     spec.outlets[0].level = 0.4;
-    Flow<2> flow(spec);
+    Flow<2> flow = make_flow<2>(spec);
     start(flow);
     for (int n = 0; n < 10; ++n) pass_and_step(flow);
     EXPECT_LT(measure(flow).largest_speed, std::sqrt(g * 0.4));

@@ -80,7 +80,7 @@ TEST_P(MovingWall, WhatAPistonSweepsTheWaterRises) {
   piston.displacement = {"0.1*(1 - cos(pi*clamp(t/4, 0, 1)))", 0.0};
   spec.walls = {chain({{-0.3, 0.0}, {1.0, 0.0}, {1.0, 1.0}}), piston};
   spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   std::size_t put_back = 0;
   while (flow.state.time < duration) put_back += step(flow).interventions.put_back;
   EXPECT_EQ(put_back, 0u);
@@ -113,7 +113,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   water.shape = BlockShape::polygon;
   water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {0.0, 0.55}};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   sort_particles(flow);
   start(flow);
   const double felt = std::hypot(g, a);
@@ -150,7 +150,7 @@ TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
   bed.displacement = {"2*t", 0.0};
   spec.walls = {bed};
   spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const double settling = std::sqrt(g * dx / std::numbers::pi);
   while (flow.state.time < 0.8) {  // more than a period of the domain
     EXPECT_EQ(step(flow).interventions.put_back, 0u);
@@ -180,7 +180,7 @@ TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
   lid.displacement = {"t", 0.0};
   spec.walls = {bed, lid};
   spec.fluid = {water_box({0.0, 0.0}, {0.6, height})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < height * height / spec.physics.viscosity) step(flow);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
@@ -197,7 +197,7 @@ TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
   spec.walls = {chain({{0.0, 1.0}, {0.0, 0.0}, {1.15, 0.0}, {1.15, 1.0}}),
                 gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "2*max(0, t - 0.05)"})};
   spec.fluid = {water_box({0.0, 0.0}, {0.5, depth}), water_box({0.65, 0.0}, {1.15, depth})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   // What the water can win is the fall into the room of the gate.
   const double won = flow.setup.density * g * depth * thickness * 0.5 * depth;
   std::size_t put_back = 0;
@@ -228,7 +228,7 @@ void expect_clean_lock_gate(const Way& way) {
     spec.walls = {tank, gate({0.5, 0.0, 0.0}, {0.65, width, 0.8}, {0.0, 0.0, "3*t"})};
     spec.fluid = {water_box({0.0, 0.0, 0.0}, {0.5, width, 0.5}), water_box({0.65, 0.0, 0.0}, {1.65, width, 0.1})};
   }
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   std::size_t put_back = 0;
   std::size_t steps = 0;
   const double end = Dim == 2 ? 0.8 : 0.3;
@@ -257,7 +257,7 @@ TEST(MovingWallStep, NoWallMovesMoreThanTheCourantNumberInAStep) {
   spec.walls = {chain({{0.0, 1.0}, {0.0, 0.0}, {1.15, 0.0}, {1.15, 1.0}}),
                 gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "50*max(0, t - 0.001)"})};
   spec.fluid = {water_box({0.0, 0.0}, {0.5, 0.1})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   for (int n = 0; n < 20; ++n) {
     const double before = flow.state.time;
     step(flow);
@@ -282,7 +282,7 @@ Flow<3> ships_tank(const VectorField& displacement) {
   tank.displacement = displacement;
   spec.walls = {tank};
   spec.time.end = 12.0;
-  return Flow<3>(spec);
+  return make_flow<3>(spec);
 }
 
 TEST(MovingWallStep, ASlowWallLeavesTheStepAsLongAsTheWaterAllows) {
@@ -325,7 +325,7 @@ CaseSpec absorber_case(double at) {
 TEST(WaveMaker, GivesWayByTheElevationInFrontOfIt) {
   // The tent counts the lattice exactly, wherever the plate stands. In long waves the gain is sqrt(g/h).
   for (const double at : {0.0, 0.013}) {
-    Flow<2> flow(absorber_case(at));
+    Flow<2> flow = make_flow<2>(absorber_case(at));
     steer_wave_makers(flow);
     EXPECT_NEAR(flow.state.motion.wave_makers[0].rate, -0.04 * std::sqrt(g / 0.4), 1e-12);
     EXPECT_EQ(flow.state.motion.wave_makers[0].correction, 0.0);
@@ -333,7 +333,7 @@ TEST(WaveMaker, GivesWayByTheElevationInFrontOfIt) {
 }
 
 TEST(WaveMaker, MovesAsItWasSteered) {
-  Flow<2> flow(absorber_case(0.0));
+  Flow<2> flow = make_flow<2>(absorber_case(0.0));
   double expected = 0.0;
   for (int step = 0; step < 3; ++step) {
     advance(flow, 2e-3);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "formulations/make_flow.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
 
@@ -48,7 +49,7 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
     spec.study.length = 0.2;
     spec.fluid[0].velocity.assign(Dim, 0.0);
     spec.fluid[0].velocity[0] = speed;
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     const auto ids_at_start = fluid_ids(flow.state.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
     while (flow.state.time < 0.4 / speed + 2.0 * dx / speed) {
@@ -80,7 +81,7 @@ TYPED_TEST(OpenEndTest, StillWaterIsNotDrawnDown) {
   for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
     CaseSpec spec = open_tank<Dim>(width, depth);
     spec.scheme.integrator = integrator;
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     start(flow);
     while (flow.state.time < 2.0 * width / celerity) {
       let_go(flow);
@@ -101,8 +102,8 @@ TEST(Outlet, LeftIsRightMirrored) {
   left.outlets[0].to = {0.0, 0.8};
   left.outlets[0].direction = {-1.0, 0.0};
   left.fluid[0].velocity = {-1.0, 0.0};
-  Flow<2> flow_right(right);
-  Flow<2> flow_left(left);
+  Flow<2> flow_right = make_flow<2>(right);
+  Flow<2> flow_left = make_flow<2>(left);
   for (int n = 0; n < 20; ++n) {
     for (Flow<2>* flow : {&flow_right, &flow_left}) {
       let_go(*flow);
@@ -119,7 +120,7 @@ TEST(Outlet, LeftIsRightMirrored) {
 TEST(Outlet, EndStretchIsHydrostatic) {
   CaseSpec spec = open_tank<2>(1.0, 0.5);
   spec.pressure_solver.tolerance = 1e-12;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   int leaving = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
@@ -138,7 +139,7 @@ TEST(Outlet, HoleInTheFloor) {
   spec.outlets[0].from = {0.0, 0.0};
   spec.outlets[0].to = {0.4, 0.0};
   spec.outlets[0].direction = {0.0, -1.0};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const std::size_t at_start = fluid_ids(flow.state.particles).size();
   start(flow);
   while (flow.state.time < 0.2) {
@@ -169,7 +170,7 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
   spec.fluid.clear();
   spec.inlets[0].velocity = speed;
   const double breadth = 1.0;  // m; in 3D as broad as wide
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   start(flow);
   std::size_t before = 0;
   while (flow.state.time < 0.3) {
@@ -228,7 +229,7 @@ TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
     section.from[0] = section.to[0] = 0.5 * width;
     section.direction = spec.outlets[0].direction;
     spec.probes = {section};
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     const double volume_at_start = static_cast<double>(count_fluid(flow)) * power<Dim>(dx);
     const auto at_start = static_cast<std::int64_t>(count_fluid(flow));
     start(flow);
@@ -257,7 +258,7 @@ TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
   spec.fluid[0].velocity = {-speed, 0.0};
   spec.inlets[0].discharge = -speed * depth;
   spec.outlets[0].level = depth;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const auto at_start = static_cast<std::int64_t>(count_fluid(flow));
   start(flow);
   while (flow.state.time < 1.0) pass_and_step(flow);
@@ -277,7 +278,7 @@ TEST(OpenEnd, AChannelAtRestStaysAtRest) {
   CaseSpec spec = channel<2>(1.0, depth);
   spec.inlets[0].discharge = 0.0;
   spec.outlets[0].level = depth;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   const double celerity = std::sqrt(g * depth);
   while (flow.state.time < 2.0 / celerity) pass_and_step(flow);
@@ -305,7 +306,7 @@ TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
     spec.outlets[0].level = depth;
     spec.inlets[0].water_from = "end";
     spec.inlets[0].reserve = asked == speed ? dx * depth * breadth : 0.0;  // a column, or nothing
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     const auto at_start = static_cast<std::int64_t>(count_fluid(flow)) + sump_of(flow, 1).particles;
     ASSERT_EQ(sump_of(flow, 1).particles, std::lround(spec.inlets[0].reserve / power<Dim>(dx)));
     start(flow);
@@ -340,7 +341,7 @@ TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
   spec.walls[0].max[1] = spec.inlets[0].to[1] = spec.outlets[0].to[1] = 0.4;
   spec.inlets[0].velocity = 1.5;
   spec.inlets[0].profile = "3*s";
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   pass_and_step(flow);
   const Particles<2>& particles = flow.state.particles;
@@ -359,7 +360,7 @@ TEST(OpenEnd, AReservoirFloodsADryChannel) {
   CaseSpec spec = channel<2>(1.5, 0.4);
   spec.fluid.clear();
   spec.inlets[0].level = 0.4;
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 0.5) pass_and_step(flow);
   const Passed arrived = arrived_at(flow, 0);

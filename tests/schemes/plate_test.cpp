@@ -40,7 +40,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   constexpr double depth = 0.5;
   CaseSpec spec = tank_case<Dim>(dx, width, depth);
   spec.walls.push_back(plate_to<Dim>(0.3));
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   locate(flow, false);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
@@ -77,7 +77,7 @@ TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
     spec.fluid.push_back(spec.fluid[0]);
     spec.fluid[0].max[0] = spec.fluid[1].min[0] = 0.5 * width;
     spec.fluid[1].max[Dim - 1] = shallow;
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     const double settling = std::sqrt(g * dx / std::numbers::pi);
     for (int n = 0; n < (Dim == 2 ? 30 : 8); ++n) {
       EXPECT_EQ(step(flow).interventions.put_back, 0u);
@@ -100,7 +100,7 @@ TYPED_TEST(PlateTest, IsNotPassed) {
   for (const double side : {-1.0, 1.0}) {
     CaseSpec spec = tank_case<Dim>(dx, width, 0.1);
     spec.walls.push_back(plate_to<Dim>(0.2));
-    Flow<Dim> flow(spec);
+    Flow<Dim> flow = make_flow<Dim>(spec);
     locate(flow, false);
     Particles<Dim>& particles = flow.state.particles;
     const std::vector<Vec<Dim>> before(particles.position.begin(), particles.position.begin() + particles.owned);
@@ -151,7 +151,7 @@ TEST(MeshPlateAtRest, HasThePressuresOfTheRectangle) {
   const testing_cases::MeshFolder folder;
   constexpr double deep = 0.4;
   const auto pressures = [&](const WallTable& plate) {
-    Flow<3> flow(two_depths(plate, deep, 0.2));
+    Flow<3> flow = make_flow<3>(two_depths(plate, deep, 0.2));
     for (int n = 0; n < 3; ++n) step(flow);
     const Particles<3>& particles = flow.state.particles;
     std::vector<double> found(count_fluid(flow));
@@ -178,7 +178,7 @@ TEST(MeshPlateAtRest, HoldsWaterApartWhenItBulges) {
   const auto is_before = [&](const Vec<3>& x) { return x[0] < width * bulge(x[1] / width, x[2] / (2.0 * depth)); };
   CaseSpec spec = tank_case<3>(dx, width, depth);
   spec.walls.push_back(sheet_across(folder, 2.0 * depth, bulge));
-  Flow<3> flow(spec);
+  Flow<3> flow = make_flow<3>(spec);
   std::vector<bool> was_before(count_fluid(flow));
   const Particles<3>& particles = flow.state.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {

@@ -68,8 +68,8 @@ template <int Dim, class Prepare>
 void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   spec.pressure_solver.tolerance = tau;
   const Communicator world = Communicator::world();
-  Flow<Dim> alone(spec);
-  Flow<Dim> shared(spec, world);
+  Flow<Dim> alone = make_flow<Dim>(spec);
+  Flow<Dim> shared = make_flow<Dim>(spec, world);
   prepare(alone);
   prepare(shared);
   run(alone, steps);
@@ -221,7 +221,7 @@ TEST(RanksTest, WaterThatLeavesIsBookedOnAllRanks) {
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) count += flow.state.particles.is_fluid(i);
     return flow.setup.ranks.sum(count);
   };
-  Flow<2> flow(spec, Communicator::world());
+  Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::int64_t at_start = water_in(flow);
   run(flow, 40);
   EXPECT_GT(flow.state.open_ends[0].departed.particles, 0);
@@ -239,7 +239,7 @@ TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
   start.discharge = 0.3;
   spec.inlets = {start};
   spec.fluid[0].velocity = {1.0, 0.0};
-  Flow<2> flow(spec, Communicator::world());
+  Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
   run(flow, 40);
   EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
@@ -267,7 +267,7 @@ TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   start.water_from = "end";
   spec.inlets = {start};
   spec.fluid[0].velocity = {1.0, 0.0};
-  Flow<2> flow(spec, Communicator::world());
+  Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
   run(flow, 60);
   EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
@@ -298,8 +298,8 @@ TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
     while (flow.state.time < end) shared_step(flow);
     return measure(flow).energy();
   };
-  Flow<2> alone(spec);
-  Flow<2> shared(spec, Communicator::world());
+  Flow<2> alone = make_flow<2>(spec);
+  Flow<2> shared = make_flow<2>(spec, Communicator::world());
   const double expected = energy_at_end(alone);
   EXPECT_NEAR(energy_at_end(shared), expected, spec.pressure_solver.tolerance * expected);
 }
@@ -307,7 +307,7 @@ TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
 /// Work is measured in pairs; the parts follow the water, however it moves.
 TEST(RanksTest, WorkStaysSharedEvenly) {
   CaseSpec spec = zhou_case(0.02, Integrator::explicit_projection);
-  Flow<2> flow(spec, Communicator::world());
+  Flow<2> flow = make_flow<2>(spec, Communicator::world());
   start(flow);
   share_out(flow);
   for (int n = 0; n < 100; ++n) {
@@ -328,8 +328,8 @@ TYPED_TEST(RanksTest, HaveAShareOfTheWallsAndThoseTheyNeed) {
   CaseSpec spec = jittered_tank<Dim>();
   spec.walls[0].max[Dim - 1] = 2.4;  // eight times as high as the water
   const Communicator world = Communicator::world();
-  const Flow<Dim> alone(spec);
-  Flow<Dim> flow(spec, world);
+  const Flow<Dim> alone = make_flow<Dim>(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec, world);
   run(flow, 6);
   const auto all = static_cast<double>(alone.walls.particles.size());
   EXPECT_EQ(flow.walls.all, alone.walls.all);

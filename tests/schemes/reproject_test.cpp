@@ -42,7 +42,7 @@ double rms_divergence(Flow<2>& flow) { return bulk_rms(flow, find_divergence(flo
 
 TEST(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
   constexpr double k = 2.0 * std::numbers::pi;
-  Flow<2> flow(periodic_square());
+  Flow<2> flow = make_flow<2>(periodic_square());
   std::vector<Vec<2>>& velocity = flow.state.particles.velocity;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
@@ -62,7 +62,7 @@ TEST(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
 }
 
 TEST(Reproject, LeavesAUniformVelocityAlone) {
-  Flow<2> flow(periodic_square());
+  Flow<2> flow = make_flow<2>(periodic_square());
   const Vec<2> uniform{1.0, -2.0};
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) flow.state.particles.velocity[i] = uniform;
   reproject_here(flow);

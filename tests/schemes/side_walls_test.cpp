@@ -28,7 +28,7 @@ CaseSpec uniform_flow(double speed, double channel_width) {
 TEST(SideWalls, SlowTheWaterAgainstItsVelocityAndNeverTurnItRound) {
   constexpr double round_off = std::numeric_limits<float>::epsilon();  // pairs are added in single precision
   for (const double width : {0.3, 1e-3, 1e-4, 1e-9}) {                 // the last two bring it to rest within a step
-    Flow<2> flow(uniform_flow(1.0, width));
+    Flow<2> flow = make_flow<2>(uniform_flow(1.0, width));
     const double dt = next_time_step(flow);
     step(flow);
     const double expected = 1.0 / (1.0 + dt * flow.setup.viscosity_law.side_wall_rate(1.0));
@@ -45,11 +45,11 @@ TEST(SideWalls, ThatBringAllWaterToRestWithinAStepAreRefused) {
   const double dt = 0.55 * 0.02 / std::sqrt(2.0 * g * 0.2);
   const double least = std::sqrt(12e-6 * dt);  // 12 nu/b^2 dt = 1
   spec.physics.channel_width = 1.01 * least;
-  EXPECT_NO_THROW(Flow<2>{spec});
+  EXPECT_NO_THROW(make_flow<2>(spec));
   for (const double width : {0.99 * least, 1e-9}) {
     spec.physics.channel_width = width;
     try {
-      const Flow<2> flow(spec);
+      const Flow<2> flow = make_flow<2>(spec);
       FAIL() << width << " was taken";
     } catch (const InputError& error) {
       const std::string message = error.what();

@@ -105,10 +105,10 @@ void take_steps(Flow<2>& flow, int count) {
 
 TEST_P(StateTest, IsAllThatARunNeedsToGoOn) {
   const CaseSpec& spec = GetParam().spec;
-  Flow<2> whole(spec);
+  Flow<2> whole = make_flow<2>(spec);
   start(whole);
   take_steps(whole, 40);
-  Flow<2> resumed(spec);
+  Flow<2> resumed = make_flow<2>(spec);
   resumed.restore(whole.state);
   take_steps(whole, 20);
   take_steps(resumed, 20);

@@ -36,7 +36,7 @@ double loss_in_a_turn(Integrator integrator, double courant) {
   water.level = 2.0;
   spec.fluid = {water};
   spec.walls = {round_wall(96, FluidSide::left)};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
     const Vec<2>& x = flow.state.particles.position[i];
@@ -61,7 +61,7 @@ TEST(TurningWall, TakesLittleEnergyFromWaterAlongIt) {
 /// The mean of the curvatures of all rows is `sign`/`radius` in each direction.
 template <int Dim>
 void expect_curvature(const CaseSpec& spec, double radius, double sign, double tolerance) {
-  const Flow<Dim> flow(spec);
+  const Flow<Dim> flow = make_flow<Dim>(spec);
   ASSERT_TRUE(flow.walls.is_curved);
   ASSERT_GT(flow.walls.curvature.size(), 0u);
   double trace = 0.0;
@@ -90,13 +90,13 @@ TEST(TurningWall, HasTheCurvatureOfItsMesh) {
 }
 
 TEST(TurningWall, HasNoCurvatureAtItsCorners) {
-  EXPECT_FALSE((Flow<2>(tank_case<2>(0.05, 1.0, 0.5)).walls.is_curved));
+  EXPECT_FALSE((make_flow<2>(tank_case<2>(0.05, 1.0, 0.5)).walls.is_curved));
   CaseSpec spec = free_case(0.05);
   WallTable roof;
   roof.points = {{-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}};
   roof.fluid_side = FluidSide::left;
   spec.walls = {roof};
-  EXPECT_FALSE(Flow<2>(spec).walls.is_curved);
+  EXPECT_FALSE(make_flow<2>(spec).walls.is_curved);
 }
 
 // Water glides at speed s along a plate that turns with omega about the origin, so it must gain 2 omega s across the
@@ -114,7 +114,7 @@ TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   water.max = {0.5, 0.5};
   spec.walls = {plate};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
     if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i] = Vec<2>(glide - omega * x[1], omega * x[0]);

@@ -26,7 +26,7 @@ double decay_rate_error(double dx) {
   water.min = {0.0, 0.0};
   water.max = {1.0, 1.0};
   spec.fluid = {water};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   EXPECT_TRUE(flow.setup.is_closed);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];

@@ -123,7 +123,7 @@ void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, d
   spec.fluid[0].velocity[Dim - 1] = -1.5;
   scheme.choose(spec);
   spec.probes = {force_probe(Coordinates(Dim, 0.0))};
-  Flow<Dim> flow(spec);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   const Reader<Dim> probe(spec, flow);
   Vec<Dim> largest = Vec<Dim>::Zero();
   bool any_contact = false;
@@ -185,7 +185,7 @@ TEST(WallForceParts, AddUpToTheWholeAndMomentsToo) {
     part.region_max = {is_left ? 0.437 : 1.1, 0.1};
     spec.probes.push_back(part);
   }
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   for (int n = 0; n < 5; ++n) step(flow);
   const auto row = [&](std::size_t probe) { return Reader<2>(spec, flow, probe).row(0.0); };
   const Row whole = row(0);
@@ -216,7 +216,7 @@ TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
   spec.walls.push_back(lid);
   const Coordinates about{0.0, 0.0};
   for (const WallTable& wall : spec.walls) spec.probes.push_back(force_probe(about, {wall.name}));
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   locate(flow);
   flow.wall_forces.reset(flow.state.particles.owned);
   add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
@@ -242,7 +242,7 @@ void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
   body.fluid_side = FluidSide::outside;
   spec.walls.push_back(body);
   spec.probes = {force_probe({0.0, 0.0}, {"body"}), force_probe({0.0, 0.0})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const Reader<2> on_body(spec, flow, 0);
   const Reader<2> on_all(spec, flow, 1);
   double impulse = 0.0;
@@ -292,7 +292,7 @@ TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
   spec.walls[0].slip = Slip::free;
   spec.walls[1].points[0][0] = -0.3;
   spec.probes = {force_probe({0.0, 0.0}, {"left"})};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const Reader<2> probe(spec, flow);
   const double start = fluid_sums_of_rank(flow).energy;
   double work = 0.0;
@@ -330,7 +330,7 @@ TEST(WallForceRefuses, SchemesWithoutReactions) {
 TEST(WallForce, HasNoMomentWithoutAPointForIt) {
   CaseSpec spec = tank_case<2>(0.1, 0.5, 0.3);
   spec.probes = {force_probe({})};
-  const Flow<2> flow(spec);
+  const Flow<2> flow = make_flow<2>(spec);
   const Reading<2> reading = force_reading<2>(spec.probes[0], spec, flow.walls.boundary);
   EXPECT_EQ(reading.columns.size(), 6U);  // force, pressure, friction
   for (const std::string& column : reading.columns) EXPECT_EQ(column.find("moment"), std::string::npos) << column;

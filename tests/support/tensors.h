@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "operators/gradient_consistent.h"
-#include "operators/laplacian_consistent.h"
-#include "operators/renormalisation.h"
+#include "published/gradient_consistent.h"
+#include "published/laplacian_consistent.h"
+#include "published/renormalisation.h"
 #include "support/particle_set.h"
 
 namespace tailwater {

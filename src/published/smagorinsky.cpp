@@ -1,10 +1,10 @@
-#include "closures/smagorinsky.h"
+#include "published/smagorinsky.h"
 
 #include <cmath>
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
-#include "operators/renormalisation.h"
+#include "published/renormalisation.h"
 
 namespace tailwater {
 

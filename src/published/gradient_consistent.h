@@ -6,7 +6,7 @@
 // not zero. Zero for a constant field, so p may be shifted by a constant.
 #pragma once
 
-#include "operators/renormalisation.h"
+#include "published/renormalisation.h"
 
 namespace tailwater {
 

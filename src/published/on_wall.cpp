@@ -1,4 +1,4 @@
-#include "walls/on_wall.h"
+#include "published/on_wall.h"
 
 #include "base/for_each.h"
 #include "walls/wet_walls.h"

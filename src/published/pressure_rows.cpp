@@ -1,15 +1,15 @@
-#include "walls/pressure_rows.h"
+#include "published/pressure_rows.h"
 
 #include "base/for_each.h"
-#include "operators/gradient_consistent.h"
-#include "walls/on_wall.h"
+#include "published/gradient_consistent.h"
+#include "published/on_wall.h"
 
 namespace tailwater {
 namespace {
 
 template <int Dim>
-void assemble_wall_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, LinearSystem::Row row) {
-  const Renormalisation<Dim>& tensors = scene.here.tensors[i];
+void assemble_wall_row(const WallScene<Dim>& scene, const Renormalisation<Dim>& tensors, const WallForce<Dim>& force,
+                       std::size_t i, LinearSystem::Row row) {
   if (!scene.here.is_wet[i] || !tensors.gradient_is_sound()) {
     row.finish_as_zero();
     return;
@@ -33,7 +33,9 @@ void assemble_wall_row(const WallScene<Dim>& scene, const WallForce<Dim>& force,
 template <int Dim>
 class PressureRows final : public OnWall<Dim> {
  public:
-  WallTraits traits() const override { return {.needs_tensors = true}; }
+  explicit PressureRows(std::shared_ptr<const Tensors<Dim>> tensors) : tensors_(std::move(tensors)) {}
+
+  WallTraits traits() const override { return {}; }
 
   WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int /*layers*/,
                                     const SpaceShare& share, const Lattice<Dim>& /*lattice*/) const override {
@@ -42,19 +44,22 @@ class PressureRows final : public OnWall<Dim> {
 
   void assemble_rows(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (!scene.particles.is_fluid(i)) assemble_wall_row(scene, force, i, system.row(i));
+      if (!scene.particles.is_fluid(i)) assemble_wall_row(scene, (*tensors_)[i], force, i, system.row(i));
     });
   }
+
+ private:
+  std::shared_ptr<const Tensors<Dim>> tensors_;
 };
 
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<const WallModel<Dim>> make_pressure_rows() {
-  return std::make_unique<PressureRows<Dim>>();
+std::unique_ptr<const WallModel<Dim>> make_pressure_rows(std::shared_ptr<const Tensors<Dim>> tensors) {
+  return std::make_unique<PressureRows<Dim>>(std::move(tensors));
 }
 
-template std::unique_ptr<const WallModel<2>> make_pressure_rows<2>();
-template std::unique_ptr<const WallModel<3>> make_pressure_rows<3>();
+template std::unique_ptr<const WallModel<2>> make_pressure_rows<2>(std::shared_ptr<const Tensors<2>>);
+template std::unique_ptr<const WallModel<3>> make_pressure_rows<3>(std::shared_ptr<const Tensors<3>>);
 
 }  // namespace tailwater

@@ -2,11 +2,13 @@
 // gradient along the normal, grad p . n = rho (g - a) . n. Needs the renormalisation tensors.
 #pragma once
 
+#include "published/renormalisation.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
 
+/// `tensors`: those of the particles at the present positions, whenever rows are written.
 template <int Dim>
-std::unique_ptr<const WallModel<Dim>> make_pressure_rows();
+std::unique_ptr<const WallModel<Dim>> make_pressure_rows(std::shared_ptr<const Tensors<Dim>> tensors);
 
 }  // namespace tailwater

@@ -41,6 +41,9 @@ struct Renormalisation {
   bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum<Dim>; }
 };
 
+template <int Dim>
+using Tensors = std::vector<Renormalisation<Dim>>;
+
 /// The tensors of every owned particle from all its neighbours with `takes_part[j]` (fluid, and walls that carry their
 /// own unknowns).
 template <int Dim>

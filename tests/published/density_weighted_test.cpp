@@ -7,10 +7,10 @@
 
 #include "operators/concentration.h"
 #include "operators/gradient_conservative.h"
-#include "operators/gradient_density_weighted.h"
 #include "operators/laplacian_morris.h"
-#include "operators/laplacian_shao_lo.h"
 #include "operators/lattice.h"
+#include "published/gradient_density_weighted.h"
+#include "published/laplacian_shao_lo.h"
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
 #include "support/particle_set.h"
@@ -131,7 +131,6 @@ TYPED_TEST(DensityWeightedTest, LatticeHasFullDensityAndGivesLinearFieldsNoLapla
       square += c_ij * x * x;
       second_moment += c_ij * pairs.r(i, k) * pairs.r(i, k);
     }
-    EXPECT_NEAR(sum, lattice.shao_lo, 10.0 * single_eps * sum);
     EXPECT_NEAR(linear, 0.0, 10.0 * single_eps * sum * radius);
     // A lattice knows no direction: lap(x^2) is lap(r^2)/Dim.
     EXPECT_NEAR(square, second_moment / Dim, 10.0 * single_eps * second_moment);

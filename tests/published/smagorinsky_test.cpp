@@ -1,4 +1,4 @@
-#include "closures/smagorinsky.h"
+#include "published/smagorinsky.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "walls/row_and_dummies.h"
+#include "published/row_and_dummies.h"
 
 #include "base/for_each.h"
-#include "walls/on_wall.h"
+#include "published/on_wall.h"
 
 namespace tailwater {
 namespace {
@@ -25,7 +25,7 @@ void assemble_copy_of_row(const WallScene<Dim>& scene, std::size_t i, LinearSyst
 template <int Dim>
 class RowAndDummies final : public OnWall<Dim> {
  public:
-  WallTraits traits() const override { return {.solves_on_wall = true, .gravity_in_prediction = true}; }
+  WallTraits traits() const override { return {.solves_on_wall = true}; }
 
   WallParticles<Dim> make_particles(const Boundary<Dim>& boundary, double spacing, int layers, const SpaceShare& share,
                                     const Lattice<Dim>& /*lattice*/) const override {

@@ -8,7 +8,7 @@
 // set: 30 to 60 % of the rows have coefficients of the wrong sign.
 #pragma once
 
-#include "operators/renormalisation.h"
+#include "published/renormalisation.h"
 
 namespace tailwater {
 

@@ -1,4 +1,4 @@
-#include "operators/renormalisation.h"
+#include "published/renormalisation.h"
 
 #include <cmath>
 

@@ -1,0 +1,30 @@
+#include "formulations/make_flow.h"
+
+#include "published/farmani2020.h"
+#include "published/farzin2014.h"
+#include "robust/formulation.h"
+
+namespace tailwater {
+
+template <int Dim>
+FlowFormulation<Dim> make_formulation(const CaseSpec& spec) {
+  const bool is_published = spec.scheme.formulation == Formulation::published;
+  if (spec.scheme.name == SchemeName::farmani2020) {
+    return is_published ? published_farmani<Dim>(spec) : robust_farmani<Dim>(spec);
+  }
+  return is_published ? published_farzin<Dim>(spec) : robust_farzin<Dim>(spec);
+}
+
+template <int Dim>
+Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
+  return Flow<Dim>(spec, make_formulation<Dim>(spec), ranks);
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                      \
+  template FlowFormulation<Dim> make_formulation<Dim>(const CaseSpec&); \
+  template Flow<Dim> make_flow<Dim>(const CaseSpec&, const Communicator&);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,87 @@
+#include "published/repeated_projection.h"
+
+#include <cmath>
+
+#include "base/for_each.h"
+#include "pressure/verbs.h"
+#include "schemes/project.h"
+
+namespace tailwater {
+namespace {
+
+/// The iteration ends when the pressure changes by less than this fraction of its rms value, or after so many passes:
+/// the smallest factor below leaves 0.7^30 = 2e-5 of what was there before.
+constexpr double pass_tolerance = 1e-3;
+constexpr int most_passes = 30;
+
+/// The paper's under-relaxation, after (F27).
+constexpr double relax_pressure = 0.4;
+constexpr double relax_velocity = 0.3;
+constexpr double relax_position = 0.4;
+
+/// Surface marks may change up to the second pass. Later changes would keep the iteration from settling.
+constexpr int passes_with_new_marks = 2;
+
+/// x <- x_before + factor (x - x_before) on owned entries.
+template <class Value>
+void relax(double factor, const std::vector<Value>& before, std::vector<Value>& field) {
+  for_each(before.size(), [&](std::size_t i) { field[i] = before[i] + factor * (field[i] - before[i]); });
+}
+
+/// rms of the difference divided by the rms of `field`, over the owned entries of all ranks.
+double relative_change(const Communicator& ranks, const std::vector<double>& before, const std::vector<double>& field) {
+  double difference =
+      sum_over(before.size(), 0.0, [&](std::size_t i) { return (field[i] - before[i]) * (field[i] - before[i]); });
+  double size = sum_over(before.size(), 0.0, [&](std::size_t i) { return field[i] * field[i]; });
+  ranks.sum_each(difference, size);
+  return size > 0.0 ? std::sqrt(difference / size) : 0.0;
+}
+
+template <class Value>
+std::vector<Value> owned_part(const std::vector<Value>& field, std::size_t owned) {
+  return {field.begin(), field.begin() + static_cast<std::ptrdiff_t>(owned)};
+}
+
+}  // namespace
+
+template <int Dim>
+StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  Particles<Dim>& particles = flow.state.particles;
+  StepReport report;
+  WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
+  std::optional<std::vector<double>> divergence_old;
+  for (bool settled = false; !settled && report.passes < most_passes;) {
+    const auto pressure_before = owned_part(particles.pressure, particles.owned);
+    const auto velocity_before = owned_part(particles.velocity, particles.owned);
+    const auto position_before = owned_part(particles.position, particles.owned);
+
+    locate(flow, report.passes >= passes_with_new_marks);         // derivatives at the positions of iterate k
+    Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F21)
+    if (report.passes == 0) grow_boundary_layers(flow, predicted);
+    const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
+    report.add(solve(flow, equation, drive));
+    correct(flow, predicted, drive, dt);  // (F24)
+    report.work = book_works(flow, start, predicted, equation, dt);
+    divergence_old = divergence_to_report(flow);
+
+    report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);
+    relax(relax_pressure, pressure_before, particles.pressure);
+    relax(relax_velocity, velocity_before, particles.velocity);
+    report.interventions.put_back += move(flow, start, dt);  // (F25)
+    relax(relax_position, position_before, particles.position);
+    place_walls(flow, flow.state.time + dt);  // walls are not relaxed
+
+    // The first pass starts from the previous step, not from an iterate of this one.
+    settled = report.passes > 1 && report.pressure_change < pass_tolerance;
+  }
+  report.interventions += shift(flow, dt);  // (F28)-(F32)
+  locate(flow);
+  report.divergence = report_of_divergence(flow, divergence_old);  // (F19)
+  return report;
+}
+
+template StepReport repeated_projection_step<2>(Flow<2>&, const StepStart<2>&, double);
+template StepReport repeated_projection_step<3>(Flow<3>&, const StepStart<3>&, double);
+
+}  // namespace tailwater

@@ -1,0 +1,54 @@
+// The default: conservative operators, air in place of a detected surface, dummies behind walls. For water at i, with
+// the pair vectors a_ij of operators/pair_vectors.h and the weights c_ij of operators/laplacian_morris.h,
+//
+//   grad p_i = sum_j w_j (p_i + p_j) a_ij                                            gradient.cpp
+//   div u_i  = sum_j w_j (u_j - u_i) . a_ij
+//   sum_j c_ij (p_i - p_j) + a_i p_i =                                               rows.cpp
+//       -(rho/dt) (div u_star - target) + gamma rho (s_i (C/C_0 - 1) + o_i)/dt^2     source.cpp
+//   viscous force: that of a Newtonian fluid, and one that acts on noise only        viscous_force.cpp
+//
+// Why each is as it is: docs/theory/schemes.md and robustness.md. docs/theory/devices.md lists what the equations of
+// the flow do not ask for.
+#pragma once
+
+#include "closures/air.h"
+#include "closures/shifting.h"
+#include "flow/flow.h"
+
+namespace tailwater {
+
+/// Of one case, as its operators need it.
+struct RobustLaws {
+  PairVectors pair_vectors = PairVectors::corrected;
+  AirLaw air;
+  ShiftingLaw shifting;
+  double density_relaxation = 0.0;  ///< gamma, while water at the speed of the time-step rule goes dx
+};
+
+template <int Dim>
+class RobustDiscretisation final : public Discretisation<Dim> {
+ public:
+  explicit RobustDiscretisation(const RobustLaws& laws) : laws_(laws) {}
+
+  void find_surface(Flow<Dim>& flow, bool keep_marks) override;
+  void find_pair_vectors(Flow<Dim>& flow) override;
+  void add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
+                         std::vector<Vec<Dim>>& acceleration) const override;
+  std::size_t write_rows(Flow<Dim>& flow) const override;
+  PressureSource find_source(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<const double> target,
+                             double dt) const override;
+  void find_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity,
+                       std::span<double> divergence) const override;
+  void find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
+                     std::span<Vec<Dim>> gradient) const override;
+  void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
+                   std::span<Vec<Dim>> pushes) const override;
+  std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const override;
+
+ private:
+  double closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const;
+
+  RobustLaws laws_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,72 @@
+#include "base/for_each.h"
+#include "operators/divergence.h"
+#include "operators/gradient_conservative.h"
+#include "robust/discretisation.h"
+#include "robust/loops.h"
+
+namespace tailwater {
+
+template <int Dim>
+void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
+                                              std::span<Vec<Dim>> gradient) const {
+  const std::vector<double>& volume = flow.state.particles.volume;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, pressure);
+  });
+}
+
+template <int Dim>
+void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity,
+                                                std::span<double> divergence) const {
+  find_standard_divergence(flow, velocity, divergence);
+}
+
+template <int Dim>
+void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const {
+  find_conservative_pushes(flow, walls, pressure, pushes);
+}
+
+template <int Dim>
+void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> divergence) {
+  const std::vector<Four> in_single = in_fours(velocity);
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    divergence[i] = standard_divergence<Dim>(flow.pairs(), i, flow.here.pair_vectors, in_single);
+  });
+}
+
+template <int Dim>
+void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                              const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const std::vector<double>& volume = flow.state.particles.volume;
+  for_each(walls.size(), [&](std::size_t n) {
+    const std::size_t i = walls[n];
+    VecSum<Dim> sum;
+    const Lanes own_volume = in_all_lanes(volume[i]);
+    const Lanes own = in_all_lanes(pressure[i]);
+    for_each_pair(pairs, i, [&](const auto& several) {
+      const PairVectorLanes<Dim> pair = flow.here.pair_vectors(several);
+      sum += own_volume * pair.place.volume_of_fluid() * (own + several.of(pressure)) * pair.a;
+    });
+    pushes[n] = sum.total() / volume[i];
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                             \
+  template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,         \
+                                                         std::span<Vec<Dim>>) const;                           \
+  template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,        \
+                                                           std::span<double>) const;                           \
+  template void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>&, std::span<const std::size_t>,         \
+                                                       const std::vector<double>&, std::span<Vec<Dim>>) const; \
+  template void find_standard_divergence<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::span<double>); \
+  template void find_conservative_pushes<Dim>(const Flow<Dim>&, std::span<const std::size_t>,                  \
+                                              const std::vector<double>&, std::span<Vec<Dim>>);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater
