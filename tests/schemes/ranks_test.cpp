@@ -289,19 +289,25 @@ TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
   expect_same<Dim>(spec, 1.0, as_it_is);
 }
 
-/// Through the collapse and the impact; chance decides after it.
+/// Through the collapse and the impact; chance decides after it. In scheme B particles move, and ghosts with them,
+/// between the prediction and its divergence.
 TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
-  CaseSpec spec = zhou_case(0.04, Integrator::explicit_projection);
   const double end = 2.0 * std::sqrt(0.6 / g);
+  constexpr int most_steps = 500;  // it takes 200; water that explodes would take ever smaller ones
   const auto energy_at_end = [&](Flow<2>& flow) {
     start(flow);
-    while (flow.state.time < end) shared_step(flow);
+    while (flow.state.time < end && flow.state.step < most_steps) shared_step(flow);
     return measure(flow).energy();
   };
-  Flow<2> alone = make_flow<2>(spec);
-  Flow<2> shared = make_flow<2>(spec, Communicator::world());
-  const double expected = energy_at_end(alone);
-  EXPECT_NEAR(energy_at_end(shared), expected, spec.pressure_solver.tolerance * expected);
+  for (const SchemeName name : {SchemeName::farzin2014, SchemeName::farmani2020}) {
+    CaseSpec spec = zhou_case(0.04, Integrator::explicit_projection);
+    spec.scheme.name = name;
+    apply_formulation(spec.scheme);
+    Flow<2> alone = make_flow<2>(spec);
+    Flow<2> shared = make_flow<2>(spec, Communicator::world());
+    const double expected = energy_at_end(alone);
+    EXPECT_NEAR(energy_at_end(shared), expected, spec.pressure_solver.tolerance * expected) << name_of(name);
+  }
 }
 
 /// Work is measured in pairs; the parts follow the water, however it moves.
