@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "case/case_toml.h"
+#include "case/problems.h"
 #include "case/removed_keys.h"
 #include "case/spec.h"
 #include "case/toml_text.h"
