@@ -91,6 +91,23 @@ Outcome output_failure(int error_number) {
                       error_number == 0 ? "" : ": " + std::generic_category().message(error_number))};
 }
 
+void add_commands(CLI::App& app, int argc, char** argv, ExitCode& code, const Communicator& ranks) {
+  add_new_command(app, code);
+  add_check_command(app, code);
+  add_explain_command(app, code);
+  add_migrate_command(app, code);
+  add_run_command(app, code, ranks, {argv + 1, argv + argc});
+  add_resume_command(app, code, ranks, {argv + 1, argv + argc});
+  add_info_command(app, code);
+  add_bench_command(app, code);
+  add_validate_command(app, code);
+  add_waves_command(app, code);
+  add_bed_command(app, code);
+  add_pictures_command(app, code);
+  add_view_command(app, code);
+  add_help_commands(app);
+}
+
 /// Does what the command line asks for.
 Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
@@ -106,20 +123,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
       "`tailwater COMMAND --help` tells more. All keys of a case file: tailwater run --help-case\n"
       "Exit codes: 0 done, 2 bad input, 3 the solver failed, 4 a file cannot be read or written, 130 interrupted.");
   ExitCode code = ExitCode::done;
-  add_new_command(app, code);
-  add_check_command(app, code);
-  add_explain_command(app, code);
-  add_migrate_command(app, code);
-  add_run_command(app, code, ranks, {argv + 1, argv + argc});
-  add_resume_command(app, code, ranks, {argv + 1, argv + argc});
-  add_info_command(app, code);
-  add_bench_command(app, code);
-  add_validate_command(app, code);
-  add_waves_command(app, code);
-  add_bed_command(app, code);
-  add_pictures_command(app, code);
-  add_view_command(app, code);
-  add_help_commands(app);
+  add_commands(app, argc, argv, code, ranks);
 
   try {
     require_printable(argc, argv);

@@ -47,11 +47,11 @@ double loss_in_a_turn(Integrator integrator, double courant) {
   return 1.0 - measure(flow).kinetic_energy / start;
 }
 
-// A wall whose tangent the water leaves along takes from it the energy dt |grad p|^2/rho of the rows beside it: 10 % in
-// a turn with explicit steps of 0.55 dx.
+// A wall whose tangent the water leaves along takes from it the energy dt |grad p|^2/rho of the rows beside it: 11 % in
+// a turn with explicit steps of 0.55 dx. Walls seen halfway leave less than half of that.
 TEST(TurningWall, TakesLittleEnergyFromWaterAlongIt) {
   const double loss = loss_in_a_turn(Integrator::explicit_projection, 0.55);
-  EXPECT_LT(loss, 0.03);
+  EXPECT_LT(loss, 0.05);
   EXPECT_GT(loss, -0.001);
   // The rest is of the first order, too.
   const double at_half_the_step = loss_in_a_turn(Integrator::explicit_projection, 0.275);
