@@ -13,7 +13,7 @@ namespace {
 /// Of a pond: rises in shares of m g L/2, and the warnings that they gave.
 class Limits {
  public:
-  Limits() : flow_(pond_case<2>()), limits_(LimitsTable{}, flow_), before_(warnings().size()) {}
+  Limits() : flow_(make_flow<2>(pond_case<2>())), limits_(LimitsTable{}, flow_), before_(warnings().size()) {}
 
   void rise_to(double share) {
     const double mass = fluid_sums_of_rank(flow_).mass;
