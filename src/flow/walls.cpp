@@ -74,10 +74,8 @@ void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, 
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
   const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
   if (!flow.setup.formulation.is_divergence_free_midway || !may_turn) return;
-  WallTurns<Dim> turns{.dt = dt,
-                       .from_drawn = {},
-                       .in_step = {},
-                       .comes_from_chord = !flow.setup.formulation.has_second_projection};
+  WallTurns<Dim> turns{
+      .dt = dt, .from_drawn = {}, .in_step = {}, .comes_from_chord = !flow.setup.formulation.has_second_projection};
   if (!motion.moving().empty()) {
     turns.from_drawn.resize(flow.walls.boundary.walls.size());
     turns.in_step.resize(turns.from_drawn.size());
