@@ -8,6 +8,7 @@
     run.probes["upstream"]                      # a pandas.DataFrame
     run.last()["velocity"]                      # fields as arrays
     tw.sweep(case, {"particles.spacing": [0.02, 0.015, 0.01]}, jobs=2).table()
+    tw.study(case, budget=600).table()          # each number with an interval
     with case.simulation() as simulation:       # in this process
         for step in simulation:
             step.position, step.velocity, step.pressure
@@ -20,8 +21,9 @@ from .errors import DataError, Error, InputError, IoError, RunWarning, SolverErr
 from .fields import Frame
 from .program import program, version
 from .run import Probes, Run
+from .study import Study, study
 from .sweep import Sweep, sweep
 from .view import View
 
 __all__ = ["Case", "Check", "DataError", "Error", "Frame", "InputError", "IoError", "Probes", "Run", "RunWarning",
-           "SolverError", "Sweep", "View", "program", "sweep", "version"]
+           "SolverError", "Study", "Sweep", "View", "program", "study", "sweep", "version"]

@@ -20,7 +20,7 @@ void add_bench_command(CLI::App& app, ExitCode&) {
     CLI::App* bench = command->add_subcommand(name, what);
     bench->set_help_flag();  // the bench explains its own options
     bench->prefix_command();
-    bench->callback([bench] { become_python(bench->get_name(), bench->remaining()); });
+    bench->callback([bench] { become_python("tailwater_validation." + bench->get_name(), bench->remaining()); });
   }
 }
 

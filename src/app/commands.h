@@ -22,6 +22,7 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
 void add_info_command(CLI::App& app, ExitCode& code);
 void add_bench_command(CLI::App& app, ExitCode& code);
 void add_validate_command(CLI::App& app, ExitCode& code);
+void add_study_command(CLI::App& app, ExitCode& code);
 void add_waves_command(CLI::App& app, ExitCode& code);
 void add_bed_command(CLI::App& app, ExitCode& code);
 void add_pictures_command(CLI::App& app, ExitCode& code);

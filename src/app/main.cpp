@@ -101,6 +101,7 @@ void add_commands(CLI::App& app, int argc, char** argv, ExitCode& code, const Co
   add_info_command(app, code);
   add_bench_command(app, code);
   add_validate_command(app, code);
+  add_study_command(app, code);
   add_waves_command(app, code);
   add_bed_command(app, code);
   add_pictures_command(app, code);

@@ -54,7 +54,7 @@ void draw_pictures(const std::filesystem::path& run, int count, const Communicat
   if (!ranks.is_root()) return;
   tell("drawing pictures");
   try {
-    run_python("pictures", {"--count", fmt::format("{}", count), run.string()});
+    run_python("tailwater_validation.pictures", {"--count", fmt::format("{}", count), run.string()});
   } catch (const IoError& error) {
     warn(fmt::format("no pictures: {}; later: tailwater pictures {}", error.what(), run.string()));
   }
@@ -81,7 +81,7 @@ void draw_start(const std::filesystem::path& image, const std::string& title, do
   for (const Vec<3>& x : marks) {
     options.push_back(fmt::format("--mark={},{},{}", x[0], x[1], x[2]));
   }
-  run_python("start_picture", options);
+  run_python("tailwater_validation.start_picture", options);
 }
 
 void add_pictures_command(CLI::App& app, ExitCode&) {
@@ -89,7 +89,7 @@ void add_pictures_command(CLI::App& app, ExitCode&) {
   command->set_help_flag();  // the Python program explains its own options
   command->prefix_command();
   command->footer("Example: tailwater pictures my_run --count 12 --from 1 -1 0.5");
-  command->callback([command] { become_python("pictures", command->remaining()); });
+  command->callback([command] { become_python("tailwater_validation.pictures", command->remaining()); });
 }
 
 }  // namespace tailwater

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -24,15 +25,17 @@ constexpr const char* python = "/usr/bin/python3";
 constexpr const char* validation = "share/tailwater/validation";
 constexpr const char* package = "lib/python3/dist-packages";
 
-/// The nearest folder above this program that has a module of the Python which scores cases.
+/// The nearest folder above this program that has the module, of one of the two.
 std::filesystem::path prefix_with(const std::string& module) {
+  std::string file = module + ".py";
+  std::ranges::replace(file.begin(), file.end() - 3, '.', '/');
   std::filesystem::path above = std::filesystem::path(this_program()).parent_path();
-  while (!std::filesystem::exists(above / validation / "tailwater_validation" / (module + ".py"))) {
+  while (!std::filesystem::exists(above / validation / file) && !std::filesystem::exists(above / package / file)) {
     if (above == above.root_path()) {
       throw IoError(
-          fmt::format("the Python package that runs and scores cases is not in {} above '{}'; remedy: install "
-                      "the program whole (cmake --install), or build it again",
-                      validation, this_program()));
+          fmt::format("the Python module {} is neither in {} nor in {} above '{}'; remedy: install the program whole "
+                      "(cmake --install), or build it again",
+                      module, validation, package, this_program()));
     }
     above = above.parent_path();
   }
@@ -49,11 +52,11 @@ void put_first(const std::string& folders) {
   }
 }
 
-/// The command line of a program of the package.
+/// The command line of a module that is a program.
 std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
   const std::filesystem::path prefix = prefix_with(module);
   put_first((prefix / validation).string() + ":" + (prefix / package).string());
-  std::vector<std::string> words{python, "-m", "tailwater_validation." + module, "--program", this_program()};
+  std::vector<std::string> words{python, "-m", module, "--program", this_program()};
   words.insert(words.end(), options.begin(), options.end());
   return words;
 }

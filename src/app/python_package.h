@@ -5,9 +5,9 @@
 
 namespace tailwater {
 
-/// Becomes a program of the Python package in share/tailwater/validation of a folder above this program, so that
-/// signals and the exit code are its own. The package's program is told where this one is (`--program`). Throws IoError
-/// if the package or Python is not there.
+/// Becomes a Python module, as "tailwater_validation.validate" or "tailwater.study_command", of a package that is in
+/// share/tailwater/validation or lib/python3/dist-packages of a folder above this program, so that signals and the exit
+/// code are its own. It is told where this program is (`--program`). Throws IoError if it or Python is not there.
 [[noreturn]] void become_python(const std::string& module, const std::vector<std::string>& options);
 
 /// Runs such a program and waits for it. Throws IoError, with the last line of what it said, if it does not end with

@@ -8,7 +8,7 @@ void add_validate_command(CLI::App& app, ExitCode&) {
       app.add_subcommand("validate", "Run the papers' cases and the exact solutions, and write a report of the scores");
   command->set_help_flag();  // the Python program explains its own options
   command->prefix_command();
-  command->callback([command] { become_python("validate", command->remaining()); });
+  command->callback([command] { become_python("tailwater_validation.validate", command->remaining()); });
 }
 
 }  // namespace tailwater

@@ -8,7 +8,7 @@ void add_waves_command(CLI::App& app, ExitCode&) {
   command->set_help_flag();  // the Python program explains its own options
   command->prefix_command();
   command->footer("Example: tailwater waves my_run g1 g2 g3 --from 20");
-  command->callback([command] { become_python("waves", command->remaining()); });
+  command->callback([command] { become_python("tailwater_validation.waves", command->remaining()); });
 }
 
 }  // namespace tailwater

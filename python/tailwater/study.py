@@ -1,0 +1,209 @@
+"""Studies: what a case's numbers come to when its particles get smaller, and how well they are known.
+
+A study runs a case at several spacings, one of them also from other starts and with half of the time step, and tells
+for each result of each probe its value with an interval (`uncertainty`, docs/theory/uncertainty.md)."""
+
+import json
+import math
+from pathlib import Path
+
+from . import uncertainty
+from .errors import DataError, InputError
+from .run import Run
+from .sweep import sweep
+
+__all__ = ["Study", "study"]
+
+COARSEST = 2.0  # times the spacing of the case, or of the finest run
+SPACINGS = 4
+STARTS = 3
+JITTER = 0.01  # of dx: enough for what is chance to take another course
+LEAST_RANGE = 1.5  # the least that the finest run must be finer than the coarsest one
+# A run's cost grows with 1/spacing: particles to the power of the dimension, steps, and a little for the solver.
+COST_POWER = 1.3
+COLUMNS = ("probe", "quantity", "unit", "value", "low", "high", "limit", "order", "uncertainty", "discretisation",
+           "chance", "step", "form", "notes")
+
+
+def quantities_of(run) -> dict:
+    """{(probe, quantity): (value, unit)}: what a run tells of its probes, and of its measurements."""
+    found = {}
+    for probe, result in run.results.items():
+        for quantity in result["quantities"]:
+            name, unit = quantity["name"], quantity["unit"]
+            if "to" in quantity:
+                found[probe, f"least {name}"] = quantity["value"], unit
+                found[probe, f"largest {name}"] = quantity["to"], unit
+            else:
+                found[probe, name] = quantity["value"], unit
+    for score in run.summary.get("measurements", []):
+        for name in ("rms", "bias"):
+            if name in score:
+                quantity = f"{score['column']}, {name} from {Path(score['file']).name}"
+                found[score["probe"], quantity] = score[name], score["unit"]
+    return found
+
+
+def number(value) -> str:
+    return "-" if value is None or math.isnan(value) else f"{value:.4g}"
+
+
+class Study:
+    """What a study has found. `rows` is a list of dicts with the columns of `table()`; `spacings` [m] are those that
+    were run, the finest first; `runs`, `starts` and `step` are the runs."""
+
+    def __init__(self, runs, starts=(), step=None):
+        """`runs` at three spacings or more; `starts` at one of them; `step`: the run of that spacing with half of its
+        time step. Throws DataError if a run has not ended."""
+        for run in [*runs, *starts, *([step] if step else [])]:
+            if run.summary.get("status") != "done":
+                raise DataError(f"{run.path}: has not ended; remedy: run the study again, it goes on with what is not "
+                                "done")
+        self.runs = sorted(runs, key=lambda run: run.spacing)
+        self.starts, self.step = list(starts), step
+        self.spacings = [run.spacing for run in self.runs]
+        others = [*self.starts, *([step] if step else [])]
+        self._base = next((run for run in self.runs if others and math.isclose(run.spacing, others[0].spacing)), None)
+        if others and self._base is None:
+            raise DataError(f"{others[0].path}: no run of the study has its spacing, {others[0].spacing:g} m")
+        self.rows = self._rows()
+
+    def _rows(self):
+        of_runs = [quantities_of(run) for run in self.runs]
+        of_starts = [quantities_of(run) for run in ([self._base, *self.starts] if self.starts else [])]
+        of_step = [quantities_of(run) for run in ([self._base, self.step] if self.step else [])]
+        rows = []
+        for key, (_, unit) in of_runs[0].items():
+            if not all(key in found for found in [*of_runs, *of_starts, *of_step]):
+                continue  # of a probe that has no reading in one of the runs there is nothing to compare
+            values = [found[key][0] for found in of_runs]
+            found = uncertainty.estimate(self.spacings, values, starts=[found[key][0] for found in of_starts],
+                                         step=tuple(found[key][0] for found in of_step) or None)
+            rows.append({"probe": key[0], "quantity": key[1], "unit": unit, "value": found.value, "low": found.low,
+                         "high": found.high, "limit": found.limit, "order": found.order,
+                         "uncertainty": found.uncertainty, "discretisation": found.discretisation,
+                         "chance": found.chance, "step": found.step, "form": found.form,
+                         "notes": "; ".join(found.notes), "values": values})
+        return rows
+
+    def table(self):
+        """A pandas.DataFrame over probe and quantity: `value` (that of the finest run) with `low` and `high`; `limit`
+        and `order`; of the interval's half width, `uncertainty`, what `discretisation`, `chance` and the time `step`
+        are of it; `notes` on what to make of it."""
+        import pandas
+
+        return pandas.DataFrame([{name: row[name] for name in COLUMNS} for row in self.rows],
+                                columns=COLUMNS).set_index(["probe", "quantity"])
+
+    def text(self) -> str:
+        """The table in words, a line or two for each number."""
+        told = f"spacings {', '.join(f'{spacing:.4g}' for spacing in self.spacings)} m"
+        if self.starts:
+            told += f"; {len(self.starts)} other starts"
+        if self.step:
+            told += "; half of the time step"
+        lines = [told + (f", at {self._base.spacing:.4g} m" if self._base else "")]
+        for row in self.rows:
+            parts = ", ".join(f"{name} {number(row[name])}" for name in ("discretisation", "chance", "step"))
+            lines.append(f"{row['probe']}, {row['quantity']}: {number(row['value'])} +- {number(row['uncertainty'])} "
+                         f"{row['unit']} (limit {number(row['limit'])}, order {number(row['order'])}; {parts})")
+            if row["notes"]:
+                lines.append(f"    {row['notes']}")
+        return "\n".join(lines) + "\n"
+
+    def write(self, folder):
+        """study.csv, study.json and study.txt."""
+        folder = Path(folder)
+        self.table().to_csv(folder / "study.csv", float_format="%.9g")
+        rows = [{name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
+                for row in self.rows]
+        told = {"spacings_m": self.spacings, "runs": [str(run.path) for run in self.runs],
+                "starts": [str(run.path) for run in self.starts], "step": str(self.step.path) if self.step else None,
+                "results": rows}
+        (folder / "study.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+        (folder / "study.txt").write_text(self.text(), encoding="utf-8")
+
+    def __repr__(self):
+        return self.text()
+
+    def _repr_html_(self):
+        return self.table()._repr_html_()
+
+
+def ladder(coarsest, finest, count=SPACINGS):
+    """Spacings from one to the other, each finer than the one before by the same factor, in four digits."""
+    ratio = (finest / coarsest) ** (1 / (count - 1))
+    return [float(f"{coarsest * ratio**k:.4g}") for k in range(1, count)]
+
+
+def finest_within(coarsest, seconds, budget, dimension, extra):
+    """The finest spacing with which the whole study, of which the coarsest run took `seconds`, takes `budget`."""
+    def cost(finest):
+        each = [(coarsest / spacing) ** (dimension + COST_POWER) for spacing in (coarsest, *ladder(coarsest, finest))]
+        return seconds * (sum(each) + extra * each[1])
+
+    low, high = coarsest / 64, coarsest
+    for _ in range(60):
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if cost(middle) < budget else (middle, high)
+    if coarsest / high < LEAST_RANGE:
+        raise InputError(f"--budget {budget:g}: the coarsest run, at {coarsest:g} m, has taken {seconds:.3g} s, and a "
+                         f"study down to {coarsest / LEAST_RANGE:.4g} m takes about "
+                         f"{cost(coarsest / LEAST_RANGE):.3g} s; remedy: a larger budget, or a coarser case")
+    return high
+
+
+def done(members, what):
+    """The runs of a sweep. Throws DataError, with the first message, if one is not done."""
+    for member, row in members.table().iterrows():
+        if row["status"] != "done":
+            message = row["message"] if isinstance(row["message"], str) else ""
+            raise DataError(f"{members.path / member}: {row['status']}{': ' if message else ''}{message}; remedy: "
+                            f"another case, or {what}; the study then goes on with what is not done")
+    return members.runs
+
+
+def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, step: bool = True, jobs: int = 1,
+          ranks: int = 1, progress: bool = False) -> Study:
+    """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
+    NAME_study; called again it goes on with what is not done.
+
+    `spacings`: three or more, in m. Without them they are four, from twice the case's own down to that; with a `budget`
+    in seconds of computing time (of one process), down to what fits it. `starts` runs with other random displacements
+    of the particles at the start, and one with half of the time step if `step`, are of the second coarsest spacing.
+    Throws InputError before anything is run; DataError if a run fails."""
+    out = Path(out or f"{case.file.stem}_study")
+    runner = {"jobs": jobs, "ranks": ranks, "progress": progress}
+    if starts < 0:
+        raise InputError(f"starts = {starts}: give 0 or more")
+    if spacings is not None:
+        chosen = sorted({float(spacing) for spacing in spacings}, reverse=True)
+        if len(chosen) < 3:
+            raise InputError(f"spacings = {', '.join(map(str, spacings))}: give three or more that differ")
+        if budget is not None:
+            raise InputError("spacings and a budget: give one of them")
+        runs = done(sweep(case, {"particles.spacing": chosen}, out=out / "spacings", **runner), "other spacings")
+    else:
+        own = case["particles.spacing"]
+        first = f"{COARSEST:g}*({own})" if isinstance(own, str) else COARSEST * own
+        coarse = done(sweep(case, {"particles.spacing": [first]}, out=out / "coarsest", **runner), "a finer case")
+        coarsest, finest = coarse[0].spacing, coarse[0].spacing / COARSEST
+        if budget is not None:
+            finest = finest_within(coarsest, coarse[0].summary["cost"]["cpu_s"], budget, coarse[0].dimension,
+                                   starts + 2 * step)
+        finer = sweep(case, {"particles.spacing": ladder(coarsest, finest)}, out=out / "spacings", **runner)
+        runs = [*coarse, *done(finer, "a coarser one")]
+    base = sorted(runs, key=lambda run: run.spacing)[-2]
+    at_base = case.copy().update({"particles.spacing": base.spacing})
+    others, half = [], None
+    if starts:
+        seed, jitter = base.case["particles"]["seed"], base.case["particles"]["jitter"] or JITTER
+        seeds = [seed + k + 1 for k in range(starts)]
+        others = done(sweep(at_base, {"particles.jitter": [jitter], "particles.seed": seeds}, out=out / "starts",
+                            **runner), "starts=0")
+    if step:
+        courant = base.case["scheme"]["courant"] / 2
+        half = done(sweep(at_base, {"scheme.courant": [courant]}, out=out / "step", **runner), "step=False")[0]
+    found = Study(runs, others, half)
+    found.write(out)
+    return found

@@ -1,0 +1,105 @@
+"""`tailwater study`: the command line of tailwater.study.
+
+Exit codes: 0 done, 2 bad input, 3 a run failed, 4 a file cannot be read or written, 130 interrupted."""
+
+import argparse
+import math
+import os
+import re
+import sys
+import tomllib
+
+UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        print(f"error: {message}; see: tailwater study --help", file=sys.stderr)
+        sys.exit(2)
+
+
+def seconds(text):
+    match = re.fullmatch(r"\s*([0-9.eE+]+)\s*(s|min|h|)\s*", text)
+    try:
+        value = float(match[1]) * UNITS[match[2]]
+    except (TypeError, ValueError):
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f'"{text}" is no time; write it as in 90, 20min or 1.5h')
+    return value
+
+
+def numbers(text):
+    try:
+        return [float(one) for one in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'"{text}" are no spacings; write them as in 0.02,0.016,0.0125') from None
+
+
+def count(text):
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise argparse.ArgumentTypeError(f'"{text}" is no count; give 0 or more')
+    return value
+
+
+def value_of(text):
+    """Of a change: a value as in a case file, or words and expressions without quotes."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def parser():
+    command = Parser(prog="tailwater study", allow_abbrev=False)
+    command.description = ("Run a case at several spacings, from other starts and with half of the time step, and say "
+                           "for each number of its probes how well it is known: value, interval, limit, order "
+                           "(docs/theory/uncertainty.md).")
+    command.epilog = ("Called again it goes on with what is not done. DIR/study.csv, study.json and study.txt have the "
+                      "table. Example: tailwater study my.toml --out my_study --budget 20min --jobs 2")
+    command.add_argument("--program", help=argparse.SUPPRESS)
+    command.add_argument("case", help="case file")
+    command.add_argument("--out", required=True, metavar="DIR", help="folder of the study")
+    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a value of the case")
+    command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three spacings or more, in m (default: "
+                         "four, from twice that of the case down to it)")
+    command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, as in 90, 20min or 1.5h, that "
+                         "chooses the finest spacing")
+    command.add_argument("--starts", type=count, default=3, metavar="N", help="runs from other starts (3)")
+    command.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at a time (1)")
+    command.add_argument("-n", dest="ranks", type=count, default=1, metavar="N", help="ranks of each run (1)")
+    command.add_argument("--quiet", action="store_true", help="no progress")
+    return command
+
+
+def main():
+    options = parser().parse_args()
+    if options.program:
+        os.environ["TAILWATER"] = options.program
+    import tailwater as tw  # not before it is known which program it is to call
+
+    try:
+        case = tw.Case(options.case)
+        for change in options.set:
+            key, _, value = change.partition("=")
+            case[key] = value_of(value)
+        found = tw.study(case, out=options.out, spacings=options.spacings, budget=options.budget, starts=options.starts,
+                         jobs=options.jobs, ranks=options.ranks, progress=not options.quiet)
+        print(found.text(), end="")
+    except tw.Error as error:
+        print(f"error: {error}", file=sys.stderr)
+        return {tw.InputError: 2, tw.SolverError: 3}.get(type(error), 3 if isinstance(error, tw.DataError) else 4)
+    except OSError as error:
+        print(f"error: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 4
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,88 @@
+"""A study of a case of a few particles: what it runs, what it says, and what it refuses."""
+
+import csv
+import json
+import unittest
+from pathlib import Path
+
+import tailwater as tw
+from small import DAM, PackageTest
+from tailwater import study_command
+from tailwater.study import finest_within, ladder
+from tailwater.uncertainty import estimate
+
+
+class Studies(PackageTest):
+    def setUp(self):
+        super().setUp()
+        self.case = tw.Case(self.write("dam.toml", DAM)).update({"time.end": 0.02})
+
+    def test_of_a_case(self):
+        found = tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1, jobs=2)
+        self.assertEqual(found.spacings, [0.1, 0.125, 0.16])
+        self.assertEqual([found.starts[0].spacing, found.step.spacing], [0.125, 0.125])
+        self.assertEqual(found.step.case["scheme"]["courant"], found.runs[1].case["scheme"]["courant"] / 2)
+        self.assertEqual(found.starts[0].case["particles"]["jitter"], 0.01)
+        # The table says what the method makes of what the runs say.
+        def value(run):
+            return run.results["depth"]["quantities"][0]["value"]
+        expected = estimate(found.spacings, [value(run) for run in found.runs],
+                            starts=[value(found.runs[1]), value(found.starts[0])],
+                            step=(value(found.runs[1]), value(found.step)))
+        row = found.table().loc[("depth", "depth")]
+        self.assertEqual([row["value"], row["low"], row["high"]], [expected.value, expected.low, expected.high])
+        self.assertEqual(row["unit"], "m")
+        with open("s/study.csv", encoding="utf-8") as file:
+            self.assertAlmostEqual(float(next(csv.DictReader(file))["high"]), expected.high, 8)
+        told = json.loads(Path("s/study.json").read_text(encoding="utf-8"))
+        self.assertEqual([told["spacings_m"], len(told["results"])], [found.spacings, len(found.rows)])
+        self.assertIn("depth, depth: ", Path("s/study.txt").read_text(encoding="utf-8"))
+        # Called again it runs nothing.
+        before = [run.path.joinpath("summary.json").stat().st_mtime_ns for run in found.runs]
+        again = tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1)
+        self.assertEqual([run.path.joinpath("summary.json").stat().st_mtime_ns for run in again.runs], before)
+        self.assertEqual(repr(again), repr(found))
+
+    def test_run_that_fails_is_named(self):
+        self.case["pressure_solver.max_iterations"] = 1
+        with self.assertRaisesRegex(tw.DataError, "particles.spacing=0.*max_iterations"):
+            tw.study(self.case, out="s", spacings=[0.16, 0.125, 0.1])
+
+    def test_two_spacings_are_no_study(self):
+        with self.assertRaisesRegex(tw.InputError, "three or more"):
+            tw.study(self.case, spacings=[0.1, 0.2, 0.1])
+        self.assertFalse(Path("dam_study").exists())
+
+
+class Budgets(unittest.TestCase):
+    def test_ladder_goes_down_by_one_factor(self):
+        self.assertEqual(ladder(0.2, 0.025), [0.1, 0.05, 0.025])
+
+    def test_budget_is_what_all_runs_take(self):
+        finest = finest_within(0.1, 2.0, 1000.0, 2, extra=5)
+        seconds = [2.0 * (0.1 / spacing)**3.3 for spacing in (0.1, *ladder(0.1, finest))]
+        self.assertAlmostEqual(sum(seconds) + 5 * seconds[1], 1000, delta=5)
+
+    def test_budget_that_is_too_small(self):
+        with self.assertRaisesRegex(tw.InputError, "budget 10: the coarsest run, at 0.1 m, has taken 2 s.*remedy"):
+            finest_within(0.1, 2.0, 10.0, 2, extra=5)
+
+
+class CommandLine(unittest.TestCase):
+    def test_times_and_values(self):
+        self.assertEqual([study_command.seconds(text) for text in ("90", "20min", "1.5h")], [90, 1200, 5400])
+        for text in ("", "-1", "1 day", "0"):
+            with self.assertRaises(study_command.argparse.ArgumentTypeError):
+                study_command.seconds(text)
+        self.assertEqual([study_command.value_of(text) for text in ("0.1", "[1, 2]", "2*H")], [0.1, [1, 2], "2*H"])
+
+    def test_mistakes_end_with_2(self):
+        out = ["my.toml", "--out", "s"]
+        for words in (["my.toml"], [*out, "--starts", "-1"], [*out, "--spacings", "a"]):
+            with self.assertRaises(SystemExit) as ended:
+                study_command.parser().parse_args(words)
+            self.assertEqual(ended.exception.code, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
