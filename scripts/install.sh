@@ -8,7 +8,7 @@ build=(
   libpetsc-real-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libcpp-httplib-dev
-  python3-dev pybind11-dev python3-numpy python3-pandas
+  python3-dev pybind11-dev python3-numpy python3-pandas python3-scipy
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")

@@ -1,4 +1,4 @@
-"""The guide docs/guide/python.md runs as it stands, block after block, and its words about the run are true."""
+"""The guides of scripts run as they stand, block after block, and their words about the runs are true."""
 
 import contextlib
 import io
@@ -9,18 +9,31 @@ from pathlib import Path
 import numpy as np
 from small import PackageTest
 
-GUIDE = Path(__file__).resolve().parents[2] / "docs" / "guide" / "python.md"
+GUIDES = Path(__file__).resolve().parents[2] / "docs" / "guide"
+
+
+def run_blocks(name, least):
+    """(the names that they leave, what they print)"""
+    names = {}
+    told = io.StringIO()
+    blocks = re.findall(r"^```python\n(.*?)^```", (GUIDES / name).read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    assert len(blocks) >= least, f"{name} has {len(blocks)} blocks"
+    with contextlib.redirect_stdout(told):
+        for block in blocks:
+            exec(compile(block, str(GUIDES / name), "exec"), names)
+    return names, told
 
 
 class Guide(PackageTest):
+    def test_search_finds_a_weir_of_the_level(self):
+        names, told = run_blocks("optimise.md", 1)
+        levels = [float(line.split()[-2]) for line in told.getvalue().splitlines()[:-1]]
+        self.assertLess(abs(levels[-1] - names["wanted"]), 0.002)
+        self.assertLess(abs(names["height"] - 0.213), 0.003)
+        self.assertLess(len(levels), 8)
+
     def test_runs(self):
-        names = {}
-        told = io.StringIO()
-        blocks = re.findall(r"^```python\n(.*?)^```", GUIDE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-        self.assertGreater(len(blocks), 5)
-        with contextlib.redirect_stdout(told):
-            for block in blocks:
-                exec(compile(block, str(GUIDE), "exec"), names)
+        names, told = run_blocks("python.md", 6)
         self.assertEqual(names["case"]["physics.density"], 1000)
         self.assertEqual(names["upstream"].attrs["units"]["connected_m"], "m")
         self.assertEqual(len(names["level"]), 4)
