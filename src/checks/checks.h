@@ -42,7 +42,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Warning: an opening between walls at rest, or under a plate, that is so narrow that it counts as closed.
+/// Warning: an opening between walls at rest, or beside a plate, that is closed, or too narrow for its water.
 template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

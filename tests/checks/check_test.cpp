@@ -541,36 +541,78 @@ TEST(Check, ABodyThatReachesThroughTheBedDoesNoHarm) {
   EXPECT_TRUE(check<3>(in_3d).empty()) << listed(check<3>(in_3d));
 }
 
-// A plate that ends above the bed of a tank, and a box above it, spacing 0.1 m.
+/// A tank with a plate that ends above its bed, spacing 0.1 m.
+CaseSpec tank_with_slot(double gap) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}}), polyline({{2, gap}, {2, 1.4}})};
+  spec.walls[1].shape = WallShape::plate;
+  spec.fluid = {box_fluid({0, 0}, {2, 1})};
+  return spec;
+}
+
 TEST(Check, AGapThatCountsAsClosedIsTold) {
-  const auto check_with_gap = [](double gap) {
-    CaseSpec spec = empty_case(0.1);
-    spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}})};
-    spec.fluid = {box_fluid({0, 0}, {2, 1})};
-    spec.walls.push_back(polyline({{2, gap}, {2, 1.4}}));
-    spec.walls.back().shape = WallShape::plate;
-    return check(spec);
-  };
-  EXPECT_TRUE(check_with_gap(0.0).empty()) << listed(check_with_gap(0.0));
+  EXPECT_TRUE(check(tank_with_slot(0.0)).empty()) << listed(check(tank_with_slot(0.0)));
   expect_only(
-      check_with_gap(0.04), Severity::warning,
-      {"the gap of 0.04 m between wall 'wall2' and wall 'wall1' at (2, 0.04) counts as closed", "at most 0.01 m"});
-  EXPECT_TRUE(check_with_gap(0.06).empty()) << listed(check_with_gap(0.06));
+      check(tank_with_slot(0.04)), Severity::warning,
+      {"the gap of 0.04 m between wall 'wall2' and wall 'wall1' at (2, 0.04) counts as closed", "at most 0.008 m"});
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}}), box_wall({2, 0.03}, {3, 1}, {}, FluidSide::outside)};
   spec.fluid = {box_fluid({0, 0}, {1.9, 0.8})};
   expect_among(check(spec), Severity::warning, {"the gap of 0.03 m between", "counts as closed"});
 }
 
-TEST(Check, AGapUnderAPlateThatCountsAsClosedIsToldIn3D) {
+TEST(Check, AGapTooNarrowForItsWaterIsToldUntilTheSpacingIsThatOfTheMessage) {
+  expect_only(check(tank_with_slot(0.06)), Severity::warning,
+              {"the gap of 0.06 m between wall 'wall2' and wall 'wall1' at (2, 0.06) is 0.6 spacings wide",
+               "a spacing of at most 0.012 m"});
+  expect_only(check(tank_with_slot(0.48)), Severity::warning, {"is 4.8 spacings wide", "at most 0.096 m"});
+  CaseSpec fine = tank_with_slot(0.48);
+  fine.particles.spacing = 0.096;
+  EXPECT_TRUE(check(fine).empty()) << listed(check(fine));
+  // Under a gate that leans, beside a box, and between two plates in one line.
+  CaseSpec leaning = tank_with_slot(0.2);
+  leaning.walls[1].points = {{2, 0.2}, {3, 1.2}};
+  leaning.fluid = {box_fluid({0, 0}, {1.5, 1})};
+  expect_only(check(leaning), Severity::warning, {"the gap of 0.2 m", "is 2.0 spacings wide"});
+  CaseSpec boxed = tank_with_slot(0.0);
+  boxed.walls[1] = box_wall({2, 0.3}, {3, 1}, {}, FluidSide::outside);
+  boxed.fluid = {box_fluid({0, 0}, {1.5, 0.8})};
+  expect_only(check(boxed), Severity::warning, {"the gap of 0.3 m between", "is 3.0 spacings wide"});
+  CaseSpec slit = tank_with_slot(0.0);
+  slit.walls[1].points = {{2, 0}, {2, 0.5}};
+  slit.walls.push_back(slit.walls[1]);
+  slit.walls[2].points = {{2, 0.7}, {2, 1.4}};
+  expect_only(check(slit), Severity::warning, {"the gap of 0.2 m between", "wall 'wall2'", "wall 'wall3'"});
+}
+
+// Walls that lean against each other are near each other at their corner, which is no gap.
+TEST(Check, ACornerIsNoGap) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}}), polyline({{4, 0}, {2.5, 1.25}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 1})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+/// A flume so broad with a plate across it, its lower edge so high above the bed and its sides so far from the walls.
+CaseSpec flume_with_slot(double breadth, double below, double beside) {
   CaseSpec spec = empty_case(0.1, 3);
-  spec.walls = {box_wall({0, 0, 0}, {2, 0.8, 1}, {"+z"})};
-  spec.fluid = {box_fluid({0, 0, 0}, {1, 0.8, 0.6})};
+  spec.walls = {box_wall({0, 0, 0}, {2, breadth, 2}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {1, breadth, 0.6})};
   WallTable plate;
   plate.shape = WallShape::plate;
-  plate.points = {{1, 0, 0.04}, {1, 0.8, 0.04}, {1, 0.8, 0.9}, {1, 0, 0.9}};
+  plate.points = {{1, beside, below}, {1, breadth - beside, below}, {1, breadth - beside, 1.2}, {1, beside, 1.2}};
   spec.walls.push_back(plate);
-  expect_only(check<3>(spec), Severity::warning, {"the gap of 0.04 m between wall 'wall2' and wall 'wall1'"});
+  return spec;
+}
+
+TEST(Check, AGapBesideAPlateIsToldIn3D) {
+  expect_only(check<3>(flume_with_slot(0.8, 0.04, 0.0)), Severity::warning,
+              {"the gap of 0.04 m between wall 'wall2' and wall 'wall1'", "counts as closed"});
+  expect_only(check<3>(flume_with_slot(0.6, 0.4, 0.0)), Severity::warning, {"the gap of 0.4 m", "is 4.0 spacings"});
+  expect_only(check<3>(flume_with_slot(2.0, 0.0, 0.3)), Severity::warning, {"the gap of 0.3 m", "is 3.0 spacings"});
+  // The top edge of a weir in a flume six spacings broad is near the side walls, and water passes over it.
+  const CaseSpec weir = flume_with_slot(0.6, 0.0, 0.0);
+  EXPECT_TRUE(check<3>(weir).empty()) << listed(check<3>(weir));
 }
 
 TEST(Check, AnOutletIn3DIsNoLeak) {

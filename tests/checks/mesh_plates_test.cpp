@@ -100,7 +100,7 @@ TEST(MeshPlate, HidesWhatPassesItsTriangles) {
   const MeshFolder folder;
   const CaseSpec spec = tank_with_plate(sheet_plate(folder, 8, [](double u, double v) {
     const double angle = std::numbers::pi * u;
-    return Vec<3>(0.75 + 0.25 * std::cos(angle), 0.2 + 0.6 * v, 0.3 + 0.25 * std::sin(angle));
+    return Vec<3>(0.75 + 0.25 * std::cos(angle), 0.32 + 0.36 * v, 0.32 + 0.25 * std::sin(angle));
   }));
   const Boundary<3> boundary = make_boundary<3>(spec);
   const MeshSurface& sheet = *boundary.plates.at(0).sheet;

@@ -69,7 +69,7 @@ TEST(WaterMesh, OfABoxIsTheBlock) {
   // In z no whole number of spacings.
   const Vec<3> high(2.0, 3.0, 1.1875);
   const FluidTable block = box_fluid({0.0, 0.0, 0.0}, {2.0, 3.0, 1.1875});
-  const WallTable body = box_wall({0.5, 1.0, 0.0}, {1.25, 2.0, 0.5}, {}, FluidSide::outside);
+  const WallTable body = box_wall({0.75, 1.0, 0.0}, {1.5, 2.0, 0.5}, {}, FluidSide::outside);
   for (const bool has_body : {false, true}) {
     CaseSpec with_block = tank_with(block);
     CaseSpec with_mesh = tank_with(mesh_water(folder, box_mesh(low, high)));
