@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case/formulation.h"
+#include "case/named_numbers.h"
 #include "case/nearest_name.h"
 
 namespace tailwater {
@@ -56,6 +57,23 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
   for (std::size_t i = 0; i < spec.probes.size(); ++i) {
     check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
                    root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
+  }
+}
+
+/// A fill has its surface across the last axis. It may lie along a sloping bed in axes that are turned with it.
+void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  constexpr double least_downward = 0.5;  // cosine between gravity and the way down along that axis
+  const double g = gravity_magnitude(spec.physics);
+  const int dimension = spec.general.dimension;
+  if (spec.physics.gravity.back() <= -least_downward * g) return;
+  for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
+    const toml::node* node = root["fluid"][k]["level"].node();
+    if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;
+    problems.add(
+        &node->source(),
+        fmt::format("fluid[{0}].level = {1}: is a {2}, but physics.gravity does not point down along {2}; turn "
+                    "the case so that it does, or draw the water as a box or a {3}",
+                    k, value_text(*node), dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
   }
 }
 
@@ -149,6 +167,7 @@ void check_names(const toml::table& root, std::string_view kind, const std::vect
 void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   check_amount_of_output(spec, root, problems);
   check_ends_of_series(spec, root, problems);
+  check_levels_of_fills(spec, root, problems);
   check_names_of_driven_walls(spec, root, problems);
   check_bodies(spec, root, problems);
   check_study(spec, root, problems);

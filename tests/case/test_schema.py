@@ -25,7 +25,8 @@ except ImportError:
 UNSEEN = {
     "two values": {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
-        "outlet_without_extent", "period_backwards", "period_empty", "probe_stretch_is_a_point", "probe_times_backwards",
+        "level_of_a_fill_where_gravity_is_sideways", "outlet_without_extent", "period_backwards", "period_empty",
+        "probe_stretch_is_a_point", "probe_times_backwards",
         "region_upside_down", "wave_that_breaks_at_once", "weight_that_does_not_lift", "fluid inside out",
         "wall without length"},
     "expressions": {
