@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "case/formulation.h"
 #include "formulations/make_flow.h"
@@ -103,6 +104,22 @@ TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
   expect_follows<2>(spec, Varying("0.5 + 0.1*sin(1.5*min(t, 8*atan(1)/1.5))"), 0.15, 6.0, 0.5);
 }
 
+/// A level that steps in the middle of a run, up and far down: the tank overshoots, comes back to it within three
+/// seconds, which are some six ways of a wave through it, and stays.
+TEST(OpenEnd, ATankComesToALevelThatSteps) {
+  const TimeFunction asked(Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"), {});
+  Flow<2> flow(tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4")));
+  start(flow);
+  while (flow.state.time < 10.0) {
+    pass_and_step(flow);
+    const double t = flow.state.time;
+    const bool is_calm = t < 1.0 || (t > 4.0 && t < 5.5) || t > 8.5;
+    if (is_calm) {
+      ASSERT_NEAR(depth_away_from_end(flow), asked.at(t), dx) << "t = " << t;
+    }
+  }
+}
+
 /// The opening may end just above the water or far above it, and bring the water from either side.
 TEST(OpenEnd, ATankFollowsWhateverTheOpening) {
   const Varying rise("0.4 + 0.3*min(1, t/3)");
@@ -160,6 +177,29 @@ TEST(OpenEnd, AChannelWhoseDischargeEndsKeepsItsTailwater) {
     ++count;
   }
   EXPECT_NEAR(mean / count, depth, 0.5 * dx);
+}
+
+/// Without a level the channel goes on: a discharge that rises or falls sends a simple wave down it, in which u - 2
+/// sqrt(g h) is what it was, and which leaves.
+TEST(OpenEnd, AChannelThatGoesOnTakesADischargeThatChanges) {
+  const double length = 1.5;
+  const double depth = 0.4;
+  for (const auto& [before, after] : {std::pair{0.0, 0.45}, {0.5, 0.0}}) {  // m/s
+    const double celerity = std::sqrt(g * depth) + 0.5 * (after - before);
+    const double depth_after = celerity * celerity / g;
+    CaseSpec spec = channel<2>(length, depth);
+    spec.fluid[0].velocity = {before, 0.0};
+    spec.inlets[0].discharge =
+        Varying(fmt::format("{0} + ({1} - {0})*min(1, t/2)", before * depth, after * depth_after));
+    Flow<2> flow(spec);
+    start(flow);
+    while (flow.state.time < 5.0) {
+      pass_and_step(flow);
+      if (flow.state.time > 3.5) {
+        ASSERT_NEAR(mean_depth(flow, length), depth_after, 0.3 * dx) << "t = " << flow.state.time;
+      }
+    }
+  }
 }
 
 /// Potential flow from water at rest over a free brink is critical: two thirds of the head deep, q = (2/3)^1.5 sqrt(g)

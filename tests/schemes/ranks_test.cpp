@@ -248,6 +248,28 @@ TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
+/// A level beyond an open end lets water in or out: it is above the water, or below it.
+TEST(RanksTest, ALevelBeyondIsHeldTogether) {
+  for (const double level : {0.4, 0.2}) {
+    CaseSpec spec = jittered_tank<2>();
+    spec.walls[0].open.emplace_back("+x");
+    OutletTable end;
+    end.from = {1.0, 0.0};
+    end.to = {1.0, 0.6};
+    end.direction = {1.0, 0.0};
+    end.level = level;
+    spec.outlets = {end};
+    Flow<2> flow(spec, Communicator::world());
+    const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
+    run(flow, 40);
+    const OpenEndState& state = flow.state.open_ends[0];
+    EXPECT_GT(level > 0.3 ? state.arrived.particles : state.departed.particles, 0) << "level " << level;
+    EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)) + static_cast<std::size_t>(state.departed.particles),
+              at_start + static_cast<std::size_t>(state.arrived.particles));
+    expect_same<2>(spec, 0.3, as_it_is);
+  }
+}
+
 /// All ranks know what waits in the sump, though each has let only its own particles go.
 TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   CaseSpec spec = jittered_tank<2>();
