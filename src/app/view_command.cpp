@@ -6,7 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "io/run_folder.h"
 #include "io/write_file.h"
 #include "run/provenance.h"
+#include "server/folder_reader.h"
 #include "server/view_server.h"
 
 namespace tailwater {
@@ -27,6 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr std::string_view report_name = "report.json";
 
 struct ViewOptions {
   std::vector<fs::path> paths;
@@ -49,6 +54,24 @@ void add_members(const fs::path& sweep, ViewContent& content) {
   }
 }
 
+/// A report of `tailwater validate`, and those of its runs that it shows.
+void add_report(const fs::path& folder, ViewContent& content) {
+  content.mode = "report";
+  content.report = Json::parse(FolderReader(folder).text_of({std::string(report_name)}), nullptr, false);
+  std::set<std::string> names;
+  try {
+    for (const Json& compared : content.report.at("studies")) {
+      if (compared.at("shown").is_string()) names.insert(compared.at("shown"));
+    }
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("'{}' is not a report of tailwater validate", (folder / report_name).string()));
+  }
+  for (const std::string& name : names) {
+    const fs::path run = folder / "runs" / fs::path(name).filename();
+    if (is_run(run)) content.runs.push_back({name, fs::absolute(run)});
+  }
+}
+
 std::string name_of_folder(const fs::path& folder) {
   const fs::path whole = fs::weakly_canonical(fs::absolute(folder));
   return whole.filename().string();
@@ -64,11 +87,15 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
         content.mode = "sweep";
         sweeps.push_back(fs::absolute(path));
         add_members(path, content);
+      } else if (fs::exists(path / report_name, error)) {
+        if (paths.size() > 1) throw InputError("a report is shown alone; remedy: name one report, or runs only");
+        add_report(path, content);
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
       } else {
-        throw InputError(fmt::format("'{}' is not the folder of a run or of a sweep: it has neither {} nor {}",
-                                     path.string(), effective_case_name, sweep_record_name));
+        throw InputError(
+            fmt::format("'{}' is not the folder of a run, of a sweep or of a report: it has neither {} nor {} nor {}",
+                        path.string(), effective_case_name, sweep_record_name, report_name));
       }
     } else if (fs::is_regular_file(path, error) && path.extension() == ".toml") {
       if (paths.size() > 1) throw InputError("a case is shown alone; remedy: name one case, or runs only");
@@ -145,7 +172,9 @@ void view(const ViewOptions& options) {
 void add_view_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand("view", "Look at runs, or edit and run a case, in a browser");
-  command->add_option("path", options->paths, "Folders of runs, going or done; the folder of a sweep; or a case file")
+  command
+      ->add_option("path", options->paths,
+                   "Folders of runs, going or done; the folder of a sweep or of a validation; or a case file")
       ->required()
       ->type_name("");
   command->add_option("--port", options->port, "Port of 127.0.0.1 to listen to; default: one that is free")

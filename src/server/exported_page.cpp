@@ -133,7 +133,11 @@ Json run_for_export(const std::filesystem::path& path) {
 }  // namespace
 
 std::string exported_page(const ViewContent& content, const std::string& version) {
-  Json state{{"mode", content.mode}, {"runs", Json::array()}, {"case", nullptr}, {"version", version}};
+  Json state{{"mode", content.mode},
+             {"runs", Json::array()},
+             {"case", nullptr},
+             {"report", content.report},
+             {"version", version}};
   Json runs = Json::object();
   for (std::size_t k = 0; k < content.runs.size(); ++k) {
     const ViewedRun& run = content.runs[k];

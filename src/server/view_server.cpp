@@ -56,6 +56,7 @@ class ViewServer::Service {
       : actions_(std::move(actions)),
         mode_(std::move(content.mode)),
         case_file_(std::move(content.case_file)),
+        report_(std::move(content.report)),
         token_(random_token()) {
     for (ViewedRun& run : content.runs) add(std::move(run));
     http_.set_socket_options([](int socket) {
@@ -349,6 +350,7 @@ class ViewServer::Service {
     return {{"mode", mode_},
             {"runs", std::move(runs)},
             {"case", case_file_ ? Json{{"path", case_file_->string()}} : Json()},
+            {"report", report_},
             {"version", actions_.version},
             {"ranks_most", actions_.most_ranks},
             {"out", actions_.free_name()}};
@@ -372,6 +374,7 @@ class ViewServer::Service {
   ViewActions actions_;
   std::string mode_;
   std::optional<fs::path> case_file_;
+  Json report_;
   std::string token_;
   int port_ = 0;
   HttpServer http_;

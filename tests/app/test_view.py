@@ -289,6 +289,23 @@ class OfADoneRun(Viewed):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
 
+    def test_a_report_comes_with_the_runs_that_it_shows(self):
+        shutil.copytree(self.folder / "run", self.folder / "report/runs/finest")
+        report = {"studies": [{"shown": "finest"}, {"shown": None}, {"shown": "never made"}, {"shown": "../../run"}]}
+        (self.folder / "report/report.json").write_text(json.dumps(report))
+        self.view("report")
+        state = self.json("api/state")
+        self.assertEqual((state["mode"], state["report"]), ("report", report))
+        self.assertEqual([run["name"] for run in state["runs"]], ["finest"])
+        self.assertEqual(self.json("api/run/0/info")["state"], "done")
+        self.call("view", "report", "--export", "report.html")
+        text = (self.folder / "report.html").read_text()
+        data = json.loads(re.search(r'id="tailwater-data">(.*?)</script>', text, re.DOTALL)[1])
+        self.assertEqual((data["state"]["report"], len(data["runs"])), (report, 1))
+        self.assertIn("shown alone", self.call("view", "report", "run", expect=2).stderr)
+        (self.folder / "report/report.json").write_text("[1]")
+        self.assertIn("not a report", self.call("view", "report", expect=2).stderr)
+
     def test_says_what_cannot_be_viewed(self):
         for words, part in ((("nothing",), "neither the folder of a run nor a case file"),
                             ((".",), "is not the folder of a run"), (("small.toml", "run"), "a case is shown alone"),

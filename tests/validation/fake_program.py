@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-# Writes the least that a run leaves, or a copy of the folder $FAKE_RUN. A run whose command line holds the word given by
+# Writes the least that a run leaves, or a copy of the folder $FAKE_RUN; as a page, only the report. A run whose command line holds the word given by
 # $FAKE_FAILS fails, one that holds $FAKE_REFUSES is bad input; one that holds $FAKE_WAITS sleeps until it is interrupted.
 FAKE = """\
 #!/usr/bin/python3
@@ -21,6 +21,12 @@ if sys.argv[1] == "check":
     if "bogus" in line:
         print("error: unknown key bogus", file=sys.stderr)
         sys.exit(2)
+    sys.exit()
+if sys.argv[1] == "view":  # OUT --export FILE
+    if os.environ.get("FAKE_FAILS") == "--export":
+        print("error: made to fail", file=sys.stderr)
+        sys.exit(4)
+    pathlib.Path(sys.argv[4]).write_text((pathlib.Path(sys.argv[2]) / "report.json").read_text())
     sys.exit()
 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
 with open(here.with_name("calls.txt"), "a") as calls:

@@ -19,7 +19,7 @@ KINDS = (LABORATORY, EXACT, COMPARISON)
 
 @dataclass(frozen=True)
 class Plot:
-    """`draw` takes what those of `runs` left that reached their end, and returns a matplotlib figure."""
+    """`draw` takes what those of `runs` left that reached their end, and returns panels (module panels)."""
 
     caption: str
     runs: tuple
@@ -29,8 +29,8 @@ class Plot:
 @dataclass(frozen=True)
 class Study:
     """`about` says what is compared with what, `uncertainty` how well that is known. `sheets` are (caption, run, draw):
-    the picture that a case's own module draws of the folder of a run into a file. The start of `shown` is drawn, and
-    its particles at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
+    the picture that a case's own module draws of the folder of a run into a file. The water of `shown` is in the report,
+    which points to it at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
     nothing, such as those of a flow that a body force drives around. `names` {run's name: label} tell runs apart in plots."""
 
     name: str

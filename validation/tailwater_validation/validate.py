@@ -1,37 +1,46 @@
 """`tailwater validate`: runs the papers' cases and the exact solutions, scores them, writes a report.
 
-OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and verdict, OUT/report/
-index.html the report, one page that needs no other file.
+OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and verdict, OUT/report.json the
+same with plots and pictures, which `tailwater view OUT` shows; OUT/report.html is that page as one file.
 
 Usage: python -m tailwater_validation.validate --program FILE [CASE...] [--level quick|paper|fine] [--out DIR]
 Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
 interrupted.
 """
 
+import base64
 import datetime
-import html
+import io
 import json
+import math
 import os
 import platform
+import subprocess
 import sys
 
 from matplotlib import rc_context
 
-from . import command, plots
+from . import command, panels
 from .curves import DataError
 from .metric import bar
-from .page import figure_element, page, sheet_element
 from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
+from .whole_file import write_whole
+
+
+def finite(value):
+    """None for what JSON has no word for."""
+    return value if value is not None and math.isfinite(value) else None
 
 
 def metric_record(check, metric):
-    return {"name": metric.name, "what": metric.what, "value": metric.value, "unit": metric.unit, "low": metric.low,
+    return {"name": metric.name, "what": metric.what, "value": finite(metric.value), "unit": metric.unit, "low": metric.low,
             "high": metric.high, "paper": metric.paper,
             "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
-            "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": metric.shifted_value,
-            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": metric.order, "note": metric.note, "variant": check.variant, "runs": [run.name for run in check.runs]}
+            "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": finite(metric.shifted_value),
+            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "note": metric.note,
+            "variant": check.variant, "runs": [run.name for run in check.runs]}
 
 
 def run_record(run, out):
@@ -96,43 +105,57 @@ def finished_of(runs, out):
     return found
 
 
-def try_picture(caption, draw):
-    """A picture for the page, or the reason why there is none."""
+def picture(draw, folder):
+    """The picture that `draw` makes of a run's folder, as the address of an image. Throws DataError."""
+    buffer = io.BytesIO()
+    with rc_context({"savefig.format": "webp"}):
+        draw(folder, buffer)
+    return "data:image/webp;base64," + base64.b64encode(buffer.getvalue()).decode()
+
+
+def figure(caption, runs, out, draw):
+    """What `draw` makes of those of the runs that reached their end, or why there is nothing."""
+    left = finished_of(runs, out)
     try:
-        with rc_context(plots.STYLE):
-            return figure_element(draw(), caption)
+        return {"caption": caption, **(draw(*left) if left else {"missing": "no run reached its end"})}
     except DataError as error:
-        return not_drawn(error, caption)
+        return {"caption": caption, "missing": str(error)}
 
 
-def not_drawn(error, caption):
-    return f'<p class="soft">Not drawn ({html.escape(str(error))}): {html.escape(caption)}</p>'
-
-
-def pictures(study, out):
-    """The figures of a study, as text of the page: start, particles, its own plots, histories."""
-    found = []
-    if study.shown:
-        found.append(try_picture(f"The start of {study.shown.name}.",
-                                 lambda: plots.draw_start(finished(study.shown, out))))
-        if study.moments:
-            found.append(try_picture(f"Particles of {study.shown.name}, coloured by pressure.", lambda: plots.draw_moments(
-                finished(study.shown, out), study.moments, study.time_scale)))
-    for caption, run, draw in study.sheets:
-        try:
-            found.append(sheet_element(draw, finished(run, out).path, caption))
-        except DataError as error:
-            found.append(not_drawn(error, caption))
-    for plot in study.plots:
-        left = finished_of(plot.runs, out)
-        if left:
-            found.append(try_picture(plot.caption, lambda plot=plot, left=left: plot.draw(*left)))
-        else:
-            found.append(not_drawn("no run reached its end", plot.caption))
-    cases = finished_of([run for run in study.runs if not isinstance(run, TestRun)], out)[:plots.MOST_RUNS]
+def figures(study, out):
+    """Of a study: its cases' own pictures, its plots, histories."""
+    found = [figure(caption, (run,), out, lambda run, draw=draw: {"picture": picture(draw, run.path)})
+             for caption, run, draw in study.sheets]
+    found += [figure(plot.caption, plot.runs, out, lambda *left, draw=plot.draw: {"panels": draw(*left)})
+              for plot in study.plots]
+    cases = [run for run in study.runs if not isinstance(run, TestRun)]
     if cases and study.has_histories:
-        found.append(try_picture("Energy and volume over time.", lambda: plots.draw_histories(cases, study.names)))
+        found.append(figure("Energy and volume over time.", cases, out, lambda *left: {
+            "panels": panels.histories(left[:panels.MOST_RUNS], study.names)}))
     return found
+
+
+def moments(study):
+    """Of the shown run, with words for buttons."""
+    return [{"time": time, "label": f"t = {time:.3g} s" + (f", T = {time / study.time_scale:.3g}" if study.time_scale else "")}
+            for time in study.moments]
+
+
+def report(result, chosen, out):
+    """What report.json holds: the result with, of each study, what there is to look at."""
+    return result | {"studies": [
+        record | {"shown": study.shown.name if study.shown and finished_of((study.shown,), out) else None,
+                  "moments": moments(study), "figures": figures(study, out)}
+        for record, study in zip(result["studies"], chosen)]}
+
+
+def export(program, out):
+    """The report as one file, by the program's own viewer. Throws OSError."""
+    page = out / "report.html"
+    made = subprocess.run([program.path, "view", out, "--export", page], capture_output=True, text=True, check=False)
+    if made.returncode != 0:
+        raise OSError(made.returncode, made.stderr.strip().removeprefix("error: "), str(page))
+    return page
 
 
 def overview(result):
@@ -147,12 +170,12 @@ def overview(result):
 
 def score(chosen, program, options):
     """Writes validation.json and the report; returns what to print."""
-    result = collect(chosen, program, options)
-    file, report = options.out / "validation.json", options.out / "report" / "index.html"
-    file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    report.parent.mkdir(exist_ok=True)
-    report.write_text(page(result, {study.name: pictures(study, options.out) for study in chosen}), encoding="utf-8")
-    return f"{overview(result)}\n\nscores: {file}\nreport: {report}"
+    result, out = collect(chosen, program, options), options.out
+    for name, content, indent in (("validation", result, 1), ("report", report(result, chosen, out), None)):
+        text = json.dumps(content, indent=indent) + "\n"
+        write_whole(out / f"{name}.json", lambda part, text=text: part.write_text(text, encoding="utf-8"))
+    return (f"{overview(result)}\n\nscores: {out / 'validation.json'}\nreport: {export(program, out)}; "
+            f"with its runs: tailwater view {out}")
 
 
 def main(arguments=None):

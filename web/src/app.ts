@@ -50,7 +50,7 @@ export class App {
     this.worker = new DecodeWorker(workerCode);
     this.look = new Store<Look>({
       theme: theme(), colouring: "speed", map: "water", limits: {}, momentary: false, water: "particles", size: 1, section: null, labels: true,
-      walls: true, profiles: true, layout: "side", shown: [], probe: null, marked: null, tab: "gauges", side: true, dialog: "",
+      walls: true, profiles: true, layout: "side", shown: [], probe: null, marked: null, tab: "gauges", side: true, reading: false, dialog: "",
     });
     document.documentElement.dataset["theme"] = this.look.now.theme;
   }
@@ -58,9 +58,11 @@ export class App {
   async begin(): Promise<void> {
     try {
       this.state = await this.source.state();
-      document.title = `${this.state.runs[0]?.name ?? this.state.case?.path ?? "Tailwater"} · Tailwater`;
+      const { report, runs } = this.state;
+      document.title = `${report ? `Validation, level ${report.level}` : (runs[0]?.name ?? this.state.case?.path ?? "Tailwater")} · Tailwater`;
       if (this.state.mode === "case") this.look.change({ tab: "case" });
-      const first = this.state.runs.slice(0, most);
+      if (this.state.report) this.look.change({ reading: true });
+      const first = this.state.report ? [] : this.state.runs.slice(0, most);
       for (const run of first) await this.open(run.id);
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);
@@ -120,6 +122,15 @@ export class App {
     for (const id of ids) if (!this.runs.some((run) => run.id === id)) void this.open(id);
   }
 
+  /** Goes from the report to a run, at a moment of it. */
+  async watch(id: string, time: number): Promise<void> {
+    if (this.view && this.look.now.shown[0] !== id) this.view.untouched = true;
+    this.look.change({ reading: false, shown: [id] });
+    await this.open(id);
+    this.extend();
+    this.player.seek(time);
+  }
+
   select(probe: string | null): void {
     this.look.change({ probe: this.look.now.probe === probe ? null : probe, tab: "gauges", side: true });
   }
@@ -155,11 +166,15 @@ export class App {
     this.pending = true;
     requestAnimationFrame(() => {
       this.pending = false;
-      const ends = this.shown().map((run) => run.end);
-      const start = Math.min(...this.shown().map((run) => run.frames.list[0]?.time ?? 0), Infinity);
-      this.player.extend(Number.isFinite(start) ? start : 0, Math.max(0, ...ends));
+      this.extend();
       this.data.change({ revision: this.data.now.revision + 1 });
     });
+  }
+
+  private extend(): void {
+    const ends = this.shown().map((run) => run.end);
+    const start = Math.min(...this.shown().map((run) => run.frames.list[0]?.time ?? 0), Infinity);
+    this.player.extend(Number.isFinite(start) ? start : 0, Math.max(0, ...ends));
   }
 
   emptyWord(): string {

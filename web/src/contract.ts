@@ -5,12 +5,90 @@ export type Point = number[];
 export type Lines = [number, number];
 
 export interface State {
-  mode: "run" | "sweep" | "case";
+  mode: "run" | "sweep" | "case" | "report";
   runs: { id: string; name: string; path: string; parameters?: Record<string, string> }[];
   case: { path: string } | null;
+  report?: Report | null;
   version: string;
   ranks_most?: number;
   out?: string;
+}
+
+/** What `tailwater validate` found. */
+export interface Report {
+  version: string;
+  commit: string;
+  level: string;
+  scheme: string;
+  ranks: number;
+  date: string;
+  machine: { processor: string; cores: number };
+  cpu_s: number;
+  verdicts: Record<Verdict, number>;
+  studies: Study[];
+}
+
+export type Verdict = "met" | "missed" | "shown";
+
+export interface Study {
+  name: string;
+  title: string;
+  kind: string;
+  about: string;
+  uncertainty: string;
+  metrics: Metric[];
+  runs: Cost[];
+  /** Name of the run whose water is shown. */
+  shown: string | null;
+  moments: { time: number; label: string }[];
+  figures: { caption: string; panels?: Panel[]; picture?: string; missing?: string }[];
+}
+
+export interface Metric {
+  name: string;
+  what: string;
+  value: number | null;
+  unit: string;
+  low: number | null;
+  high: number | null;
+  paper: number | null;
+  peers: { name: string; range: [number, number] }[];
+  verdict: Verdict;
+  reference: string;
+  shifted_value: number | null;
+  shift: number | null;
+  shift_unit: string;
+  order: number | null;
+  note: string;
+  /** In a comparison: what is compared; else "". */
+  variant: string;
+}
+
+/** What a run was and cost; only `message`, why it failed, if it did. */
+export interface Cost {
+  name: string;
+  message: string;
+  spacing_m?: number;
+  particles?: number;
+  steps?: number;
+  dt_mean_s?: number;
+  iterations_per_solve?: number;
+  cpu_s?: number;
+  cpu_s_per_simulated_s?: number;
+  energy_end_over_start?: number | null;
+  energy_rise_over_start?: number | null;
+  density_error_mean?: number;
+  density_error_rms?: number;
+}
+
+export interface Panel {
+  title: string;
+  x: string;
+  y: string;
+  logarithmic: boolean;
+  /** Of y, that are shown. */
+  limits: [number, number] | null;
+  curves: { label: string; kind: "run" | "exact" | "measured" | "aside" | "spacings" | "particles"; x: number[]; y: (number | null)[] }[];
 }
 
 export interface Wall {

@@ -33,6 +33,7 @@ export function listen(app: App): () => void {
     if (tag === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
     if (tag === "INPUT" && (target as HTMLInputElement).type === "range" && !target.closest(".time") && event.key.startsWith("Arrow")) return;
     if (tag === "INPUT" && (target as HTMLInputElement).type === "checkbox" && event.key === " ") return;
+    if (app.look.now.reading && !"t?Escape".includes(event.key)) return;
     if (act(app, event.key, event.shiftKey)) event.preventDefault();
   };
   addEventListener("keydown", down);

@@ -9,6 +9,7 @@ import { Icon } from "./icons.tsx";
 import { KeysDialog, listen } from "./keys.tsx";
 import { LookPanel } from "./look.tsx";
 import { FilmDialog } from "./picture/filmdialog.tsx";
+import { ReportPage } from "./report/page.tsx";
 import { RunPanel } from "./run/panel.tsx";
 import { Embedded, Server } from "./source.ts";
 import { useChanges, type Look } from "./store.ts";
@@ -20,6 +21,8 @@ function Page({ app }: { app: App }) {
   const [lookOpen, openLook] = useState(false);
   const look = app.look.now;
   const run = app.shown()[0];
+  const report = app.state?.report;
+  const reading = look.reading && !!report;
   const tab = (name: Look["tab"], word: string) => (
     <button role="tab" id={`tab-${name}`} aria-selected={look.tab === name} aria-controls="panel" onClick={() => app.look.change({ tab: name, side: true })}>
       {word}
@@ -29,22 +32,28 @@ function Page({ app }: { app: App }) {
     <div class={`page${look.side ? "" : " wide"}${look.tab === "case" ? " case" : ""}`}>
       <header class="top">
         <svg class="mark" viewBox="0 0 32 32" width="22" height="22" aria-hidden="true"><path d="M3 6v20h26V16c-5 0-6 4-10 4S12 9 3 6z" fill="currentColor" /></svg>
-        <h1>{run?.scene.title || run?.name || "Tailwater"}</h1>
-        {run?.info && <span class={`chip ${run.info.state}`}>{run.info.state}</span>}
+        {report && !reading && <button onClick={() => app.look.change({ reading: true })}>Report</button>}
+        <h1>{reading ? `Validation, level ${report.level}` : run?.scene.title || run?.name || "Tailwater"}</h1>
+        {!reading && run?.info && <span class={`chip ${run.info.state}`}>{run.info.state}</span>}
         <span class="gap" />
-        <button class="icon" title="How the water is drawn" aria-label="How the water is drawn" aria-expanded={lookOpen} onClick={() => openLook(!lookOpen)}><Icon name="look" /></button>
-        <button class="icon" title="Show all (f)" aria-label="Show all" onClick={() => { app.view?.fit(); app.touch(); }}><Icon name="fit" /></button>
-        <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void app.savePicture()}><Icon name="camera" /></button>
-        <button class="icon" title="Save a film (m)" aria-label="Save a film" disabled={!(app.player.range[1] > app.player.range[0])} onClick={() => app.look.change({ dialog: "film" })}><Icon name="film" /></button>
+        {!reading && (
+          <>
+            <button class="icon" title="How the water is drawn" aria-label="How the water is drawn" aria-expanded={lookOpen} onClick={() => openLook(!lookOpen)}><Icon name="look" /></button>
+            <button class="icon" title="Show all (f)" aria-label="Show all" onClick={() => { app.view?.fit(); app.touch(); }}><Icon name="fit" /></button>
+            <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void app.savePicture()}><Icon name="camera" /></button>
+            <button class="icon" title="Save a film (m)" aria-label="Save a film" disabled={!(app.player.range[1] > app.player.range[0])} onClick={() => app.look.change({ dialog: "film" })}><Icon name="film" /></button>
+          </>
+        )}
         <button class="icon" title="Light or dark (t)" aria-label="Light or dark page" onClick={() => app.setTheme(look.theme === "dark" ? "light" : "dark")}><Icon name={look.theme === "dark" ? "sun" : "moon"} /></button>
         <button class="icon" title="Keys (?)" aria-label="Keys" onClick={() => app.look.change({ dialog: "keys" })}><Icon name="keys" /></button>
-        <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>
+        {!reading && <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>}
       </header>
-      <main>
+      {report && <ReportPage app={app} report={report} away={!reading} />}
+      <main inert={reading}>
         <Picture app={app} />
         {lookOpen && <LookPanel app={app} />}
       </main>
-      {look.side && (
+      {!reading && look.side && (
         <aside>
           <div class="tabs" role="tablist" aria-label="Beside the picture">
             {app.runs.length > 0 && tab("gauges", "Gauges")}
@@ -58,7 +67,7 @@ function Page({ app }: { app: App }) {
           </div>
         </aside>
       )}
-      <TimeBar app={app} />
+      {!reading && <TimeBar app={app} />}
       {look.dialog === "film" && <FilmDialog app={app} />}
       {look.dialog === "keys" && <KeysDialog app={app} />}
     </div>

@@ -1,5 +1,5 @@
 // What the page shows and how: one object, changed by change(), and whoever listens is told.
-import { useEffect, useReducer } from "preact/hooks";
+import { useLayoutEffect, useReducer } from "preact/hooks";
 import type { ColourMap } from "./colours.ts";
 
 export type Colouring = "speed" | "pressure" | "depth" | "origin" | "plain";
@@ -25,6 +25,8 @@ export interface Look {
   marked: string | null;
   tab: "gauges" | "run" | "case";
   side: boolean;
+  /** The report is over the picture. */
+  reading: boolean;
   dialog: "" | "keys" | "film";
 }
 
@@ -50,7 +52,7 @@ export class Store<T extends object> {
 /** Draws a component anew when `what` changes. */
 export function useChanges(...what: { on(listener: () => void): () => void }[]): void {
   const [, redraw] = useReducer<number, void>((n) => n + 1, 0);
-  useEffect(() => {
+  useLayoutEffect(() => { // no change between drawing and listening is missed
     const stops = what.map((w) => w.on(() => redraw()));
     return () => stops.forEach((stop) => stop());
   }, what);

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from .. import janosi2004, plots, soares_frazao2002
+from .. import janosi2004, soares_frazao2002
 from ..checks import Check
 from ..metric import Metric
 from ..reading import energy_at, scored, summary, zhou
@@ -58,10 +58,8 @@ def comparison(name, title, about, variants, quantities, more_plots=(), claims=(
     names = {run.name: variant for variant, run in variants.items()}
     checks = [Check(Metric(f"{name}.{key}.{variant}", words, unit, ""), (run,), read, variant=variant)
               for key, (words, unit, read) in quantities.items() for variant, run in variants.items()]
-    bars = Plot("The same numbers for each variant; each panel has its own scale.", runs,
-                partial(plots.draw_numbers, quantities, names))
     return Study(name, title, COMPARISON, about, UNCERTAINTY, (*claims, *checks),
-                 (bars, *(Plot(caption, runs, partial(draw, names=names)) for caption, draw in more_plots)), names=names)
+                 tuple(Plot(caption, runs, partial(draw, names=names)) for caption, draw in more_plots), names=names)
 
 
 def zhou_comparison(name, title, about, variants, claims=()):

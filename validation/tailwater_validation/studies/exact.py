@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from .. import exact_flows, plots
+from .. import exact_flows, panels
 from ..metric import Metric
 from ..reading import exact
 from ..study import EXACT, OrderCheck, Plot, Study
@@ -17,8 +17,8 @@ def error_checks(name, flow, runs, quantities):
 
 
 def draw_errors(flow, quantities, *runs):
-    return plots.draw_convergence({words: {run.spacing: exact(flow, key, run) for run in runs}
-                                   for key, words, _, _ in quantities}, "error, relative")
+    return panels.convergence({words: {run.spacing: exact(flow, key, run) for run in runs}
+                               for key, words, _, _ in quantities}, "error, relative")
 
 
 def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=(), has_histories=True):
@@ -89,22 +89,15 @@ def tank(plan):
 
 def draw_channel(exact_of, *runs):
     """Speeds of the particles across the channel at several times, over the series."""
-    figure = plots.new_figure(height=3.2)
-    for axes, run in zip(figure.subplots(1, len(runs), sharey=True, squeeze=False).flat, runs):
+    def of(run):
         profile, _ = exact_of(run)
         y = np.linspace(0, run.parameters["L"], 200)
-        for frame, style in zip(exact_flows.frames(run)[1::3], plots.CYCLE):
+        for frame in exact_flows.frames(run)[1::3]:
             velocity, = exact_flows.fields(run, frame, "velocity")
-            axes.plot(velocity[:, 0], frame.position[:, 1], ".", markersize=3, color=style["color"],
-                      label=f"$t$ = {frame.time:.1f} s")
-            axes.plot(profile(y, frame.time), y, **plots.EXACT)
-        axes.set_title(f"dx = {run.spacing:g} m", loc="left")
-        axes.set_xlabel("speed (m/s)")
-        plots.grid(axes)
-    axes.plot([], [], label="series", **plots.EXACT)
-    figure.axes[0].set_ylabel("y (m)")
-    axes.legend(frameon=False)
-    return figure
+            yield panels.curve(f"t = {frame.time:.1f} s", frame.position[:, 1], velocity[:, 0], "particles")
+            yield panels.curve("series", y, profile(y, frame.time), "exact")
+
+    return [panels.panel(f"dx = {run.spacing:g} m", "y (m)", "speed (m/s)", of(run)) for run in runs]
 
 
 def channel_study(plan, name, title, about, exact_of):

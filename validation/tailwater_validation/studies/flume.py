@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from .. import plots
+from .. import panels
 from ..checks import Check
 from ..metric import Metric
 from ..reading import exact
@@ -11,15 +11,8 @@ from ..study import EXACT, LABORATORY, OrderCheck, Plot, Study
 
 def draw_gauge(probe, *runs):
     """The depth at a gauge over time."""
-    figure = plots.new_figure(height=2.6)
-    axes = figure.subplots()
-    for run, style in zip(runs, plots.CYCLE):
-        curve = run.probe(probe, "connected_m")
-        axes.plot(curve.time, curve.value, label=f"dx = {run.spacing:.3g} m", linewidth=1.0, **style)
-    axes.set(xlabel="t (s)", ylabel="depth (m)")
-    axes.legend(frameon=False)
-    plots.grid(axes)
-    return figure
+    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(f"dx = {run.spacing:.3g} m", run.probe(probe, "connected_m"))
+                                                    for run in runs))]
 
 
 def flume_study(plan, name, title, about, uncertainty, gauge, rows, seconds, quantities, kind=EXACT):
@@ -206,15 +199,7 @@ def irregular_waves(plan):
 
 
 def draw_waves(run, names=("a1", "b1")):
-    figure = plots.new_figure(height=2.6)
-    axes = figure.subplots()
-    for name, style in zip(names, plots.CYCLE):
-        curve = run.probe(name, "highest_m")
-        axes.plot(curve.time, curve.value, label=name, linewidth=1.0, **style)
-    axes.set(xlabel="t (s)", ylabel="depth (m)")
-    axes.legend(frameon=False)
-    plots.grid(axes)
-    return figure
+    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(name, run.probe(name, "highest_m")) for name in names))]
 
 
 LIGHT = ("parameters.H=B", "parameters.share=0.1")
@@ -225,14 +210,12 @@ BOXES = {"heave": ("heave of a box half as heavy as water", ()), "roll": ("roll 
 
 
 def draw_boxes(*runs):
-    figure = plots.new_figure(height=2.6)
-    for axes, column, rolls in zip(figure.subplots(1, 2), ("displacement_y_m", "angle_rad"), (False, True)):
-        for run, style in zip([run for run in runs if (run.case["body"][0]["free"] == ["rotation"]) == rolls], plots.CYCLE):
-            curve = run.probe("box", column)
-            axes.plot(curve.time, curve.value, linewidth=1.0, **style)
-        axes.set(xlabel="t (s)", ylabel=column)
-        plots.grid(axes)
-    return figure
+    def those(rolls):
+        return [run for run in runs if (run.case["body"][0]["free"] == ["rotation"]) == rolls]
+
+    return [panels.panel(title, "t (s)", y, (panels.over_time(run.path.name, run.probe("box", column)) for run in those(rolls)))
+            for title, y, column, rolls in (("Heave", "displacement (m)", "displacement_y_m", False),
+                                            ("Roll", "angle (rad)", "angle_rad", True)) if those(rolls)]
 
 
 def floating_box(plan):
@@ -255,4 +238,4 @@ def floating_box(plan):
         "and swings: period from seven passages through its place of rest, and that place.",
         "Linear theory of the tank with the box in it, added mass and waves included, solved on finite volumes and extrapolated over their size. Linear: "
         "the box swings by a tenth to a quarter of its draught.",
-        tuple(checks), (Plot("Heave (left) and roll (right) over time.", tuple(runs), draw_boxes),), shown=runs[0])
+        tuple(checks), (Plot("Heave and roll over time.", tuple(runs), draw_boxes),), shown=runs[0])

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 from .. import (janosi2004, janosi2004_picture, kleefsman2005, kleefsman2005_picture, martin_moyce1952,
-                martin_moyce1952_picture, ozmen_cagatay2014, ozmen_cagatay2014_picture, plots, soares_frazao2002,
+                martin_moyce1952_picture, ozmen_cagatay2014, ozmen_cagatay2014_picture, panels, soares_frazao2002,
                 soares_frazao2002_picture)
 from ..checks import Check
 from ..curves import DataError
@@ -30,8 +30,8 @@ def water_error(run):
 
 def draw_convergence(module, names, ylabel, *runs):
     """Scores of a case's module by spacing: `names` are (label, name of the score)."""
-    return plots.draw_convergence({label: {run.spacing: scored(module.score, name, run) for run in runs}
-                                   for label, name in names}, ylabel)
+    return panels.convergence({label: {run.spacing: scored(module.score, name, run) for run in runs}
+                               for label, name in names}, ylabel)
 
 
 def everything(_):
@@ -113,10 +113,8 @@ def draw_surface_distances(*runs):
     """Of each run but the last from the last, by spacing. Throws DataError if there is only one."""
     if len(runs) < 2:
         raise DataError("only one run reached its end")
-    return plots.draw_convergence({f"t = {instant:g} s": {run.spacing: surface_distance(k, run, runs[-1])
-                                                          for run in runs[:-1]}
-                                   for k, instant in enumerate(soares_frazao2002.INSTANTS)},
-                                  "RMS distance from the finest (mm)")
+    return panels.convergence({f"t = {instant:g} s": {run.spacing: surface_distance(k, run, runs[-1]) for run in runs[:-1]}
+                               for k, instant in enumerate(soares_frazao2002.INSTANTS)}, "RMS distance from the finest (mm)")
 
 
 def soares_frazao(plan):

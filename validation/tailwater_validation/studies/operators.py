@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from .. import plots
+from .. import panels
 from ..checks import Check
 from ..curves import DataError
 from ..metric import Metric
@@ -41,8 +41,8 @@ def observed_order(quantity, dimension, numbers):
 
 
 def draw_errors(quantities, dimension, numbers):
-    return plots.draw_convergence({words: recorded(quantity, dimension, numbers)
-                                   for quantity, (words, _) in quantities.items()}, f"rms error, {dimension}D")
+    return panels.convergence({words: recorded(quantity, dimension, numbers)
+                               for quantity, (words, _) in quantities.items()}, f"rms error, {dimension}D")
 
 
 def tests_study(name, title, about, quantities, source, run):

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from .. import plots, shallow_water
+from .. import panels, shallow_water
 from ..checks import Check
 from ..metric import Metric
 from ..reading import exact
@@ -20,22 +20,20 @@ LIMIT = ("Shallow-water theory is the limit at late times, not the solution: it 
          "follow from mass and momentum, however the energy is dissipated: these have targets (our own). The tip is thinner than "
          "a particle, so the place where the depth is 0.1 h0 represents the front.")
 
+SIMILARITY = (-1.6, 2.2)  # x/(t sqrt(g h0)) that is shown
+
 
 def draw_profiles(theory, label, *runs):
     """The latest profile of each run and the earlier ones of the last, over x/t."""
-    figure = plots.new_figure(height=3.0)
-    axes = figure.subplots()
-    for run, style in zip(runs, plots.CYCLE):
-        T, x, depth = shallow_water.late_profiles(run)[-1]
-        axes.plot(x / T, depth, label=f"dx = {run.spacing:g} $h_0$, T = {T:.1f}", linewidth=1.3, zorder=3, **style)
-    T, x, depth = shallow_water.late_profiles(runs[-1])[0]
-    axes.plot(x / T, depth, label=f"dx = {runs[-1].spacing:g} $h_0$, T = {T:.1f}", color=plots.GREY, linewidth=0.9)
-    similarity = np.linspace(-1.6, 2.2, 2000)
-    axes.plot(similarity, theory(similarity), label=label, **plots.EXACT)
-    axes.set(xlim=(-1.6, 2.2), ylim=(0, 1.1), xlabel=r"$x/(t\sqrt{g h_0})$", ylabel="$h/h_0$")
-    axes.legend(frameon=False)
-    plots.grid(axes)
-    return figure
+    def profile(run, k, kind):
+        T, x, depth = shallow_water.late_profiles(run)[k]
+        low, high = np.searchsorted(x / T, SIMILARITY)
+        return panels.curve(f"dx = {run.spacing:g} h0, T = {T:.1f}", x[low:high] / T, depth[low:high], kind)
+
+    similarity = np.linspace(*SIMILARITY, 2000)
+    return [panels.panel("", "x/(t sqrt(g h0))", "h/h0", (
+        *(profile(run, -1, "run") for run in runs), profile(runs[-1], 0, "aside"),
+        panels.curve(label, similarity, theory(similarity), "exact")))]
 
 
 def dam_break(plan, name, title, about, theory, label, quantities):
@@ -88,17 +86,11 @@ def rough_run(plan, name, bed, dx, roughness):
 
 
 def draw_fronts(*runs):
-    figure = plots.new_figure(height=3.0)
-    axes = figure.subplots()
-    for run, style in zip(runs, plots.CYCLE):
-        T, found, exact = np.transpose(shallow_water.front_history(run))
-        axes.plot(T, found, label=f"dx = {run.spacing:g} $h_0$", linewidth=1.3, **style)
-    axes.plot(T, exact, label="with friction", **plots.EXACT)
-    axes.plot(T, 2 * T, label="without (Ritter)", color=plots.GREY, linewidth=0.9)
-    axes.set(xlabel=r"$t\sqrt{g/h_0}$", ylabel="$x/h_0$ of the front")
-    axes.legend(frameon=False)
-    plots.grid(axes)
-    return figure
+    histories = [(run, *np.transpose(shallow_water.front_history(run))) for run in runs]
+    _, T, _, exact_front = histories[-1]
+    return [panels.panel("", "t sqrt(g/h0)", "x/h0 of the front", (
+        *(panels.curve(f"dx = {run.spacing:g} h0", times, found) for run, times, found, _ in histories),
+        panels.curve("with friction", T, exact_front, "exact"), panels.curve("without (Ritter)", T, 2 * T, "aside")))]
 
 
 def rough_dry_bed(plan):
@@ -120,16 +112,11 @@ def rough_dry_bed(plan):
 
 
 def draw_held_back(*runs):
-    figure = plots.new_figure(height=3.0)
-    axes = figure.subplots()
-    for rough, free, style in zip(runs[::2], runs[1::2], plots.CYCLE):
-        T, found, exact = np.transpose(shallow_water.held_back(rough, free))
-        axes.plot(T, found, label=f"dx = {rough.spacing:g} $h_0$", linewidth=1.3, **style)
-    axes.plot(T, exact, label="theory", **plots.EXACT)
-    axes.set(xlabel=r"$t\sqrt{g/h_0}$", ylabel="water held back, $h_0^2$")
-    axes.legend(frameon=False)
-    plots.grid(axes)
-    return figure
+    histories = [(rough, *np.transpose(shallow_water.held_back(rough, free))) for rough, free in zip(runs[::2], runs[1::2])]
+    _, T, _, theory = histories[-1]
+    return [panels.panel("", "t sqrt(g/h0)", "water held back (h0²)", (
+        *(panels.curve(f"dx = {rough.spacing:g} h0", times, found) for rough, times, found, _ in histories),
+        panels.curve("theory", T, theory, "exact")))]
 
 
 def rough_wet_bed(plan):

@@ -4,12 +4,10 @@ from functools import partial
 
 from tailwater.fields import nearest_frames
 
-from .. import plots, zhou1999
+from .. import panels, zhou1999
 from ..checks import Check
 from ..metric import Metric
-
 from ..particles import detached
-from ..picture import draw_gauge, draw_time_uncertainty
 from ..reading import summary, zhou
 from ..study import LABORATORY, CurveCheck, Plot, Study
 
@@ -98,34 +96,29 @@ def soundness_checks(run):
     ]
 
 
+END = 8  # T
+
+
+def beside_laboratory(quantity, computed):
+    """Two readings of the laboratory's curve with the computed ones [(label, curve)]."""
+    for digitisation in zhou1999.DIGITISATIONS:
+        yield panels.over_time(f"laboratory, read by {digitisation}", zhou1999.laboratory(quantity, digitisation).window(0, END),
+                               "measured")
+    for label, curve in computed:
+        yield panels.over_time(label, curve)
+
+
 def draw_pressure(*runs, names=None):
-    figure = plots.new_figure(height=4.6)
-    for axes, (probe, title) in zip(figure.subplots(2, 1, sharex=True), (
-            (zhou1999.READ_AT, "at z = 0.12 m"), ("P2", "mean over the plate, z = 0.115..0.205 m"))):
-        curves = [(zhou1999.pressure(run, probe), {**style, "linewidth": 1.2}, label)
-                  for run, label, style in zip(runs, plots.labels(runs, names), plots.CYCLE)]
-        draw_gauge(axes, "P2", 1.0, curves, 8)
-        axes.set_ylim(-0.05, 1.25)
-        axes.set_title(f"Pressure on the right wall, {title}", loc="left")
-        axes.set_ylabel(r"$p/\rho g H$")
-        draw_time_uncertainty(axes, 0.25, 0.55)
-    axes.legend(frameon=False, ncols=2, loc="upper left")
-    return figure
+    return [panels.panel(f"Pressure on the right wall, {title}", "T", "p/(rho g H)", beside_laboratory(
+        "P2", zip(panels.labels(runs, names), (zhou1999.pressure(run, probe) for run in runs))), limits=(-0.05, 1.25))
+            for probe, title in ((zhou1999.READ_AT, "z = 0.12 m"), ("P2", "mean over z = 0.115..0.205 m"))]
 
 
 def draw_depths(*runs, names=None):
-    figure = plots.new_figure(height=3.0)
-    for axes, (gauge, place) in zip(figure.subplots(1, 2, sharey=True), (("H2", 2.228), ("H1", 2.725))):
-        curves = [(zhou1999.depth(run, gauge), {**style, "linewidth": 1.2}, label)
-                  for run, label, style in zip(runs, plots.labels(runs, names), plots.CYCLE)]
-        highest = zhou1999.depth(runs[-1], gauge, "highest_m")
-        curves.append((highest, {"color": plots.GREY, "linewidth": 0.8, "zorder": 1}, "highest water, the last run"))
-        draw_gauge(axes, gauge, 1.0, curves, 8)
-        axes.set_ylim(0, 1.6)
-        axes.set_title(f"Depth {gauge}, x = {place} m", loc="left")
-    figure.axes[0].set_ylabel("$h/H$")
-    figure.axes[0].legend(frameon=False, loc="upper left")
-    return figure
+    return [panels.panel(f"Depth {gauge}, x = {place} m", "T", "h/H", (
+        *beside_laboratory(gauge, zip(panels.labels(runs, names), (zhou1999.depth(run, gauge) for run in runs))),
+        panels.over_time("highest water, the last run", zhou1999.depth(runs[-1], gauge, "highest_m"), "aside")), limits=(0, 1.6))
+            for gauge, place in (("H2", 2.228), ("H1", 2.725))]
 
 
 def draw_convergence(*runs):
@@ -133,14 +126,8 @@ def draw_convergence(*runs):
               "depth H1, T = 0..6 (H)": partial(mean_of_readings, "rms H1 T 0..6"),
               "pressure, z = 0.12 m, best shift (rho g H)":
                   partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value")}
-    return plots.draw_convergence({label: {run.spacing: read(run) for run in runs} for label, read in series.items()},
-                                  "RMS difference from the laboratory")
-
-
-def draw_peers(peers, read, label, bar, run):
-    ours = read(run)
-    rows = sorted([("Tailwater", ours, ours, True), *((*peer, False) for peer in peers)], key=lambda row: row[1])
-    return plots.draw_ranges(rows, label, bar, logarithmic=rows[-1][2] > 5 * rows[0][1])
+    return panels.convergence({label: {run.spacing: read(run) for run in runs} for label, read in series.items()},
+                              "RMS difference from the laboratory")
 
 
 def study(plan):
@@ -169,17 +156,9 @@ def study(plan):
         "H1 then depends on what is read: a wire gauge, which the laboratory had, reads the length under water; the water joined with the bed "
         "and the highest water are given beside it. No error bars were published.",
         tuple(checks),
-        (Plot("Pressure on the wall. Points: two readings of the laboratory's curve.", runs, draw_pressure),
+        (Plot("Pressure on the wall. Points: two readings of the laboratory's curve, whose time is known to "
+              f"T = {zhou1999.TIME_UNCERTAINTY}.", runs, draw_pressure),
          Plot("Water levels. Points: two readings of the laboratory's curves.", runs, draw_depths),
          Plot("Differences from the laboratory by spacing. They end at the uncertainty of the data, not at zero.", runs,
-              draw_convergence),
-         *(Plot(f"{caption} beside other codes on the same case, about 3200 particles, one thread (measured November 2026).",
-                (beside,), partial(draw_peers, peers, read, label, bar))
-           for caption, peers, read, label, bar in (
-               ("Noise", NOISE_PEERS, partial(zhou, "noise"), "noise of the wall pressure, z = 0.16 m (rho g H)",
-                NOISE_TARGET),
-               ("Cost", COST_PEERS, partial(summary, "cost", "cpu_s_per_simulated_s"), "CPU s per simulated s", 8.0),
-               ("Wall pressure", PRESSURE_PEERS,
-                partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value"),
-                "RMS from the laboratory, T = 2.4..7, best shift (rho g H)", PRESSURE_TARGET)))),
+              draw_convergence)),
         shown=finest, moments=tuple(T * time for time in (1.0, 1.6, 2.4, 4.0, 5.6, 6.6)), time_scale=T)

@@ -12,6 +12,9 @@ export interface Line {
   y: ArrayLike<number>;
   colour: string;
   points?: boolean;
+  /** Points with a line through them. */
+  joined?: boolean;
+  width?: number;
   dash?: number[];
 }
 
@@ -22,6 +25,9 @@ export interface PlotProps {
   height: number;
   /** Whose time the plot is over; null: not over time. */
   player: Player | null;
+  logarithmic?: boolean;
+  /** Of y, that are shown to begin with. */
+  limits?: [number, number] | null;
   /** A stamp that changes when the data have. */
   stamp: string;
   sync: string;
@@ -92,10 +98,11 @@ function joined(lines: Line[]): uPlot.AlignedData {
 
 function make(holder: HTMLElement, props: PlotProps): uPlot {
   const c = colours();
+  const distr = props.logarithmic ? 3 : 1;
   const font = "11px system-ui, sans-serif";
   const axis = (label: string, size: number, side: number): uPlot.Axis => ({
     side, stroke: c.faint, font, labelFont: font, grid: { stroke: c.grid, width: 1 }, ticks: { stroke: c.grid, width: 1, size: 4 }, size, gap: 4,
-    label, labelSize: 15, labelGap: 0, values: (_, values) => values.map((v) => number(v, 4)),
+    label, labelSize: 15, labelGap: 0, values: (_, values) => values.map((v: number | null) => (v === null ? "" : number(v, 4))),
   });
   const options: uPlot.Options = {
     width: holder.clientWidth || 320,
@@ -113,14 +120,17 @@ function make(holder: HTMLElement, props: PlotProps): uPlot {
         },
       } as never,
     },
-    scales: { x: { time: false } },
-    axes: [axis(props.xLabel, 30, 2), axis(props.yLabel, 52, 3)],
+    scales: { x: { time: false, distr, ...(props.logarithmic ? { range: around } : {}) }, y: { distr, ...(props.logarithmic ? { range: around } : props.limits ? { range: props.limits } : {}) } },
+    axes: [
+      { ...axis(props.xLabel, 30, 2), ...(props.logarithmic ? { splits: (u: uPlot) => u.data[0] as number[], filter: all } : {}) },
+      { ...axis(props.yLabel, 52, 3), ...(props.logarithmic ? { splits: decades, filter: all } : {}) },
+    ],
     series: [
       {},
       ...props.lines.map(
         (line): uPlot.Series => ({
-          label: line.name, stroke: line.colour, width: line.points ? 0 : 1.6, spanGaps: true, ...(line.dash ? { dash: line.dash } : {}),
-          points: line.points ? { show: true, size: 5, fill: c.paper, stroke: line.colour, width: 1.4 } : { show: false },
+          label: line.name, stroke: line.colour, width: line.points && !line.joined ? 0 : (line.width ?? 1.6), spanGaps: true, ...(line.dash ? { dash: line.dash } : {}),
+          points: line.points ? { show: true, size: line.x.length > 60 ? 3.5 : 5, fill: c.paper, stroke: line.colour, width: 1.4 } : { show: false },
         }),
       ),
     ],
@@ -128,6 +138,17 @@ function make(holder: HTMLElement, props: PlotProps): uPlot {
   };
   return new uPlot(options, joined(props.lines), holder);
 }
+
+const all = (_: uPlot, splits: number[]) => splits;
+
+/** Powers of ten; over few of them 2 and 5 times these, too. */
+function decades(_: uPlot, __: number, low: number, high: number): number[] {
+  const exponents = Array.from({ length: Math.ceil(Math.log10(high / low)) + 2 }, (___, i) => Math.floor(Math.log10(low)) + i);
+  return exponents.flatMap((e) => (high / low < 60 ? [1, 2, 5] : [1]).map((f) => f * 10 ** e)).filter((x) => x >= low && x <= high);
+}
+
+/** With room at both ends of a logarithmic axis. */
+const around = (_: uPlot, low: number, high: number): [number, number] => [low / 1.1, high * 1.1];
 
 /** What the cursor reads, in a line under the plot's name. */
 function tell(u: uPlot, lines: Line[], holder: HTMLElement): void {

@@ -20,6 +20,7 @@ export function TimeBar({ app }: { app: App }) {
     const show = () => {
       const [low, high] = player.range;
       const input = slider.current!;
+      [input.min, input.max] = [String(low), String(high)];
       input.value = String(player.time);
       input.style.setProperty("--share", String(high > low ? (player.time - low) / (high - low) : 0));
       clock.current!.value = player.time.toFixed(timeDecimals(high)) + " s";
@@ -54,7 +55,7 @@ export function TimeBar({ app }: { app: App }) {
       <button class="icon" title="One frame on (right arrow or .)" aria-label="One frame on" disabled={none} onClick={() => player.step(times, 1)}><Icon name="forward" /></button>
       <output class="clock" ref={clock} aria-label="Time shown" />
       <div class="track">
-        <input ref={slider} type="range" min={start} max={end} step="any" aria-label="Time" disabled={none} onInput={(e) => player.seek(Number(e.currentTarget.value))} />
+        <input ref={slider} type="range" step="any" aria-label="Time" disabled={none} onInput={(e) => player.seek(Number(e.currentTarget.value))} />
         <canvas ref={loaded} height={2} aria-hidden="true" />
       </div>
       <span class="end">{number(end, 4)} s</span>
