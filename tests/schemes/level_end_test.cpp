@@ -108,7 +108,7 @@ TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
 /// seconds, which are some six ways of a wave through it, and stays.
 TEST(OpenEnd, ATankComesToALevelThatSteps) {
   const TimeFunction asked(Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"), {});
-  Flow<2> flow(tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4")));
+  Flow<2> flow = make_flow<2>(tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4")));
   start(flow);
   while (flow.state.time < 10.0) {
     pass_and_step(flow);
@@ -191,7 +191,7 @@ TEST(OpenEnd, AChannelThatGoesOnTakesADischargeThatChanges) {
     spec.fluid[0].velocity = {before, 0.0};
     spec.inlets[0].discharge =
         Varying(fmt::format("{0} + ({1} - {0})*min(1, t/2)", before * depth, after * depth_after));
-    Flow<2> flow(spec);
+    Flow<2> flow = make_flow<2>(spec);
     start(flow);
     while (flow.state.time < 5.0) {
       pass_and_step(flow);

@@ -259,7 +259,7 @@ TEST(RanksTest, ALevelBeyondIsHeldTogether) {
     end.direction = {1.0, 0.0};
     end.level = level;
     spec.outlets = {end};
-    Flow<2> flow(spec, Communicator::world());
+    Flow<2> flow = make_flow<2>(spec, Communicator::world());
     const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
     run(flow, 40);
     const OpenEndState& state = flow.state.open_ends[0];
