@@ -176,19 +176,21 @@ class Case:
             text = case_text.changed_text(text, key, value)
         read = [] if file.parent.resolve() == self.file.parent.resolve() else self._files_read()
         for source in read:
-            target = file.parent / source.name
+            target = file.parent / source.relative_to(self.file.parent)
             if target.exists() and target.read_bytes() != source.read_bytes():
                 raise InputError(f"{target} exists and is another file than the case reads; remedy: another folder")
         try:
             file.write_text(text, encoding="utf-8")
             for source in read:
-                shutil.copy(source, file.parent)
+                target = file.parent / source.relative_to(self.file.parent)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(source, target)
         except OSError as error:
             raise IoError(f"{error.filename}: cannot be written ({error.strerror})") from error
         return Case(file)
 
     def _files_read(self):
-        """Those that stand beside the case file; what stands elsewhere is named by its path."""
+        """Those that stand beside the case file, or in folders there; what stands elsewhere is named by its path."""
         def texts(node):
             if isinstance(node, str):
                 yield node
@@ -196,8 +198,10 @@ class Case:
                 for each in node.values() if isinstance(node, dict) else node:
                     yield from texts(each)
 
-        beside = {path.name: path for path in self.file.parent.iterdir() if path.is_file() and path != self.file}
-        return [beside[text] for text in texts(self._data) if text in beside]
+        folder = self.file.parent
+        beside = {str(path.relative_to(folder)): path for pattern in ("*", "*/*") for path in folder.glob(pattern)
+                  if path.is_file() and path != self.file}
+        return list({text: beside[text] for text in texts(self._data) if text in beside}.values())
 
     def check(self) -> Check:
         """Looks for what is wrong, without running. Never throws for what is wrong in the case."""

@@ -74,6 +74,23 @@ class Run:
         """What the probes have found, by the probe's name (docs/theory/probes.md); empty until the run has ended."""
         return self.summary.get("results", {})
 
+    @property
+    def measurements(self):
+        """How far the probes are from what laboratories measured, a line for each [[measurement]] of the case, as a
+        pandas.DataFrame over probe and column: `rms`, `bias` (computed less measured), `best_shift_s` (how late the
+        computed curve is, within what the case allows), `shifted_rms`, `scatter`, `is_inside`; in `unit`
+        (docs/theory/probes.md)."""
+        import pandas
+
+        rows = [{**{name: score.get(name) for name in ("probe", "column", "unit", "samples", "rms", "bias",
+                                                       "best_shift_s")},
+                 "shifted_rms": score.get("shifted", {}).get("rms"), "scatter": score.get("scatter"),
+                 "is_inside": score.get("is_inside"), "words": score["words"]}
+                for score in self.summary.get("measurements", [])]
+        names = ["probe", "column", "unit", "samples", "rms", "bias", "best_shift_s", "shifted_rms", "scatter",
+                 "is_inside", "words"]
+        return pandas.DataFrame(rows, columns=names).set_index(["probe", "column"])
+
     @cached_property
     def probes(self) -> Probes:
         """Of each probe its table, by name."""

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "io/run_folder.h"
 
@@ -74,6 +77,51 @@ std::string number_at(const nlohmann::json& summary, const char* place) {
   return summary.contains(pointer) && summary.at(pointer).is_number() ? summary.at(pointer).dump() : "";
 }
 
+/// What a member's run says of a measurement: its name in the table, and the places of its numbers.
+using Scores = std::map<std::string, nlohmann::json>;
+
+/// By "PROBE_COLUMN", of a second file of both "PROBE_COLUMN_2".
+Scores scores_of(const nlohmann::json& summary) {
+  Scores scores;
+  for (const nlohmann::json& score : summary.value("measurements", nlohmann::json::array())) {
+    const std::string name = score.value("probe", "") + "_" + score.value("column", "");
+    std::string own = name;
+    for (int k = 2; scores.contains(own); ++k) own = fmt::format("{}_{}", name, k);
+    scores[own] = score;
+  }
+  return scores;
+}
+
+struct ScoreColumn {
+  const char* name;
+  const char* place;
+};
+constexpr std::array<ScoreColumn, 5> score_columns{{{"rms", "/rms"},
+                                                    {"bias", "/bias"},
+                                                    {"best_shift_s", "/best_shift_s"},
+                                                    {"shifted_rms", "/shifted/rms"},
+                                                    {"is_inside", "/is_inside"}}};
+
+/// As number_at, and a truth as 0 or 1.
+std::string score_at(const Scores& scores, const std::string& name, const char* place) {
+  const auto found = scores.find(name);
+  if (found == scores.end()) return "";
+  const nlohmann::json::json_pointer pointer(place);
+  if (found->second.contains(pointer) && found->second.at(pointer).is_boolean()) {
+    return found->second.at(pointer).get<bool>() ? "1" : "0";
+  }
+  return number_at(found->second, place);
+}
+
+/// Of all measurements of all members, in the order of their names.
+std::set<std::string> measured_in(const std::filesystem::path& sweep, const SweepPlan& plan) {
+  std::set<std::string> names;
+  for (const SweepMember& member : plan.members) {
+    for (const auto& [name, score] : scores_of(summary_of(sweep / member.folder))) names.insert(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string member_status(const std::filesystem::path& member, const MemberNews& news) {
@@ -86,6 +134,10 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   for (const std::string& key : plan.keys) names.push_back(quoted_field(key));
   names.insert(names.end(), {"status", "exit_code"});
   for (const SummaryColumn& column : summary_columns) names.emplace_back(column.name);
+  const std::set<std::string> measured = measured_in(sweep, plan);
+  for (const std::string& name : measured) {
+    for (const ScoreColumn& column : score_columns) names.push_back(quoted_field(name + "_" + column.name));
+  }
   names.insert(names.end(), {"warnings", "message"});
   std::string table = fmt::format("{}\n", fmt::join(names, ","));
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
@@ -98,6 +150,10 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
     fields.push_back(status);
     fields.push_back(news[m].exit_code ? std::to_string(*news[m].exit_code) : number_at(summary, "/exit_code"));
     for (const SummaryColumn& column : summary_columns) fields.push_back(number_at(summary, column.place));
+    const Scores scores = scores_of(summary);
+    for (const std::string& name : measured) {
+      for (const ScoreColumn& column : score_columns) fields.push_back(score_at(scores, name, column.place));
+    }
     fields.push_back(summary.contains("warnings") ? std::to_string(summary["warnings"].size()) : "");
     const bool has_message = status == "failed";
     const std::string message = summary.value("message", "");

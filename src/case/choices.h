@@ -17,7 +17,7 @@ enum class AxisDirection { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z };
 enum class MakerType { piston, flap };
 enum class WaveKind { regular, solitary, jonswap, none };
 enum class Absorption { none, active };
-enum class GateMotion { speed, acceleration, falling_weight, file };
+enum class GateMotion { speed, acceleration, file };
 
 enum class SchemeName { farzin2014, farmani2020 };
 enum class Formulation { robust, published };
@@ -91,7 +91,7 @@ struct Choices<Absorption> {
 };
 template <>
 struct Choices<GateMotion> {
-  static constexpr std::array<std::string_view, 4> names{"speed", "acceleration", "falling-weight", "file"};
+  static constexpr std::array<std::string_view, 3> names{"speed", "acceleration", "file"};
 };
 template <>
 struct Choices<SchemeName> {

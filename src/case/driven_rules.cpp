@@ -118,13 +118,6 @@ void check(const DampingTable& damping, TableReader& reader) {
   }
 }
 
-void check(const GateTable& gate, TableReader& reader) {
-  check_plate(gate.from, gate.to, gate.side, "a gate", reader);
-  if (gate.motion == GateMotion::falling_weight && gate.weight > 0.0 && gate.weight <= gate.gate_mass &&
-      !reader.is_wrong("weight") && !reader.is_wrong("gate_mass")) {
-    reader.wrong("weight", *reader.given("weight"),
-                 fmt::format("does not lift a gate of {} kg; give a weight above gate_mass", gate.gate_mass));
-  }
-}
+void check(const GateTable& gate, TableReader& reader) { check_plate(gate.from, gate.to, gate.side, "a gate", reader); }
 
 }  // namespace tailwater

@@ -56,6 +56,12 @@ TimeSeries read_time_series(const std::filesystem::path& path, std::span<const S
   return parse_series(path, file, columns);
 }
 
+TimeSeries read_measured_series(const std::filesystem::path& path, std::span<const std::string_view> names,
+                                Measure measure) {
+  std::ifstream file = open_file(path, largest_series_file);
+  return parse_measured_series(path, file, names, measure);
+}
+
 std::string checksum_of_file(const std::filesystem::path& path) {
   std::ifstream file = open_file(path, largest_mesh_file);
   std::vector<char> block(1 << 20);

@@ -24,6 +24,13 @@ std::vector<Coordinates> read_points_file(const std::filesystem::path& path);
 /// IoError if the file cannot be read, else InputError, which names file and line and gives the remedy.
 TimeSeries read_time_series(const std::filesystem::path& path, std::span<const SeriesColumn> columns);
 
+/// One column of a CSV file of measured values over time, in SI units. The file is as that of read_time_series, and may
+/// have other columns: it is the first of `names`, or else "value", that the header has, in this order, or the only
+/// column beside the time. A pressure, a force and a moment need a unit too. Times may repeat and go back, as digitised
+/// ones do: they are sorted, and values of one time become their mean. Throws as read_time_series.
+TimeSeries read_measured_series(const std::filesystem::path& path, std::span<const std::string_view> names,
+                                Measure measure);
+
 /// CRC-32 of the file's bytes, as 8 hexadecimal digits. Throws IoError if it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& path);
 

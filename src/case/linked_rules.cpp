@@ -157,4 +157,8 @@ void read_linked_files(OutletTable& outlet, TableReader& reader) {
   if (!reader.is_wrong("file")) check_given_once(std::array{given("level", outlet.level, outlet.series, 0)}, reader);
 }
 
+void read_linked_files(MeasurementTable& measurement, TableReader& reader) {
+  read_linked("file", reader, [&] { keep_linked(measurement.file, measurement.checksum, "checksum", reader); });
+}
+
 }  // namespace tailwater

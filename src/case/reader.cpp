@@ -16,6 +16,7 @@
 #include "case/driven_walls.h"
 #include "case/expression.h"
 #include "case/formulation.h"
+#include "case/measurements.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
 #include "case/overrides.h"
@@ -249,6 +250,7 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
   add_tables("inlet", spec.inlets);
   add_tables("outlet", spec.outlets);
   add_tables("probe", spec.probes);
+  add_tables("measurement", spec.measurements);
   for (const auto& [name, node] : root) {
     if (const toml::table* table = node.as_table()) add_keys(*table, fmt::format("{}.", name.str()));
   }
@@ -273,6 +275,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
     context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]], or an [[inlet]]");
   }
   if (context.problems.none()) check_across_tables(spec, root, context.problems);
+  if (context.problems.none()) read_measurements(spec, root, context.problems);
   if (!context.problems.none()) {
     throw InputError(context.problems.text());
   }

@@ -14,10 +14,11 @@ struct RemovedKey {
   std::string_view successor;  ///< the key of [study] that has its value today; empty: none
 };
 
+/// Those that `tailwater migrate` changes: of tables of which a case has one.
 std::span<const RemovedKey> removed_keys();
 
-/// For a message: what to do in place of a key that is no more, and that `tailwater migrate` does it; empty if there
-/// never was such a key.
+/// For a message: what to do in place of a key that is no more, and whether `tailwater migrate` does it; empty if there
+/// never was such a key. `table` is a name without an index.
 std::string fate_of(std::string_view table, std::string_view key);
 
 }  // namespace tailwater

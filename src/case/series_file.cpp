@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "case/column_file.h"
@@ -19,12 +20,26 @@ constexpr std::array<Unit, 3> speed_units{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s"
 constexpr std::array<Unit, 6> discharge_units{
     {{"m^3/s", 1.0}, {"m3/s", 1.0}, {"m^2/s", 1.0}, {"m2/s", 1.0}, {"l/s", 1e-3}, {"m^3/h", 1.0 / 3600.0}}};
 
+// What 2D gives per metre of width may be written so, or not.
+constexpr std::array<Unit, 3> volume_units{{{"m^3", 1.0}, {"m3", 1.0}, {"l", 1e-3}}};
+constexpr std::array<Unit, 5> pressure_units{{{"pa", 1.0}, {"hpa", 1e2}, {"kpa", 1e3}, {"mbar", 1e2}, {"bar", 1e5}}};
+constexpr std::array<Unit, 4> force_units{{{"n", 1.0}, {"kn", 1e3}, {"n/m", 1.0}, {"kn/m", 1e3}}};
+constexpr std::array<Unit, 4> moment_units{{{"n m", 1.0}, {"kn m", 1e3}, {"n m/m", 1.0}, {"kn m/m", 1e3}}};
+constexpr std::array<Unit, 3> energy_units{{{"j", 1.0}, {"kj", 1e3}, {"j/m", 1.0}}};
+
 class SeriesFile : ColumnFile {
  public:
   SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> columns)
       : ColumnFile(path), wanted_(columns) {
     series_.file = path.string();
     series_.columns.resize(columns.size());
+  }
+
+  /// Of a file of measured values, whose one column that is wanted has one of `names`.
+  SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> column,
+             std::span<const std::string_view> names)
+      : SeriesFile(path, column) {
+    names_ = names;
   }
 
   TimeSeries read(std::istream& file) {
@@ -40,6 +55,7 @@ class SeriesFile : ColumnFile {
 
  private:
   static constexpr std::size_t time_column = static_cast<std::size_t>(-1);
+  static constexpr std::size_t no_column = static_cast<std::size_t>(-2);
 
   /// One column of the file: which of those wanted it is, and its unit.
   struct Found {
@@ -56,6 +72,16 @@ class SeriesFile : ColumnFile {
         return speed_units;
       case Measure::discharge:
         return discharge_units;
+      case Measure::volume:
+        return volume_units;
+      case Measure::pressure:
+        return pressure_units;
+      case Measure::force:
+        return force_units;
+      case Measure::moment:
+        return moment_units;
+      case Measure::energy:
+        return energy_units;
       case Measure::length:
         break;
     }
@@ -84,9 +110,10 @@ class SeriesFile : ColumnFile {
     }
     for (std::size_t k = 0; k < found_.size(); ++k) {
       const auto [wanted, unit] = found_[k];
+      if (wanted == no_column) continue;
       const bool is_its_time = wanted == time_column;
       const double value = unit * number_at(fields, k, is_its_time ? "time" : "value");
-      if (is_its_time && !series_.time.empty() && value <= series_.time.back()) {
+      if (is_its_time && names_.empty() && !series_.time.empty() && value <= series_.time.back()) {
         wrong(
             fmt::format("its time, {:.9g} s, is not after that of line {}, {:.9g} s; put the lines in order of time, "
                         "and keep one of two with the same time",
@@ -106,6 +133,10 @@ class SeriesFile : ColumnFile {
     if (std::ranges::none_of(fields, [](auto field) { return is_time(Heading(field)); })) {
       wrong(fmt::format("does not name the column t; name t and at least one other column, as in \"{}\"", example()));
     }
+    if (!names_.empty()) {
+      choose_measured(fields);
+      return;
+    }
     for (const std::string_view field : fields) found_.push_back(column_named(field));
     for (auto at = found_.begin(); at != found_.end(); ++at) {
       if (std::ranges::find(found_.begin(), at, at->wanted, &Found::wanted) != at) {
@@ -116,6 +147,28 @@ class SeriesFile : ColumnFile {
     if (found_.size() < 2) {
       wrong(fmt::format("does not name any column but t; name at least one other, as in \"{}\"", example()));
     }
+  }
+
+  /// The first column of time, and the one that is measured.
+  void choose_measured(const std::vector<std::string_view>& fields) {
+    std::vector<std::string> headings;
+    for (const std::string_view field : fields) headings.push_back(Heading(field).name);
+    const auto time = std::ranges::find_if(fields, [](auto field) { return is_time(Heading(field)); }) - fields.begin();
+    auto measured = std::ranges::find_if(names_, [&](std::string_view name) {
+      return std::ranges::find(headings, lower_case_of(name)) != headings.end();
+    });
+    std::ptrdiff_t place = 0;
+    if (measured != names_.end()) {
+      place = std::ranges::find(headings, lower_case_of(*measured)) - headings.begin();
+    } else if (fields.size() == 2) {
+      place = 1 - time;
+    } else {
+      wrong(fmt::format("has no column \"{}\"; call the one that is to be compared so, as in \"{}\"", names_.front(),
+                        example()));
+    }
+    found_.assign(fields.size(), {no_column, 1.0});
+    found_[static_cast<std::size_t>(time)] = column_named(fields[static_cast<std::size_t>(time)]);
+    found_[static_cast<std::size_t>(place)] = value_column(0, fields[static_cast<std::size_t>(place)]);
   }
 
   static bool is_time(const Heading& heading) { return heading.name == "t" || heading.name == "time"; }
@@ -132,25 +185,57 @@ class SeriesFile : ColumnFile {
                       "remove the column",
                       field, example()));
     }
-    const auto wanted = static_cast<std::size_t>(known - wanted_.begin());
-    const std::span<const Unit> units = units_of(*known);
+    return value_column(static_cast<std::size_t>(known - wanted_.begin()), field);
+  }
+
+  Found value_column(std::size_t wanted, std::string_view field) const {
+    const SeriesColumn& column = wanted_[wanted];
+    const Heading heading(field);
+    const std::span<const Unit> units = units_of(column);
     const std::optional<double> unit = unit_of(heading, field, units);
-    const bool needs_unit = known->measure == Measure::angle || known->measure == Measure::discharge;
+    const bool needs_unit = column.measure != Measure::length && column.measure != Measure::speed;
     if (!unit && needs_unit) {
-      wrong(fmt::format("column \"{}\" has no unit; write {} [{}]", field, known->name, units.front().name));
+      wrong(fmt::format("column \"{}\" has no unit; write {} [{}]", field, heading.name, units.front().name));
     }
     return {wanted, unit.value_or(1.0)};
   }
 
   std::span<const SeriesColumn> wanted_;
+  std::span<const std::string_view> names_;  ///< none: all columns are wanted ones
   std::vector<Found> found_;
   TimeSeries series_;
 };
+
+/// Samples by time; those of one time become their mean.
+TimeSeries in_order(TimeSeries measured) {
+  std::vector<std::size_t> order(measured.time.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return measured.time[k]; });
+  TimeSeries sorted{.file = measured.file, .line = {}, .time = {}, .columns = {{}}};
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    double sum = 0.0;
+    while (end < order.size() && measured.time[order[end]] == measured.time[order[begin]]) {
+      sum += measured.columns[0][order[end++]];
+    }
+    sorted.line.push_back(measured.line[order[begin]]);
+    sorted.time.push_back(measured.time[order[begin]]);
+    sorted.columns[0].push_back(sum / static_cast<double>(end - begin));
+  }
+  return sorted;
+}
 
 }  // namespace
 
 TimeSeries parse_series(const std::filesystem::path& path, std::istream& file, std::span<const SeriesColumn> columns) {
   return SeriesFile(path, columns).read(file);
+}
+
+TimeSeries parse_measured_series(const std::filesystem::path& path, std::istream& file,
+                                 std::span<const std::string_view> names, Measure measure) {
+  std::vector<std::string_view> all(names.begin(), names.end());
+  all.push_back("value");
+  const std::array<SeriesColumn, 1> column{{{names.front(), measure}}};
+  return in_order(SeriesFile(path, column, all).read(file));
 }
 
 }  // namespace tailwater

@@ -12,4 +12,8 @@ namespace tailwater {
 /// The columns of `file`, whose name messages tell, in SI units. Throws InputError with file, line and remedy.
 TimeSeries parse_series(const std::filesystem::path& path, std::istream& file, std::span<const SeriesColumn> columns);
 
+/// The one column of a file of measured values, likewise.
+TimeSeries parse_measured_series(const std::filesystem::path& path, std::istream& file,
+                                 std::span<const std::string_view> names, Measure measure);
+
 }  // namespace tailwater

@@ -85,7 +85,8 @@ struct CaseTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.integer("format", self.format, "", Range::at_least(1),
-              "Version of the format that the case is written in; a program refuses one that is newer than its own");
+              "Version of the format that the case is written in; a program refuses one that is newer than its own",
+              Presence::written);
     v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
   }
@@ -292,8 +293,6 @@ struct GateTable {
   GateMotion motion = GateMotion::speed;
   double speed = 0.0;
   double acceleration = 0.0;
-  double weight = 0.0;
-  double gate_mass = 0.0;
   std::string file;
   std::string checksum;
   Coordinates direction;
@@ -318,13 +317,10 @@ struct GateTable {
              "Thickness of the gate; 0: none, as a plate (4 dx with a published formulation)");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
     v.choice("motion", self.motion,
-             "How it moves: at a constant speed, with a constant acceleration, pulled over a pulley by a weight that "
-             "falls, or as a file says; its seal has no friction");
+             "How it moves: at a constant speed, with a constant acceleration, or as a file says; its seal has no "
+             "friction");
     v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
     v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
-    v.number("weight", self.weight, "kg", Range::above(0.0),
-             "Mass of the falling weight; the acceleration is g (weight - gate_mass)/(weight + gate_mass)");
-    v.number("gate_mass", self.gate_mass, "kg", Range::at_least(0.0), "Mass of the gate that the weight lifts");
     v.text("file", self.file,
            "CSV file of the gate's way over the time since `start`, relative to the case file, with a line that names "
            "the columns, as in \"t [s], way [mm]\"");
@@ -350,7 +346,7 @@ struct WaveMakerTable {
   double period = 0.0;
   int order = 2;
   double peak_enhancement = 3.3;
-  int components = 200;
+  int components = 200;  ///< no key: enough for any record that is not periodic within the run
   int seed = 1;
   double start = 0.0;
   double ramp = 0.0;
@@ -383,7 +379,6 @@ struct WaveMakerTable {
               "order 1)");
     v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
              "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
-    v.integer("components", self.components, "", Range::between(1, 2000), "Number of sines that irregular waves have");
     v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the motion begins");
     v.number("ramp", self.ramp, "s", Range::at_least(0.0),
@@ -455,7 +450,7 @@ struct MooringTable {
 
 /// A stretch of water in which waves die out.
 struct DampingTable {
-  std::string name;
+  std::string name;  ///< no key: damping1, damping2, ...
   Coordinates min;
   Coordinates max;
   AxisDirection towards = AxisDirection::plus_x;
@@ -465,7 +460,6 @@ struct DampingTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.text("name", self.name, "Name used in messages (default: damping1, damping2, ...)");
     v.coordinates("min", self.min, "m", "Lowest corner of the zone, an axis-parallel box", Presence::required);
     v.coordinates("max", self.max, "m", "Highest corner of the zone", Presence::required);
     v.choice("towards", self.towards,
@@ -795,6 +789,43 @@ struct ProbeTable {
   }
 };
 
+/// What a laboratory has measured, to be compared with what a probe has written.
+struct MeasurementTable {
+  std::string name;  ///< no key: measurement1, measurement2, ...
+  std::string probe;
+  std::string column;
+  std::string file;
+  std::string checksum;
+  double shift = 0.0;
+  double scatter = 0.0;
+
+  TimeSeries series;  ///< what the file holds: t, and one column in the unit of the probe's
+
+  bool operator==(const MeasurementTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("probe", self.probe, "Name of the probe whose table it is compared with", Presence::required);
+    v.text("column", self.column,
+           "Column of that table, without its unit, as in \"highest\" (default: the first that the probe has)");
+    v.text(
+        "file", self.file,
+        "CSV file of the measured values over time, relative to the case file, with a line that names the columns, "
+        "as in \"t [s], depth [mm]\"; of several columns the one that is named as the probe, as `column` or \"value\" "
+        "counts (docs/theory/probes.md)",
+        Presence::required);
+    v.text("checksum", self.checksum,
+           "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
+           Presence::written);
+    v.number("shift", self.shift, "s", Range::at_least(0.0),
+             "Largest shift in time, either way, with which the fit may become best: how well the instant t = 0 of the "
+             "measurement is known");
+    v.number("scatter", self.scatter, "", Range::at_least(0.0),
+             "How far the measurement, repeated, is from itself (standard deviation), in the SI unit of the column; 0: "
+             "not known");
+  }
+};
+
 /// A named number of the case file, for use in expressions.
 struct Parameter {
   std::string name;
@@ -826,6 +857,7 @@ struct CaseSpec {
   LimitsTable limits;
   OutputTable output;
   std::vector<ProbeTable> probes;
+  std::vector<MeasurementTable> measurements;
   StudyTable study;
   CaseSources sources;
 
@@ -853,6 +885,8 @@ struct CaseSpec {
     v.table("limits", self.limits, "When a run warns of its own errors, or gives up");
     v.table("output", self.output, "Field files for ParaView, frames for `tailwater view`, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
+    v.tables("measurement", self.measurements,
+             "Measured values over time, which a probe's are compared with; one table each");
     v.table("study", self.study, "For studies: the robust formulation without one of its parts");
   }
 };

@@ -181,14 +181,15 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
                         std::span<const std::string_view> allowed, std::string_view doc) {
   const toml::node* node = find(key, doc, "", quoted_list(allowed), Presence::optional);
   const std::string choice = allowed.empty() ? "names in quotes" : fmt::format("any of {}", quoted_list(allowed));
-  const toml::array* list = list_at(key, node, fmt::format("give a list of {}", choice));
-  if (list == nullptr) {
+  const bool is_one = node != nullptr && node->is_string();
+  const toml::array* list = is_one ? nullptr : list_at(key, node, fmt::format("give a list of {}", choice));
+  if (!is_one && list == nullptr) {
     return;
   }
   std::vector<std::string> given;
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const toml::node& element = (*list)[i];
-    const std::string place = fmt::format("{}[{}]", key, i);
+  for (std::size_t i = 0; i < (is_one ? 1 : list->size()); ++i) {
+    const toml::node& element = is_one ? *node : (*list)[i];
+    const std::string place = is_one ? std::string(key) : fmt::format("{}[{}]", key, i);
     const auto* name = element.as_string();
     if (name == nullptr) {
       wrong(key, element, fmt::format("give {}", choice), place);
@@ -241,7 +242,7 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
   }
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
-      const std::string fate = fate_of(name_, key.str());
+      const std::string fate = fate_of(std::string_view(name_).substr(0, name_.find('[')), key.str());
       wrong(key.str(), node,
             fate.empty() ? fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid))
                          : fate);

@@ -34,6 +34,8 @@ void read_linked_files(WallTable& wall, TableReader& reader);
 void read_linked_files(GateTable& gate, TableReader& reader);
 void read_linked_files(InletTable& inlet, TableReader& reader);
 void read_linked_files(OutletTable& outlet, TableReader& reader);
+/// The file's columns depend on the probe, so the values are read when all tables have been (measurements.h).
+void read_linked_files(MeasurementTable& measurement, TableReader& reader);
 
 /// Checks a table that has been read.
 template <class Table>

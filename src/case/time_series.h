@@ -8,7 +8,7 @@
 namespace tailwater {
 
 /// What a column measures; it decides which units the header may name.
-enum class Measure { length, angle, speed, discharge };
+enum class Measure { length, angle, speed, discharge, volume, pressure, force, moment, energy };
 
 struct SeriesColumn {
   std::string_view name;

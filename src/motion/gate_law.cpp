@@ -4,7 +4,7 @@
 
 namespace tailwater {
 
-GateLaw::GateLaw(const GateTable& gate, double length, double gravity)
+GateLaw::GateLaw(const GateTable& gate, double length)
     : start_(gate.start), travel_(gate.travel > 0.0 ? gate.travel : length) {
   switch (gate.motion) {
     case GateMotion::speed:
@@ -12,10 +12,6 @@ GateLaw::GateLaw(const GateTable& gate, double length, double gravity)
       break;
     case GateMotion::acceleration:
       acceleration_ = gate.acceleration;
-      break;
-    case GateMotion::falling_weight:
-      // The weight and the gate hang on one rope over a pulley: G. Atwood (1784).
-      acceleration_ = gravity * (gate.weight - gate.gate_mass) / (gate.weight + gate.gate_mass);
       break;
     case GateMotion::file:
       file_.emplace(gate.series.time, gate.series.columns[0]);

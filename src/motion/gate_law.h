@@ -11,7 +11,7 @@ namespace tailwater {
 class GateLaw {
  public:
   /// `length` [m] is the gate's own in the direction of its motion.
-  GateLaw(const GateTable& gate, double length, double gravity);
+  GateLaw(const GateTable& gate, double length);
 
   /// The way [m] at `time` [s].
   double way(double time) const;

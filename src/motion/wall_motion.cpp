@@ -91,8 +91,8 @@ Placement<Dim> MotionOfFile<Dim>::at(double time) const {
 template <int Dim>
 MotionOfGate<Dim>::MotionOfGate(const CaseSpec& spec, const GateTable& gate)
     : direction_(unit_direction<Dim>(spec, gate)),
-      law_(gate, std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from"))),
-           gravity_of<Dim>(spec).norm()) {}
+      law_(gate,
+           std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from")))) {}
 
 // A plate that turns about its foot is displaced by the stroke where it crosses the still water's level.
 template <int Dim>

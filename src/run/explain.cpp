@@ -92,8 +92,7 @@ void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences)
     const std::string how = gate.motion == GateMotion::speed ? fmt::format("at {:.4g} m/s", gate.speed)
                             : gate.motion == GateMotion::acceleration
                                 ? fmt::format("with {:.4g} m/s^2", gate.acceleration)
-                            : gate.motion == GateMotion::file ? "as " + gate.file + " says"
-                                                              : "pulled by a falling weight";
+                                : "as " + gate.file + " says";
     sentences.push_back(fmt::format("Gate '{}' begins to move at {:.4g} s, {}.", gate.name, gate.start, how));
   }
   for (const WaveMakerTable& maker : spec.wave_makers) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/spec.h"
@@ -30,6 +31,10 @@ struct ProbeResult {
   /// "0.2890 m (mean of the second half), highest 0.3012 m (at 2.1 s)".
   std::string words() const;
 };
+
+/// The unit of a column by the end of its name. In 2D a force is per metre of width, as its column says; an energy and
+/// a volume are too, which theirs do not say.
+std::string unit_of_column(std::string_view column, int dimension);
 
 /// Of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws IoError if a
 /// table cannot be read.

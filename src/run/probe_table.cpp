@@ -62,6 +62,37 @@ double ColumnDigest::rate_in_second_half() const {
   return has_begun_half_ && last_time > half_begin_ ? (last - value_at_half_) / (last_time - half_begin_) : 0.0;
 }
 
+ProbeColumn read_probe_column(const std::filesystem::path& path,
+                              const std::function<bool(std::string_view name)>& is_wanted) {
+  std::ifstream file(path);
+  if (!file) throw_io_error("read", path, errno);
+  ProbeColumn column;
+  std::string line;
+  std::getline(file, line);
+  std::size_t place = 0;
+  for_each_cell(line, [&](std::size_t k, std::string_view name) {
+    if (k == 0 || place > 0 || !is_wanted(name)) return;
+    place = k;
+    column.name = name;
+  });
+  while (place > 0 && std::getline(file, line)) {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    double value = time;
+    for_each_cell(line, [&](std::size_t k, std::string_view field) {
+      if (k == 0) time = number_of(field);
+      if (k == place) value = number_of(field);
+    });
+    if (std::isnan(time) || std::isnan(value)) continue;
+    if (!column.time.empty() && time <= column.time.back()) {
+      column.time.pop_back();
+      column.value.pop_back();
+    }
+    column.time.push_back(time);
+    column.value.push_back(value);
+  }
+  return column;
+}
+
 TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
   std::ifstream file(path);
   if (!file) throw_io_error("read", path, errno);

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tailwater {
@@ -41,6 +43,17 @@ struct TableDigest {
   std::vector<ColumnDigest> columns;
   double last_time = 0.0;  ///< s
 };
+
+struct ProbeColumn {
+  std::string name;          ///< empty: the table has no such column
+  std::vector<double> time;  ///< s, ascending
+  std::vector<double> value;
+};
+
+/// The first column whose name is one that is wanted. Lines without a number are left out, and all but the last of one
+/// time. Throws IoError if the file cannot be read.
+ProbeColumn read_probe_column(const std::filesystem::path& path,
+                              const std::function<bool(std::string_view name)>& is_wanted);
 
 /// `half` [s] is where the second half begins. Throws IoError if the file cannot be read.
 TableDigest digest_probe_table(const std::filesystem::path& path, double half);

@@ -162,6 +162,9 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
     for (const auto& [probe, result] : results->items())
       lines.push_back({printable(probe), text_of_key(result, "words")});
   }
+  if (const auto scores = summary.find("measurements"); scores != summary.end()) {
+    for (const Json& score : *scores) lines.push_back({text_of_key(score, "probe"), text_of_key(score, "words")});
+  }
   const Json& time = summary.at("time_s");
   const Json& steps = summary.at("steps");
   lines.push_back({"time", fmt::format("{:.6g} of {:.6g} s, {:.0f} steps of {:.3g} s ({:.3g} to {:.3g})",

@@ -336,10 +336,12 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
     do_on_root(ranks_, [&] {
       try {
         results_ = probe_results(spec_, folder_, flow.state.time);
+        scores_ = measurement_scores(spec_, folder_);
       } catch (const IoError&) {
         if (message.empty()) throw;  // of a run that has failed the summary counts more than its results
       }
       summary["results"] = json_of(results_);
+      if (!scores_.empty()) summary["measurements"] = json_of(scores_);
     });
   }
   summary.update(provenance());
@@ -367,6 +369,9 @@ void RunOutput<Dim>::tell_results() const {
   }
   if (results_.size() > most_told) {
     tell(fmt::format("and {} more probes: tailwater info {}", results_.size() - most_told, folder_.path().string()));
+  }
+  for (std::size_t k = 0; k < std::min(scores_.size(), most_told); ++k) {
+    tell(fmt::format("{}: {}", scores_[k].probe, scores_[k].words()));
   }
 }
 

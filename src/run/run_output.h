@@ -17,6 +17,7 @@
 #include "probes/probe_set.h"
 #include "run/end_watch.h"
 #include "run/frame_output.h"
+#include "run/measurements.h"
 #include "run/probe_results.h"
 #include "run/progress.h"
 #include "run/rank_log.h"
@@ -99,6 +100,7 @@ class RunOutput {
   RunStatistics statistics_;
   ResultLimits limits_;
   std::vector<ProbeResult> results_;  ///< at the end, on the root
+  std::vector<MeasurementScore> scores_;
   Water water_at_start_;
   double fields_interval_;    ///< s
   double next_fields_ = 0.0;  ///< s

@@ -144,6 +144,73 @@ TEST(MeshFile, NeedsASideAndThreeDimensions) {
   EXPECT_NE(message_of(mesh_case).find("cannot read it"), std::string::npos);
 }
 
+const std::string gauge_case = required_keys + water + "[[probe]]\nname = \"H2\"\ntype = \"depth\"\nat = [0, 0]\n" +
+                               "[[probe]]\nname = \"p\"\ntype = \"pressure\"\nat = [0, 0]\n" +
+                               "[[probe]]\nname = \"line\"\ntype = \"profile\"\nfrom = [0, 0]\nto = [1, 0]\n" +
+                               "times = [0.5]\n[[measurement]]\nfile = \"gauge.csv\"\nprobe = ";
+
+/// What a laboratory has measured.
+class GaugeFile : public LinkedFile {
+ protected:
+  GaugeFile() : LinkedFile(gauge_case + "\"H2\"\n", "gauge.csv") {}
+
+  std::string complaint(const std::string& keys, const std::string& text) const {
+    std::ofstream(file_.path()) << gauge_case << keys << "\n";
+    return message(text);
+  }
+};
+
+TEST_F(GaugeFile, IsReadByTheNameOfTheProbeOrOfTheColumnOrAsTheOnlyOne) {
+  for (const char* text : {
+           "t [s], H2 [mm]\n0, 100\n0.5, 120\n",
+           "time_s;H1_m;h2_cm\n0;7;10\n0.5;7;12\n",
+           "connected [mm], pressure [Pa], t [ms]\n100, 1, 0\n120, 1, 500\n",
+           "# of a figure\nt_s,value_m,tstar,h_over_H\n0.5,0.12,9,9\n0,0.09,9,9\n0,0.11,9,9\n",
+           "t depth\n0 0.1\n0.5 0.12\n",
+       }) {
+    write(text);
+    const MeasurementTable found = read_case(file_.path()).measurements[0];
+    EXPECT_EQ(found.column, "connected") << text;
+    ASSERT_EQ(found.series.time, (std::vector<double>{0.0, 0.5})) << text;
+    EXPECT_NEAR(found.series.columns[0][0], 0.1, 1e-15) << text;
+    EXPECT_NEAR(found.series.columns[0][1], 0.12, 1e-15) << text;
+  }
+}
+
+TEST_F(GaugeFile, IsRefusedWithPlaceAndRemedy) {
+  struct Bad {
+    std::string keys, text;
+    std::vector<std::string> words;
+  };
+  const std::string good = "t [s], H2 [m]\n0, 1\n1, 1\n";
+  for (const Bad& bad : {
+           Bad{"\"H3\"", good, {"measurement[0].probe = \"H3\"", "case.toml:22:9", "no such probe", "\"H2\""}},
+           Bad{"\"line\"", good, {"measurement[0].probe", "a profile probe has several lines of one time"}},
+           Bad{"\"H2\"\ncolumn = \"hihgest\"", good, {"measurement[0].column", "did you mean \"highest\"?"}},
+           Bad{"\"line\"\ncolumn = \"u\"", good, {"measurement[0].probe"}},
+           Bad{"\"H2\"", "t [s], a [m], b [m]\n0, 1, 1\n", {"gauge.csv:1", "no column \"H2\"", "\"t [s], H2 [m]\""}},
+           Bad{"\"H2\"", "t [s], H2 [kPa]\n0, 1\n", {"gauge.csv:1", "unknown unit \"kpa\"", "m, mm, cm, km or ft"}},
+           Bad{"\"p\"", "t [s], p\n0, 1\n", {"gauge.csv:1", "has no unit", "p [pa]"}},
+           Bad{"\"H2\"", "t [s], H2 [m]\n0, 1\n1, x\n", {"gauge.csv:3", "\"x\" is not a number"}},
+           Bad{"\"H2\"", "t [s], H2 [m]\n0, 1\n", {"1 lines of numbers", "at least two"}},
+           Bad{"\"H2\"", "H2 [m]\n0\n", {"does not name the column t"}},
+           Bad{"\"H2\"",
+               "t [s], H2 [m]\n-5, 1\n-4, 1\n",
+               {"ends at t = -4 s, where the run begins", "zero of its times"}},
+       }) {
+    const std::string message = complaint(bad.keys, bad.text);
+    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+}
+
+TEST_F(GaugeFile, IsPartOfTheCaseThatARunLeaves) {
+  write("t [s], H2 [m]\n0, 1\n1, 1\n");
+  const CaseSpec spec = read_case(file_.path());
+  EXPECT_EQ(read_case_text(effective_case(spec), "run"), spec);
+  write("t [s], H2 [m]\n0, 1\n1, 2\n");
+  EXPECT_THROW(read_case_text(effective_case(spec), "run"), InputError);
+}
+
 const std::string rolled_case = required_keys + water +
                                 "[[wall]]\nname = \"tank\"\npoints = [[0, 2], [0, 0], [1, 0], [1, 2]]\n"
                                 "motion = \"roll.csv\"\n";

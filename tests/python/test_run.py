@@ -11,6 +11,7 @@ import numpy as np
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import tables
+from tailwater.program import call
 
 
 class Runs(PackageTest):
@@ -46,6 +47,51 @@ class Runs(PackageTest):
         self.assertEqual(len(run.steps), run.summary["steps"]["count"])
         self.assertEqual(run.results["depth"]["type"], "depth")
         self.assertIn("done", repr(run))
+
+    def test_measurements_are_scored(self):
+        self.write("gauge.csv", "t [s], depth [mm]\n0, 500\n0.08, 500\n")
+        self.write("measured.toml", DAM + '[[measurement]]\nprobe = "depth"\nfile = "gauge.csv"\nscatter = 0.2\n')
+        case = tw.Case("measured.toml")
+        run = case.run("out")
+        found = run.measurements.loc[("depth", "connected")]
+        depth = run.probes["depth"]["connected_m"]
+        # Two samples count alike.
+        off = np.array([depth.iloc[0] - 0.5, np.interp(0.08, depth.index, depth) - 0.5])
+        self.assertAlmostEqual(found["rms"], np.sqrt(np.mean(off**2)), 9)
+        self.assertAlmostEqual(found["bias"], off.mean(), 9)
+        self.assertTrue(found["is_inside"])
+        self.assertIn("against gauge.csv", call("info", "out"))
+        table = tw.sweep(case, {"measurement[0].scatter": [0.2, 1e-9]}, out="s").table()
+        self.assertEqual(list(table["depth_connected_is_inside"]), [1, 0])
+        self.assertAlmostEqual(table["depth_connected_rms"].iloc[1], found["rms"], 9)
+        self.assertTrue(self.case.run("none").measurements.empty)
+
+    def test_every_column_that_can_be_measured_is_in_its_table(self):
+        units = {"length": "m", "speed": "m/s", "pressure": "kPa", "force": "N/m", "moment": "N m/m", "energy": "J",
+                 "volume": "l", "discharge": "l/s"}
+        at, line = "at = [0.5, 0.2]", "from = [0.5, 0]\nto = [0.5, 1]"
+        probes = {"depth": (at, {"connected": "length", "highest": "length", "wet": "length"}),
+                  "wall-pressure": ("at = [0.5, 0]", {"pressure": "pressure"}),
+                  "wall-pressure-mean": ("from = [0.2, 0]\nto = [0.4, 0]", {"pressure": "pressure"}),
+                  "pressure": (at, {"pressure": "pressure"}), "velocity": (at, {"u": "speed", "v": "speed"}),
+                  "front": ("", {"front_connected": "length", "front": "length"}),
+                  "energy": ("", {"total": "energy", "kinetic": "energy", "potential": "energy"}),
+                  "volume": ("", {"volume_out": "volume", "volume_in": "volume"}),
+                  "discharge": (line, {"discharge": "discharge", "volume": "volume"}),
+                  "force": ("moment_about = [0, 0]", {"force_x": "force", "force_y": "force", "moment": "moment"}),
+                  "pressure-map": ("", {"largest": "pressure", "mean": "pressure"}),
+                  "run-up": ("", {"connected": "length", "highest": "length"}),
+                  "level-map": ("from = [0.2, 0]\nto = [0.8, 0]", {"mean": "length", "highest": "length"})}
+        text = DAM[:DAM.index("[[probe]]")].replace("end = 0.1", "end = 0.02")
+        for name, (keys, columns) in probes.items():
+            text += f'[[probe]]\nname = "{name}"\ntype = "{name}"\n{keys}\n'
+            for column, measure in columns.items():
+                self.write(f"{measure}.csv", f"t [s], value [{units[measure]}]\n0, 1\n0.01, 1\n")
+                text += f'[[measurement]]\nprobe = "{name}"\ncolumn = "{column}"\nfile = "{measure}.csv"\n'
+        found = tw.Case(self.write("all.toml", text)).run("out").measurements
+        self.assertEqual(len(found), sum(len(columns) for _, columns in probes.values()))
+        self.assertTrue((found["samples"] == 2).all(), found)
+        self.assertTrue((found["unit"] != "").all(), found)
 
     def test_folder_of_another_kind(self):
         with self.assertRaisesRegex(tw.DataError, "is not the folder of a run"):

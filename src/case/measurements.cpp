@@ -1,0 +1,93 @@
+#include "case/measurements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "case/linked_files.h"
+#include "case/nearest_name.h"
+#include "case/probe_columns.h"
+
+namespace tailwater {
+namespace {
+
+/// Reports what is wrong with `key` of measurement k; of a key that is not given, at its table.
+class Reporter {
+ public:
+  Reporter(std::size_t k, const toml::table& root, Problems& problems) : k_(k), root_(root), problems_(problems) {}
+
+  void wrong(const char* key, const std::string& message) const {
+    const toml::node* node = root_["measurement"][k_][key].node();
+    if (node == nullptr) {
+      problems_.add(&root_["measurement"][k_].node()->source(),
+                    fmt::format("measurement[{}].{}: {}", k_, key, message));
+    } else {
+      problems_.add(&node->source(), fmt::format("measurement[{}].{} = {}: {}", k_, key, value_text(*node), message));
+    }
+  }
+
+ private:
+  std::size_t k_;
+  const toml::table& root_;
+  Problems& problems_;
+};
+
+template <class Tables, class Name>
+std::vector<std::string_view> names_in(const Tables& tables, Name name) {
+  std::vector<std::string_view> names;
+  for (const auto& table : tables) names.push_back(table.*name);
+  return names;
+}
+
+void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& reporter) {
+  const auto probe = std::ranges::find(spec.probes, measurement.probe, &ProbeTable::name);
+  if (probe == spec.probes.end()) {
+    reporter.wrong("probe",
+                   fmt::format("there is no such probe; {}",
+                               unknown_name_hint(measurement.probe, names_in(spec.probes, &ProbeTable::name))));
+    return;
+  }
+  const std::vector<SeriesColumn> columns = columns_of(probe->type, spec.general.dimension);
+  if (columns.empty()) {
+    reporter.wrong("probe",
+                   fmt::format("the table of a {} probe has several lines of one time; give a probe of another "
+                               "type, as \"depth\" or \"velocity\"",
+                               name_of(probe->type)));
+    return;
+  }
+  if (measurement.column.empty()) measurement.column = columns.front().name;
+  const auto column = std::ranges::find(columns, measurement.column, &SeriesColumn::name);
+  if (column == columns.end()) {
+    reporter.wrong("column",
+                   fmt::format("a {} probe has no such column; {}", name_of(probe->type),
+                               unknown_name_hint(measurement.column, names_in(columns, &SeriesColumn::name))));
+    return;
+  }
+  try {
+    measurement.series = read_measured_series(
+        measurement.file, std::array<std::string_view, 2>{probe->name, column->name}, column->measure);
+  } catch (const UserError& error) {
+    reporter.wrong("file", error.what());
+    return;
+  }
+  // One that begins after the end of the run is of a run that was made shorter.
+  if (measurement.series.time.back() <= 0.0) {
+    reporter.wrong("file", fmt::format("{} ends at t = {:.9g} s, where the run begins; correct the zero of its times",
+                                       measurement.file, measurement.series.time.back()));
+  }
+}
+
+}  // namespace
+
+void read_measurements(CaseSpec& spec, const toml::table& root, Problems& problems) {
+  for (std::size_t k = 0; k < spec.measurements.size(); ++k) {
+    read(spec.measurements[k], spec, Reporter(k, root, problems));
+  }
+}
+
+}  // namespace tailwater
