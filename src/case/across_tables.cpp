@@ -146,19 +146,29 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
   }
 }
 
-/// Each table of `tables` must name one of `targets`, tables of another kind, under `key`; or none, if that is allowed.
-template <class Table, class Target>
-void check_names(const toml::table& root, std::string_view kind, const std::vector<Table>& tables, std::string_view key,
-                 std::string Table::*member, std::string_view target_kind, const std::vector<Target>& targets,
-                 bool may_be_none, Problems& problems) {
+/// Reports a `name` under `key`, as in "mooring[0].body", that none of `targets`, tables of one kind, has.
+template <class Target>
+void check_name(const std::string& name, const std::vector<Target>& targets, std::string_view kind,
+                std::string_view key, const toml::node& node, Problems& problems) {
   std::vector<std::string_view> names;
   for (const Target& target : targets) names.push_back(target.name);
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    const std::string& name = tables[k].*member;
-    if ((may_be_none && name.empty()) || std::ranges::find(names, name) != names.end()) continue;
-    const toml::node& node = *root[kind][k][key].node();
-    problems.add(&node.source(), fmt::format("{}[{}].{} = {}: there is no such {}; {}", kind, k, key, value_text(node),
-                                             target_kind, unknown_name_hint(name, names)));
+  if (std::ranges::find(names, name) != names.end()) return;
+  problems.add(&node.source(), fmt::format("{} = {}: there is no {} \"{}\"; {}", key, value_text(node), kind, name,
+                                           unknown_name_hint(name, names)));
+}
+
+void check_names_of_others(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
+    const std::string key = fmt::format("mooring[{}].body", k);
+    for (const std::string& name : spec.moorings[k].bodies) {
+      check_name(name, spec.bodies, "body", key, *root["mooring"][k]["body"].node(), problems);
+    }
+  }
+  for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
+    const std::string& name = spec.inlets[k].water_from;
+    if (name.empty()) continue;
+    check_name(name, spec.outlets, "outlet", fmt::format("inlet[{}].water_from", k),
+               *root["inlet"][k]["water_from"].node(), problems);
   }
 }
 
@@ -171,9 +181,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_names_of_driven_walls(spec, root, problems);
   check_bodies(spec, root, problems);
   check_study(spec, root, problems);
-  check_names(root, "mooring", spec.moorings, "body", &MooringTable::body, "body", spec.bodies, false, problems);
-  check_names(root, "inlet", spec.inlets, "water_from", &InletTable::water_from, "outlet", spec.outlets, true,
-              problems);
+  check_names_of_others(spec, root, problems);
 }
 
 }  // namespace tailwater

@@ -104,6 +104,14 @@ void check(const BodyTable& body, TableReader& reader) {
 }
 
 void check(const MooringTable& mooring, TableReader& reader) {
+  if (!reader.is_wrong("body")) {
+    const std::vector<std::string>& bodies = mooring.bodies;
+    if (bodies.empty()) {
+      reader.missing("body", "a mooring holds a body; give its name");
+    } else if (bodies.size() > 2) {
+      reader.wrong("body", *reader.given("body"), "a line has two ends; name one body, or the two that it ties");
+    }
+  }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
     reader.wrong("anchor", *reader.given("anchor"),
                  "is where the line is fastened to the body, so it has no direction; give another place");

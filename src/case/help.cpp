@@ -52,7 +52,7 @@ std::string type_text(const KeyInfo& row) {
     return "list of numbers";
   }
   if (row.type == "texts") {
-    return "list of names";
+    return "name or list of names";
   }
   return row.type;
 }

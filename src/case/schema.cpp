@@ -70,9 +70,9 @@ Json schema_of_type(const KeyInfo& key) {
   Json text{{"type", "string"}, {"pattern", one_line}};
   if (key.type == "text") return text;
   if (!key.choices.empty()) text["enum"] = key.choices;
-  Json texts = list_of(std::move(text));
+  Json texts = list_of(text);
   texts["uniqueItems"] = true;
-  return texts;
+  return {{"anyOf", {std::move(text), std::move(texts)}}};
 }
 
 std::string tooltip(std::string_view table, const KeyInfo& key) {

@@ -421,10 +421,10 @@ struct BodyTable {
   }
 };
 
-/// A line that holds a body.
+/// A line that holds a body, or ties it to another.
 struct MooringTable {
   std::string name;
-  std::string body;
+  std::vector<std::string> bodies;
   Coordinates at;
   Coordinates anchor;
   double stiffness = 0.0;
@@ -436,9 +436,10 @@ struct MooringTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages (default: mooring1, mooring2, ...)");
-    v.text("body", self.body, "Name of the body that it holds", Presence::required);
-    v.coordinates("at", self.at, "m", "Where it is fastened to the body, as it is drawn", Presence::required);
-    v.coordinates("anchor", self.anchor, "m", "Its other end, which rests", Presence::required);
+    v.texts("body", self.bodies, {}, "Name of the body that it holds, or names of the two that it ties together");
+    v.coordinates("at", self.at, "m", "Where it is fastened to the first body, as that is drawn", Presence::required);
+    v.coordinates("anchor", self.anchor, "m", "Its other end, which rests, or is on the second body, as that is drawn",
+                  Presence::required);
     v.number("stiffness", self.stiffness, "N/m", Range::above(0.0),
              "Force per stretch beyond its length; in 2D per metre of width", Presence::required);
     v.number("length", self.length, "m", Range::at_least(0.0),

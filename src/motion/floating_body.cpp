@@ -110,7 +110,8 @@ std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec) {
   std::vector<Mooring<Dim>> moorings;
   for (const MooringTable& table : spec.moorings) {
     const std::string owner = "mooring '" + table.name + "'";
-    moorings.push_back({.body = body_named(spec, table.body),
+    moorings.push_back({.body = body_named(spec, table.bodies.front()),
+                        .to_body = table.bodies.size() > 1 ? body_named(spec, table.bodies.back()) : -1,
                         .at = to_vec<Dim>(table.at, owner, "at"),
                         .anchor = to_vec<Dim>(table.anchor, owner, "anchor"),
                         .stiffness = table.stiffness,

@@ -105,7 +105,9 @@ void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences)
                                     name_of(maker.type), maker.depth, waves));
   }
   for (const BodyTable& body : spec.bodies) {
-    const auto lines = std::ranges::count(spec.moorings, body.name, &MooringTable::body);
+    const auto lines = std::ranges::count_if(spec.moorings, [&](const MooringTable& mooring) {
+      return std::ranges::find(mooring.bodies, body.name) != mooring.bodies.end();
+    });
     sentences.push_back(
         fmt::format("Body '{}' of {:.4g} kg{} floats, free in {}{}.", body.name, body.mass, per_width(spec),
                     body.free.empty() ? "no way" : listed(body.free),

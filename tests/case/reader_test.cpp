@@ -46,6 +46,11 @@ TEST(Reader, ReadsEveryKindOfValue) {
   EXPECT_EQ(spec.probes[0].times, (std::vector<double>{0.5, 1.0}));
 }
 
+TEST(Reader, TakesANameForAListOfOne) {
+  const CaseSpec spec = read_text(required_keys + water + "[output]\nfields = \"id\"\n");
+  EXPECT_EQ(spec.output.fields, (std::vector<std::string>{"id"}));
+}
+
 TEST(Reader, KeepsTheVelocityThatVariesAsItIsWritten) {
   const CaseSpec spec = read_text("parameters.U = 2\n" + required_keys +
                                   "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\nvelocity = [\"U*sin(pi*x)\", \"U/dx\"]\n");

@@ -457,7 +457,7 @@ TEST(Check, AMooringIsFastenedToItsBody) {
   spec.bodies = {body};
   MooringTable line;
   line.name = "chain";
-  line.body = "boat";
+  line.bodies = {"boat"};
   line.at = {0.3, 0.1};  // below the hull, as on a keel
   line.anchor = {0.0, 0.0};
   spec.moorings = {line};
@@ -467,6 +467,17 @@ TEST(Check, AMooringIsFastenedToItsBody) {
   };
   EXPECT_FALSE(told()) << listed(check(spec));
   spec.moorings[0].at = {56.7, 0.4};
+  expect_among(check(spec), Severity::error, {"mooring 'chain' is fastened at (56.7, 0.4), 56 m from body 'boat'"});
+  box = box_wall({0.75, 0.3}, {0.95, 0.5}, {}, FluidSide::outside);
+  box.name = body.name = "buoy";
+  box.drive = {Drive::By::body, 1};
+  spec.walls.push_back(box);
+  body.walls = {"buoy"};
+  body.centre = {0.85, 0.4};
+  spec.bodies.push_back(body);
+  spec.moorings[0].bodies = {"buoy", "boat"};
+  spec.moorings[0].at = {0.8, 0.4};
+  spec.moorings[0].anchor = {56.7, 0.4};
   expect_among(check(spec), Severity::error, {"mooring 'chain' is fastened at (56.7, 0.4), 56 m from body 'boat'"});
 }
 

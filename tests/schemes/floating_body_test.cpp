@@ -205,7 +205,7 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   spec.bodies[0].free = {"x"};
   MooringTable line;
   line.name = "line";
-  line.body = "hull";
+  line.bodies = {"hull"};
   line.at = {2.1, 5.1};
   line.anchor = {2.0, 5.1};
   line.stiffness = mass * omega * omega;
@@ -275,6 +275,34 @@ TEST(FloatingBody, MeetsAnotherInTheWater) {
   EXPECT_LT(least, dx);  // they have met
 }
 
+// A line between two boxes in free fall: they fall as one, and swing about each other at the frequency of their reduced
+// mass. Of first order in the step.
+TEST(FloatingBody, IsTiedToAnotherByALine) {
+  CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
+  add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0, "a");
+  add_box(spec, {3.0, 5.0}, {3.2, 5.2}, 1000.0, "b");
+  for (BodyTable& body : spec.bodies) body.free = {"x", "y"};
+  const double m_a = spec.bodies[0].mass;
+  const double m_b = spec.bodies[1].mass;
+  const double omega = 2.0 * std::numbers::pi / 0.8;
+  MooringTable line;
+  line.name = "line";
+  line.bodies = {"a", "b"};
+  line.at = {2.1, 5.1};
+  line.anchor = {3.1, 5.1};
+  line.length = 0.9;
+  line.stiffness = omega * omega / (1.0 / m_a + 1.0 / m_b);
+  spec.moorings = {line};
+  Flow<2> flow(spec);
+  const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
+  double longest = 0.0;
+  while (flow.state.time < 0.2) longest = std::max(longest, step(flow).dt);  // a quarter of a period
+  EXPECT_NEAR(m_a * bodies[0].velocity[0] + m_b * bodies[1].velocity[0], 0.0, 1e-9 * m_a);
+  EXPECT_NEAR(bodies[0].velocity[1], -g * flow.state.time, 1e-9);
+  const double expected = 0.9 + 0.1 * std::cos(omega * flow.state.time);
+  EXPECT_NEAR(bodies[1].centre[0] - bodies[0].centre[0], expected, 0.1 * omega * longest);
+}
+
 // A line that is damped a million times more than a step can bear explicitly lets its body down as slowly as its weight
 // stretches it, m g/c, and does not shake it.
 TEST(FloatingBody, HangsOnALineOfAnyDamping) {
@@ -283,7 +311,7 @@ TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   spec.bodies[0].free = {"x", "y"};
   MooringTable line;
   line.name = "line";
-  line.body = "hull";
+  line.bodies = {"hull"};
   line.at = {2.1, 5.1};
   line.anchor = {2.1, 6.1};
   line.length = 1.05;
