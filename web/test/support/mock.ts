@@ -124,7 +124,7 @@ export class Mock {
       let body = "";
       for await (const chunk of request) body += String(chunk);
       this.posts.push(parts.slice(2).join("/"));
-      if (parts[2] === "check") return send(this.options.check?.(body) ?? { findings: [], drawing: null, summary: [] });
+      if (parts[2] === "check" || parts[2] === "estimate") return send(this.options.check?.(body) ?? { findings: [], drawing: null, summary: [] });
       if (parts[2] === "start") return send({ run: runs[0]!.id });
       return send({ ok: true });
     }
