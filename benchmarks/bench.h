@@ -56,7 +56,7 @@ struct Stage {
     locate(flow);
     tailwater::start(flow);
     for (int n = 0; n < steps; ++n) step();
-    share_out(flow);
+    repartition(flow);
     dt = next_time_step(flow);
     gather_walls(flow);
     assign_roles(flow);
@@ -70,7 +70,7 @@ struct Stage {
   }
 
   StepReport step() {
-    if (flow.state.step % steps_between_sorts == 0) share_out(flow);
+    if (flow.state.step % steps_between_sorts == 0) repartition(flow);
     return advance(flow, next_time_step(flow));
   }
 

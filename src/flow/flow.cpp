@@ -69,7 +69,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, c
   Particles<Dim>& particles = state.particles;
   particles = make_particles(setup, drawing.fluid, walls);
   drawing.fluid = {};
-  decomposition.share_out(particles, neighbourhood.work(particles));
+  decomposition.repartition(particles, neighbourhood.work(particles));
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion.wave_makers.resize(setup.wave_plates.size());
   for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
@@ -88,7 +88,7 @@ void Flow<Dim>::restore(State<Dim> saved) {
   here = {};
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
-  // As after sharing out, so that a run that goes on asks for the same rows as one that never stopped.
+  // As after a repartition, so that a run that goes on asks for the same rows as one that never stopped.
   shared_rows.drop_guests(walls, state.particles);
   near_walls.restore(walls, state.particles);
   assign_roles(*this);

@@ -99,7 +99,7 @@ void sort_particles(Flow<Dim>& flow);
 /// Hands particles to the ranks that own their places and sorts those of each rank for the cache. Cuts space again when
 /// work is shared too unevenly. Indices change; call between steps only.
 template <int Dim>
-Sharing share_out(Flow<Dim>& flow);
+Repartition repartition(Flow<Dim>& flow);
 
 /// (F14), (F21), (B11), (B12): u_star = u^n + dt (nu lap u + div tau/rho), with derivatives of the present velocity at
 /// the present positions.

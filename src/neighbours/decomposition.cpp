@@ -29,27 +29,27 @@ Decomposition<Dim>::Decomposition(const Communicator& ranks, const ParallelTable
     : ranks_(ranks), tolerated_imbalance_(settings.imbalance), cuts_(ranks) {}
 
 template <int Dim>
-Sharing Decomposition<Dim>::share_out(Particles<Dim>& particles, std::span<const double> work) {
-  Sharing sharing;
-  if (ranks_.is_alone()) return sharing;
+Repartition Decomposition<Dim>::repartition(Particles<Dim>& particles, std::span<const double> work) {
+  Repartition repartition;
+  if (ranks_.is_alone()) return repartition;
   TAILWATER_ASSERT(work.size() == particles.owned, "one cost per owned particle");
   particles.resize(particles.owned);
 
   const double own = sum_over(work.size(), 0.0, [&](std::size_t i) { return work[i]; });
   const double all = ranks_.sum(own);
-  if (all > 0.0) sharing.imbalance = ranks_.largest(own) * ranks_.size() / all - 1.0;
-  if (!cuts_.are_made() || sharing.imbalance > tolerated_imbalance_) {
+  if (all > 0.0) repartition.imbalance = ranks_.largest(own) * ranks_.size() / all - 1.0;
+  if (!cuts_.are_made() || repartition.imbalance > tolerated_imbalance_) {
     cuts_.cut(particles.position, work);
-    sharing.is_cut_anew = true;
+    repartition.is_cut_anew = true;
   }
 
   std::vector<std::vector<std::int32_t>> sent(static_cast<std::size_t>(ranks_.size()));
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: appends to the list of a rank
     sent[cuts_.part_of(particles.position[i])].push_back(static_cast<std::int32_t>(i));
   }
-  sharing.moved = ranks_.sum(static_cast<std::int64_t>(particles.owned - sent[ranks_.rank()].size()));
-  if (sharing.moved > 0) move_to_owners(ExchangePlan(ranks_, particles.owned, sent), particles);
-  return sharing;
+  repartition.moved = ranks_.sum(static_cast<std::int64_t>(particles.owned - sent[ranks_.rank()].size()));
+  if (repartition.moved > 0) move_to_owners(ExchangePlan(ranks_, particles.owned, sent), particles);
+  return repartition;
 }
 
 template class Decomposition<2>;

@@ -11,9 +11,9 @@
 
 namespace tailwater {
 
-/// The result of sharing out.
-struct Sharing {
-  double imbalance = 0.0;    ///< work of the busiest rank over the mean, minus 1, before sharing out
+/// The result of a repartition.
+struct Repartition {
+  double imbalance = 0.0;    ///< work of the busiest rank over the mean, minus 1, before it
   bool is_cut_anew = false;  ///< whether space was cut again
   std::int64_t moved = 0;    ///< particles that changed owner, on all ranks
 };
@@ -25,7 +25,7 @@ class Decomposition {
 
   /// Hands every owned particle to the rank in whose part it lies. `work` is the cost of each. Drops the ghosts;
   /// indices change. Collective.
-  Sharing share_out(Particles<Dim>& particles, std::span<const double> work);
+  Repartition repartition(Particles<Dim>& particles, std::span<const double> work);
 
   const SpaceCuts<Dim>& cuts() const { return cuts_; }
   SpaceCuts<Dim>& cuts() { return cuts_; }

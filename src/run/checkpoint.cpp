@@ -273,7 +273,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   give_to_all("wall_velocity", state.wall_velocity);
   give_to_all("probe_memory", checkpoint.probe_memory);
 
-  checkpoint.is_shared_out = ranks.largest(dealt.writers) == ranks.size();
+  checkpoint.is_repartitioned = ranks.largest(dealt.writers) == ranks.size();
   return checkpoint;
 }
 

@@ -16,7 +16,7 @@ namespace tailwater {
 /// The version of the contents of a checkpoint. It grows when they change.
 inline constexpr int checkpoint_format = 12;
 
-/// A moment at which particles have just been shared out and sorted (share_out), so that lists are forgotten and the
+/// A moment at which particles have just been shared out and sorted (repartition), so that lists are forgotten and the
 /// state is complete.
 template <int Dim>
 struct Checkpoint {
@@ -26,7 +26,7 @@ struct Checkpoint {
   std::vector<double> rank_log;      ///< of this rank (RankLog::saved)
   double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks
   std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be cut anew
-  bool is_shared_out = true;         ///< false where it was written by another number of ranks
+  bool is_repartitioned = true;      ///< false where it was written by another number of ranks
 };
 
 /// Writes the checkpoint of all ranks as one file, which is on the disk when this returns. `case_text` is the effective

@@ -30,7 +30,7 @@ void FolderOutput<Dim>::go_on_from(Simulation<Dim>& simulation, Checkpoint<Dim> 
   output_.rank_log().restore(checkpoint.rank_log);
   output_.restore_probe_memory(checkpoint.probe_memory);
   simulation.go_on_from(std::move(checkpoint.state), checkpoint.reference_step,
-                        checkpoint.is_shared_out ? std::optional(std::move(checkpoint.cuts)) : std::nullopt);
+                        checkpoint.is_repartitioned ? std::optional(std::move(checkpoint.cuts)) : std::nullopt);
   tell(fmt::format("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time));
 }
 

@@ -32,7 +32,9 @@ class FolderOutput final : public RunObserver<Dim> {
 
   void started(const Flow<Dim>& flow) override { output_.record_probes(flow, measure(flow)); }
   void before_step(const Flow<Dim>& flow) override { output_.write_due_fields(flow); }
-  void shared_out(const Flow<Dim>& flow, const Sharing& sharing) override { output_.record_sharing(flow, sharing); }
+  void shared_out(const Flow<Dim>& flow, const Repartition& repartition) override {
+    output_.record_repartition(flow, repartition);
+  }
   void can_go_on(const Flow<Dim>& flow, double reference_step) override {
     keeper_.remember(flow, output_, reference_step);
   }

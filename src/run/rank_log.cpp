@@ -52,7 +52,7 @@ void RankLog::restore(std::span<const double> saved) {
 }
 
 template <int Dim>
-void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
+void RankLog::write(const Flow<Dim>& flow, const Repartition& repartition) {
   if (ranks_.is_alone()) return;
   const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - last_).count();
@@ -67,17 +67,17 @@ void RankLog::write(const Flow<Dim>& flow, const Sharing& sharing) {
   last_ = now;
   at_last_ = traffic;
 
-  imbalance_sum_ += sharing.imbalance;
-  if (lines_ > 0) imbalance_largest_ = std::max(imbalance_largest_, sharing.imbalance);
+  imbalance_sum_ += repartition.imbalance;
+  if (lines_ > 0) imbalance_largest_ = std::max(imbalance_largest_, repartition.imbalance);
   ++lines_;
-  cuts_ += sharing.is_cut_anew;
-  moved_ += sharing.moved;
+  cuts_ += repartition.is_cut_anew;
+  moved_ += repartition.moved;
   ghosts_sum_ += ghosts;
   do_on_root(ranks_, [&] {
-    csv_->write(std::array<double, 10>{flow.state.time, static_cast<double>(flow.state.step), sharing.imbalance,
-                                       static_cast<double>(sharing.is_cut_anew), static_cast<double>(sharing.moved),
-                                       static_cast<double>(least), static_cast<double>(most), ghosts / ranks_.size(),
-                                       exchange, reduction});
+    csv_->write(std::array<double, 10>{flow.state.time, static_cast<double>(flow.state.step), repartition.imbalance,
+                                       static_cast<double>(repartition.is_cut_anew),
+                                       static_cast<double>(repartition.moved), static_cast<double>(least),
+                                       static_cast<double>(most), ghosts / ranks_.size(), exchange, reduction});
   });
 }
 
@@ -103,7 +103,7 @@ nlohmann::ordered_json RankLog::json() const {
           {"bytes", bytes}};
 }
 
-template void RankLog::write<2>(const Flow<2>&, const Sharing&);
-template void RankLog::write<3>(const Flow<3>&, const Sharing&);
+template void RankLog::write<2>(const Flow<2>&, const Repartition&);
+template void RankLog::write<3>(const Flow<3>&, const Repartition&);
 
 }  // namespace tailwater

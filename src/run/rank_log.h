@@ -21,9 +21,9 @@ class RankLog {
   /// Starts the file on the root, or goes on with `kept` bytes of an earlier one. Throws IoError, on all ranks.
   RankLog(const Communicator& ranks, const std::filesystem::path& path, std::optional<std::int64_t> kept = {});
 
-  /// Logs the result of sharing out and the traffic since the last call. Collective. Throws IoError, on all ranks.
+  /// Logs the result of a repartition and the traffic since the last call. Collective. Throws IoError, on all ranks.
   template <int Dim>
-  void write(const Flow<Dim>& flow, const Sharing& sharing);
+  void write(const Flow<Dim>& flow, const Repartition& repartition);
 
   /// Block "ranks" of the summary. Collective; valid on the root.
   nlohmann::ordered_json json() const;

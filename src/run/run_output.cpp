@@ -235,8 +235,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
 }
 
 template <int Dim>
-void RunOutput<Dim>::record_sharing(const Flow<Dim>& flow, const Sharing& sharing) {
-  rank_log_.write(flow, sharing);
+void RunOutput<Dim>::record_repartition(const Flow<Dim>& flow, const Repartition& repartition) {
+  rank_log_.write(flow, repartition);
 }
 
 template <int Dim>

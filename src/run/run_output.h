@@ -58,7 +58,7 @@ class RunOutput {
   void write_due_fields(const Flow<Dim>& flow);
   /// Records the probes that are due after a step of dt [s]; 0 at the start.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt = 0.0);
-  void record_sharing(const Flow<Dim>& flow, const Sharing& sharing);
+  void record_repartition(const Flow<Dim>& flow, const Repartition& repartition);
   /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
   /// case.
   void record_step(const Flow<Dim>& flow, const StepReport& report);

@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and sharing them out at
+/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and repartition at
 /// this interval costs next to nothing.
 constexpr std::int64_t steps_between_sorts = 10;
 
@@ -66,17 +66,17 @@ StepReport Simulation<Dim>::step() {
 /// that may have limited the time step has left.
 template <int Dim>
 void Simulation<Dim>::rearrange() {
-  const bool is_shared_out = flow_.state.step % steps_between_sorts == 0;
-  if (is_shared_out) {
-    if (flow_.state.step != shared_out_step_) {
-      const Sharing sharing = share_out(flow_);
-      if (observer_ != nullptr) observer_->shared_out(flow_, sharing);
+  const bool is_repartitioned = flow_.state.step % steps_between_sorts == 0;
+  if (is_repartitioned) {
+    if (flow_.state.step != repartition_step_) {
+      const Repartition repartition = repartition(flow_);
+      if (observer_ != nullptr) observer_->shared_out(flow_, repartition);
     }
     if (observer_ != nullptr) observer_->can_go_on(flow_, guard_.reference_step());
   }
   const bool some_left = let_go(flow_);
   const bool some_came = let_in(flow_);
-  if (some_left || some_came || is_shared_out) guard_.remember_good();
+  if (some_left || some_came || is_repartitioned) guard_.remember_good();
 }
 
 template <int Dim>
@@ -105,7 +105,7 @@ void Simulation<Dim>::go_on_from(State<Dim> state, double reference_step, std::o
   guard_.restore_reference_step(reference_step);
   if (!cuts) return;
   if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(*cuts));
-  shared_out_step_ = flow_.state.step;
+  repartition_step_ = flow_.state.step;
 }
 
 template class Simulation<2>;

@@ -60,8 +60,8 @@ class Simulation {
   Flow<Dim> flow_;
   StepGuard<Dim> guard_{flow_};
   RunObserver<Dim>* observer_ = nullptr;
-  double dt_ = 0.0;                    ///< s; of the step that is ready, or 0
-  std::int64_t shared_out_step_ = -1;  ///< at which particles are as a checkpoint has them
+  double dt_ = 0.0;                     ///< s; of the step that is ready, or 0
+  std::int64_t repartition_step_ = -1;  ///< at which particles are as a checkpoint has them
 };
 
 }  // namespace tailwater

@@ -40,7 +40,7 @@ CaseSpec channel(double width, double depth) {
 /// Lets water out and in, and takes a step, as a run does.
 template <int Dim>
 void pass_and_step(Flow<Dim>& flow) {
-  if (flow.state.step % 5 == 0) share_out(flow);
+  if (flow.state.step % 5 == 0) repartition(flow);
   let_go(flow);
   let_in(flow);
   advance(flow, next_time_step(flow));

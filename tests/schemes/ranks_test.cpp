@@ -51,7 +51,7 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
 /// As a run takes it.
 template <int Dim>
 void shared_step(Flow<Dim>& flow) {
-  if (flow.state.step % 5 == 0) share_out(flow);
+  if (flow.state.step % 5 == 0) repartition(flow);
   let_go(flow);
   let_in(flow);
   advance(flow, next_time_step(flow));
@@ -337,13 +337,13 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
   CaseSpec spec = zhou_case(0.02, Integrator::explicit_projection);
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   start(flow);
-  share_out(flow);
+  repartition(flow);
   for (int n = 0; n < 100; ++n) {
     if (n % 5 == 0) {
-      const Sharing sharing = share_out(flow);
+      const Repartition result = repartition(flow);
       // Less than a column of the lattice's 60 x 30 can be cut no finer than the column: 1 in 60 of all the work.
       if (n > 5) {
-        EXPECT_LT(sharing.imbalance, spec.parallel.imbalance + flow.setup.ranks.size() / 60.0);
+        EXPECT_LT(result.imbalance, spec.parallel.imbalance + flow.setup.ranks.size() / 60.0);
       }
     }
     advance(flow, next_time_step(flow));

@@ -96,7 +96,7 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
 /// As a run does: sorted and shared out every few steps, when lists are forgotten.
 void take_steps(Flow<2>& flow, int count) {
   for (int n = 0; n < count; ++n) {
-    if (flow.state.step % 5 == 0) share_out(flow);
+    if (flow.state.step % 5 == 0) repartition(flow);
     let_go(flow);
     let_in(flow);
     advance(flow, next_time_step(flow));

@@ -9,19 +9,19 @@ void sort_particles(Flow<Dim>& flow) {
 }
 
 template <int Dim>
-Sharing share_out(Flow<Dim>& flow) {
+Repartition repartition(Flow<Dim>& flow) {
   flow.neighbourhood.wrap(flow.state.particles);
-  const Sharing sharing =
-      flow.decomposition.share_out(flow.state.particles, flow.neighbourhood.work(flow.state.particles));
-  if (sharing.moved > 0) flow.shared_rows.find_rows(flow.walls, flow.state.particles, 0, flow.setup.first_wall_id);
+  const Repartition repartition =
+      flow.decomposition.repartition(flow.state.particles, flow.neighbourhood.work(flow.state.particles));
+  if (repartition.moved > 0) flow.shared_rows.find_rows(flow.walls, flow.state.particles, 0, flow.setup.first_wall_id);
   regather_walls(flow);
   sort_particles(flow);
-  return sharing;
+  return repartition;
 }
 
 template void sort_particles<2>(Flow<2>&);
 template void sort_particles<3>(Flow<3>&);
-template Sharing share_out<2>(Flow<2>&);
-template Sharing share_out<3>(Flow<3>&);
+template Repartition repartition<2>(Flow<2>&);
+template Repartition repartition<3>(Flow<3>&);
 
 }  // namespace tailwater
