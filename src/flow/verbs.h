@@ -79,12 +79,12 @@ void steer_wave_makers(Flow<Dim>& flow);
 /// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.
 /// Call between steps only. Collective.
 template <int Dim>
-bool let_go(Flow<Dim>& flow);
+bool remove_outflow(Flow<Dim>& flow);
 
 /// Adds and books the particles that have room to enter at the open ends. Returns whether there were any, on any rank;
-/// if so, lists are gone. Call between steps only, after `let_go`. Collective.
+/// if so, lists are gone. Call between steps only, after `remove_outflow`. Collective.
 template <int Dim>
-bool let_in(Flow<Dim>& flow);
+bool add_inflow(Flow<Dim>& flow);
 
 /// Counts the particles that have passed the sections of discharge probes since `start`. Collective.
 template <int Dim>

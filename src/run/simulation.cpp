@@ -74,8 +74,8 @@ void Simulation<Dim>::rearrange() {
     }
     if (observer_ != nullptr) observer_->can_go_on(flow_, guard_.reference_step());
   }
-  const bool some_left = let_go(flow_);
-  const bool some_came = let_in(flow_);
+  const bool some_left = remove_outflow(flow_);
+  const bool some_came = add_inflow(flow_);
   if (some_left || some_came || is_repartitioned) guard_.remember_good();
 }
 

@@ -53,7 +53,7 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
     const auto ids_at_start = fluid_ids(flow.state.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
     while (flow.state.time < 0.4 / speed + 2.0 * dx / speed) {
-      let_go(flow);
+      remove_outflow(flow);
       const auto before = fluid_ids(flow.state.particles);
       step(flow);
       const Passed& departed = flow.state.open_ends[0].departed;
@@ -84,7 +84,7 @@ TYPED_TEST(OpenEndTest, StillWaterIsNotDrawnDown) {
     Flow<Dim> flow = make_flow<Dim>(spec);
     start(flow);
     while (flow.state.time < 2.0 * width / celerity) {
-      let_go(flow);
+      remove_outflow(flow);
       step(flow);
     }
     const double speed = g / celerity * 0.5 * dx;
@@ -106,7 +106,7 @@ TEST(Outlet, LeftIsRightMirrored) {
   Flow<2> flow_left = make_flow<2>(left);
   for (int n = 0; n < 20; ++n) {
     for (Flow<2>* flow : {&flow_right, &flow_left}) {
-      let_go(*flow);
+      remove_outflow(*flow);
       advance(*flow, 0.002);
     }
   }
@@ -143,7 +143,7 @@ TEST(Outlet, HoleInTheFloor) {
   const std::size_t at_start = fluid_ids(flow.state.particles).size();
   start(flow);
   while (flow.state.time < 0.2) {
-    let_go(flow);
+    remove_outflow(flow);
     step(flow);
   }
   // Nothing holds it: what stood below g t^2/2, less a spacing and half, has fallen out.

@@ -41,8 +41,8 @@ CaseSpec channel(double width, double depth) {
 template <int Dim>
 void pass_and_step(Flow<Dim>& flow) {
   if (flow.state.step % 5 == 0) repartition(flow);
-  let_go(flow);
-  let_in(flow);
+  remove_outflow(flow);
+  add_inflow(flow);
   advance(flow, next_time_step(flow));
 }
 

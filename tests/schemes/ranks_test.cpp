@@ -52,8 +52,8 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
 template <int Dim>
 void shared_step(Flow<Dim>& flow) {
   if (flow.state.step % 5 == 0) repartition(flow);
-  let_go(flow);
-  let_in(flow);
+  remove_outflow(flow);
+  add_inflow(flow);
   advance(flow, next_time_step(flow));
 }
 

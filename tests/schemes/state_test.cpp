@@ -97,8 +97,8 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
 void take_steps(Flow<2>& flow, int count) {
   for (int n = 0; n < count; ++n) {
     if (flow.state.step % 5 == 0) repartition(flow);
-    let_go(flow);
-    let_in(flow);
+    remove_outflow(flow);
+    add_inflow(flow);
     advance(flow, next_time_step(flow));
   }
 }

@@ -35,7 +35,7 @@ Floor<Dim> find_floor(const Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-bool let_go(Flow<Dim>& flow) {
+bool remove_outflow(Flow<Dim>& flow) {
   const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
   const Particles<Dim>& particles = flow.state.particles;
   const Floor<Dim> floor = find_floor(flow);
@@ -69,7 +69,7 @@ bool let_go(Flow<Dim>& flow) {
   return some_left;
 }
 
-template bool let_go<2>(Flow<2>&);
-template bool let_go<3>(Flow<3>&);
+template bool remove_outflow<2>(Flow<2>&);
+template bool remove_outflow<3>(Flow<3>&);
 
 }  // namespace tailwater

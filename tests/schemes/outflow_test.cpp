@@ -13,8 +13,8 @@ namespace {
 constexpr double dx = 0.1;
 
 template <class D>
-class LetGoTest : public testing::Test {};
-TYPED_TEST_SUITE(LetGoTest, Dimensions);
+class OutflowTest : public testing::Test {};
+TYPED_TEST_SUITE(OutflowTest, Dimensions);
 
 /// A place left of the tank, so far below its bed.
 template <int Dim>
@@ -24,14 +24,14 @@ Vec<Dim> beside(double below) {
   return x;
 }
 
-TYPED_TEST(LetGoTest, WaterASupportBelowAllWallsIsBookedAndGone) {
+TYPED_TEST(OutflowTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   constexpr int Dim = TypeParam::value;
   Flow<Dim> flow = make_flow<Dim>(tank_case<Dim>(dx, 0.4, 0.2));
   Particles<Dim>& particles = flow.state.particles;
   const double support = kernel_radius(flow.setup.kernel);
   const std::size_t owned = particles.owned;
   const double energy = measure(flow).energy();
-  EXPECT_FALSE(let_go(flow));
+  EXPECT_FALSE(remove_outflow(flow));
 
   particles.position[0] = beside<Dim>(0.99 * support);  // may still be under the spray of others
   particles.position[1] = beside<Dim>(1.01 * support);
@@ -43,7 +43,7 @@ TYPED_TEST(LetGoTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   const double with_it = measure(flow).energy();
   ASSERT_NE(with_it, energy);
 
-  EXPECT_TRUE(let_go(flow));
+  EXPECT_TRUE(remove_outflow(flow));
   ASSERT_EQ(particles.owned, owned - 1);
   for (std::size_t i = 0; i < particles.owned; ++i) EXPECT_NE(particles.id[i], falls);
   EXPECT_EQ(particles.id[0], stays);
@@ -53,17 +53,17 @@ TYPED_TEST(LetGoTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   const FlowMeasures measures = measure(flow);
   EXPECT_EQ(measures.departed.particles, 1);
   EXPECT_NEAR(measures.energy() + measures.departed.energy, with_it, 1e-12 * std::abs(with_it));
-  EXPECT_FALSE(let_go(flow));
+  EXPECT_FALSE(remove_outflow(flow));
 }
 
-TYPED_TEST(LetGoTest, WithoutGravityNothingFalls) {
+TYPED_TEST(OutflowTest, WithoutGravityNothingFalls) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, 0.4, 0.2);
   spec.physics.gravity = Coordinates(Dim, 0.0);
   spec.study.length = 0.2;
   Flow<Dim> flow = make_flow<Dim>(spec);
   flow.state.particles.position[0] = beside<Dim>(100.0);
-  EXPECT_FALSE(let_go(flow));
+  EXPECT_FALSE(remove_outflow(flow));
   EXPECT_EQ(flow.state.fallen.particles, 0);
 }
 

@@ -118,7 +118,7 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
 }  // namespace
 
 template <int Dim>
-bool let_in(Flow<Dim>& flow) {
+bool add_inflow(Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   bool some_came = false;
   for (std::size_t e = 0; e < setup.open_ends.size(); ++e) {
@@ -158,7 +158,7 @@ Passed sump_of(const Flow<Dim>& flow, int circuit) {
 
 #define TAILWATER_INSTANTIATE(Dim)                \
   template Passed sump_of(const Flow<Dim>&, int); \
-  template bool let_in<Dim>(Flow<Dim>&);
+  template bool add_inflow<Dim>(Flow<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE
