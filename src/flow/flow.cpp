@@ -89,7 +89,7 @@ void Flow<Dim>::restore(State<Dim> saved) {
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
   // As after a repartition, so that a run that goes on asks for the same rows as one that never stopped.
-  shared_rows.drop_guests(walls, state.particles);
+  shared_rows.drop_halo_rows(walls, state.particles);
   near_walls.restore(walls, state.particles);
   assign_roles(*this);
   place_walls(*this, state.time);

@@ -56,7 +56,7 @@ void regather_walls(Flow<Dim>& flow) {
   if (kept.size() < particles.owned) {
     flow.neighbourhood.keep(particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
   }
-  flow.shared_rows.drop_guests(flow.walls, particles);
+  flow.shared_rows.drop_halo_rows(flow.walls, particles);
   add_walls<Dim>(flow, std::move(arrived));
 }
 

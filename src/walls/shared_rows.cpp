@@ -71,13 +71,13 @@ template <int Dim>
 std::size_t SharedRows<Dim>::hand_out(Walls<Dim>& walls, const std::vector<std::vector<std::int32_t>>& sent) {
   const ExchangePlan plan(ranks_, walls.particles.size(), sent);
   walls.apply_to_rows([&](auto&... field) { plan.exchange(field...); });
-  list_guests(walls, plan.owned());
+  list_halo_rows(walls, plan.owned());
   return plan.owned();
 }
 
 template <int Dim>
-void SharedRows<Dim>::drop_guests(Walls<Dim>& walls, Particles<Dim>& particles) {
-  if (guests_.empty()) return;
+void SharedRows<Dim>::drop_halo_rows(Walls<Dim>& walls, Particles<Dim>& particles) {
+  if (halo_rows_.empty()) return;
   std::vector<std::int32_t> row_after(walls.particles.size(), -1);
   for_each(walls.kept, [&](std::size_t row) { row_after[row] = 0; });
   for_each(particles.owned, [&](std::size_t i) {
@@ -93,8 +93,8 @@ void SharedRows<Dim>::drop_guests(Walls<Dim>& walls, Particles<Dim>& particles) 
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) particles.wall_row[i] = row_after[particles.wall_row[i]];
   });
-  guests_.clear();
-  list_guests(walls, walls.kept);
+  halo_rows_.clear();
+  list_halo_rows(walls, walls.kept);
 }
 
 template <int Dim>
@@ -114,8 +114,8 @@ std::int32_t SharedRows<Dim>::find(const Walls<Dim>& walls, std::int64_t number)
   std::int32_t row = look_in(walls.moving, walls.kept);
   if (row < 0) row = look_in(0, walls.moving);
   if (row >= 0) return row;
-  const auto guest = std::ranges::lower_bound(guests_, number, {}, &Guest::number);
-  return guest != guests_.end() && guest->number == number ? guest->row : -1;
+  const auto found = std::ranges::lower_bound(halo_rows_, number, {}, &HaloRow::number);
+  return found != halo_rows_.end() && found->number == number ? found->row : -1;
 }
 
 template <int Dim>
@@ -156,11 +156,11 @@ void SharedRows<Dim>::bring(Walls<Dim>& walls, std::vector<std::int64_t> numbers
 }
 
 template <int Dim>
-void SharedRows<Dim>::list_guests(const Walls<Dim>& walls, std::size_t from) {
+void SharedRows<Dim>::list_halo_rows(const Walls<Dim>& walls, std::size_t from) {
   for (std::size_t row = from; row < walls.particles.size(); ++row) {
-    guests_.push_back({walls.particles.number[row], static_cast<std::int32_t>(row)});
+    halo_rows_.push_back({walls.particles.number[row], static_cast<std::int32_t>(row)});
   }
-  std::ranges::sort(guests_);
+  std::ranges::sort(halo_rows_);
 }
 
 template class SharedRows<2>;

@@ -1,6 +1,6 @@
 // The rows of the table of wall particles, among ranks. All ranks have those of walls that move. A row of a wall at
 // rest has a home, the rank that always keeps it, whichever part of space it is in: as many rows on each rank. Other
-// ranks have it as a guest while one of their particles needs it.
+// ranks have it as a halo row while one of their particles needs it.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,19 @@ class SharedRows {
   /// numbers. Brings those that are not here. Returns whether all were found, on all ranks. Collective.
   bool find_rows(Walls<Dim>& walls, Particles<Dim>& particles, std::size_t from, std::int64_t first_id);
 
-  /// Sends to rank q the rows sent[q] of those kept here. What others send becomes guests, at the end of the table;
+  /// Sends to rank q the rows sent[q] of those kept here. What others send becomes halo rows, at the end of the table;
   /// returns the first. Collective.
   std::size_t hand_out(Walls<Dim>& walls, const std::vector<std::vector<std::int32_t>>& sent);
 
-  /// Forgets the guests that no owned particle needs. Rows change.
-  void drop_guests(Walls<Dim>& walls, Particles<Dim>& particles);
+  /// Forgets the halo rows that no owned particle needs. Rows change.
+  void drop_halo_rows(Walls<Dim>& walls, Particles<Dim>& particles);
 
  private:
-  struct Guest {
+  struct HaloRow {
     std::int64_t number;
     std::int32_t row;
 
-    auto operator<=>(const Guest&) const = default;
+    auto operator<=>(const HaloRow&) const = default;
   };
 
   int home_of(std::int64_t number) const;
@@ -46,11 +46,11 @@ class SharedRows {
   std::vector<std::int64_t> find_here(const Walls<Dim>& walls, Particles<Dim>& particles, std::size_t from,
                                       std::int64_t first_id) const;
   void bring(Walls<Dim>& walls, std::vector<std::int64_t> numbers);
-  void list_guests(const Walls<Dim>& walls, std::size_t from);
+  void list_halo_rows(const Walls<Dim>& walls, std::size_t from);
 
   Communicator ranks_;
-  std::int64_t numbers_;       ///< all are below
-  std::vector<Guest> guests_;  ///< by number
+  std::int64_t numbers_;            ///< all are below
+  std::vector<HaloRow> halo_rows_;  ///< by number
 };
 
 }  // namespace tailwater

@@ -18,7 +18,7 @@
 namespace tailwater {
 
 /// The walls of a case at their present positions. The table has first the rows of walls that move, on all ranks, then
-/// those that this rank keeps of walls at rest, each of these two by number, then guests (shared_rows.h).
+/// those that this rank keeps of walls at rest, each of these two by number, then halo rows (shared_rows.h).
 template <int Dim>
 struct Walls {
   Boundary<Dim> boundary;           ///< faces
@@ -29,7 +29,7 @@ struct Walls {
   std::vector<Mat<Dim>> curvature;  ///< 1/m; of each row's wall as it is drawn (halfway.h)
   bool is_curved = false;           ///< whether any wall is; on all ranks the same
   std::size_t moving = 0;           ///< rows of walls that move
-  std::size_t kept = 0;             ///< rows without guests
+  std::size_t kept = 0;             ///< rows without halo rows
   std::int64_t all = 0;             ///< rows of the case, of all ranks
 
   /// Calls body with references to all that rows have.

@@ -143,20 +143,20 @@ TYPED_TEST(SharedRowsTest, ComeWhereAParticleNeedsThemAndGoWhenNoneDoes) {
   }
   expect_all();
   particles.resize(particles.owned);
-  this->rows.drop_guests(this->walls, particles);
+  this->rows.drop_halo_rows(this->walls, particles);
   EXPECT_EQ(this->walls.particles.size(), most);
   expect_all();
   // Half of the particles are left.
   particles.resize(particles.owned / 2);
   particles.owned = particles.size();
-  this->rows.drop_guests(this->walls, particles);
+  this->rows.drop_halo_rows(this->walls, particles);
   expect_all();
   if (!this->ranks.is_alone()) {
     EXPECT_LT(this->ranks.sum(this->walls.particles.size()), this->ranks.sum(most));
   }
   particles.resize(1);
   particles.owned = 1;
-  this->rows.drop_guests(this->walls, particles);
+  this->rows.drop_halo_rows(this->walls, particles);
   EXPECT_EQ(this->walls.particles.size(), this->walls.kept);
 }
 
