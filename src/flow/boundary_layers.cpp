@@ -32,7 +32,7 @@ bool is_reached(const Pairs<Dim>& pairs, const std::vector<double>& layer_viscos
 
 /// nu~ [m^2/s] of fluid particle i after a step of dt. `d` is its distance from `wall`, or from the nearest one.
 template <int Dim>
-double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall, const Mat<Dim>& velocity_gradient,
+double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall, const Mat<Dim>& velocity_gradient,
                             double d, double dt, std::size_t i) {
   namespace sa = spalart_allmaras;
   const Setup<Dim>& setup = flow.setup;
@@ -60,7 +60,7 @@ double next_layer_viscosity(const Flow<Dim>& flow, const RubbingWall<Dim>& wall,
 }  // namespace
 
 template <int Dim>
-BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const RubbingWall<Dim>> walls,
+BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
                                     std::span<const Mat<Dim>> velocity_gradient, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
   BoundaryLayers next;
@@ -68,7 +68,7 @@ BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const Rubbi
   next.wall_distance.assign(particles.size(), far_from_walls);
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    const RubbingWall<Dim>& wall = walls[i];
+    const FrictionWall<Dim>& wall = walls[i];
     const bool is_beside_wall = wall.weight > 0.0;
     if (!is_beside_wall && !is_reached(flow.pairs(), particles.layer_viscosity, i)) return;
     // As if a rough wall stood 0.03 k_s farther back (Aupoix & Spalart 2003).
@@ -88,9 +88,9 @@ void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted) {
   flow.halo().exchange(particles.layer_viscosity, particles.wall_distance);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                       \
-  template BoundaryLayers next_boundary_layers<Dim>(const Flow<Dim>&, std::span<const RubbingWall<Dim>>, \
-                                                    std::span<const Mat<Dim>>, double);                  \
+#define TAILWATER_INSTANTIATE(Dim)                                                                        \
+  template BoundaryLayers next_boundary_layers<Dim>(const Flow<Dim>&, std::span<const FrictionWall<Dim>>, \
+                                                    std::span<const Mat<Dim>>, double);                   \
   template void grow_boundary_layers<Dim>(Flow<Dim>&, Prediction<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

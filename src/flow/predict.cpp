@@ -18,8 +18,8 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   if (!adds_friction && !setup.has_boundary_layers) return;
 
   const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
-  const std::vector<RubbingWall<Dim>> walls =
-      find_rubbing_walls<Dim>(flow.wall_scene(), setup.friction_law, V, particles.velocity);
+  const std::vector<FrictionWall<Dim>> walls =
+      find_friction_walls<Dim>(flow.wall_scene(), setup.friction_law, V, particles.velocity);
   if (setup.has_boundary_layers) {
     predicted.layers = next_boundary_layers<Dim>(flow, walls, predicted.velocity_gradient, dt);
   }

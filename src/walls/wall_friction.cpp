@@ -22,7 +22,7 @@ double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double vol
 
 /// Calls visit(j, row, weight, k) for each particle of walls with friction in reach of fluid particle i.
 template <int Dim, class Visit>
-void visit_rubbing_pairs(const WallScene<Dim>& scene, double spacing, std::size_t i, Visit&& visit) {
+void visit_friction_pairs(const WallScene<Dim>& scene, double spacing, std::size_t i, Visit&& visit) {
   const Pairs<Dim>& pairs = scene.pairs;
   const Particles<Dim>& particles = scene.particles;
   if (pairs.sees_wall[i] == 0) return;
@@ -42,7 +42,7 @@ Vec<Dim> along_wall(const WallScene<Dim>& scene, std::int32_t row, const Vec<Dim
 
 /// Sets the stresses of a wall whose place and glide are known.
 template <int Dim>
-void apply_wall_law(const FrictionLaw& law, double layer_viscosity, RubbingWall<Dim>& wall) {
+void apply_wall_law(const FrictionLaw& law, double layer_viscosity, FrictionWall<Dim>& wall) {
   const double speed = wall.glide.norm();
   const bool may_be_thin = law.knows_layers && wall.distance < law.spacing;
   const WallLaw surface{law.viscosity, wall.roughness};
@@ -58,10 +58,10 @@ void apply_wall_law(const FrictionLaw& law, double layer_viscosity, RubbingWall<
 
 /// A layer thinner than dx (spalart_allmaras.h) lowers the distance at which the wall law applies.
 template <int Dim>
-RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
-                                   std::span<const Vec<Dim>> velocity, std::size_t i) {
-  RubbingWall<Dim> wall;
-  visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
+FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
+                                     std::span<const Vec<Dim>> velocity, std::size_t i) {
+  FrictionWall<Dim> wall;
+  visit_friction_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
     wall.weight += weight;
     wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - entry_of<Dim>(V, row));
     wall.distance += weight * (scene.pairs.d(i, k).dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
@@ -78,21 +78,21 @@ RubbingWall<Dim> find_rubbing_wall(const WallScene<Dim>& scene, const FrictionLa
 }  // namespace
 
 template <int Dim>
-std::vector<RubbingWall<Dim>> find_rubbing_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
-                                                 std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity) {
-  std::vector<RubbingWall<Dim>> walls(scene.pairs.owned());
+std::vector<FrictionWall<Dim>> find_friction_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
+                                                   std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity) {
+  std::vector<FrictionWall<Dim>> walls(scene.pairs.owned());
   for_each(walls.size(), [&](std::size_t i) {
-    if (scene.particles.is_fluid(i)) walls[i] = find_rubbing_wall(scene, law, V, velocity, i);
+    if (scene.particles.is_fluid(i)) walls[i] = find_friction_wall(scene, law, V, velocity, i);
   });
   return walls;
 }
 
 template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const RubbingWall<Dim>> walls,
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const FrictionWall<Dim>> walls,
                        std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
                        std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity) {
   for_each(walls.size(), [&](std::size_t i) {
-    const RubbingWall<Dim>& wall = walls[i];
+    const FrictionWall<Dim>& wall = walls[i];
     double k_i = 0.0;
     if (wall.weight > 0.0) {
       if (wall.is_turbulent()) {
@@ -100,7 +100,7 @@ void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std:
         acceleration[i] -= k_i * wall.weight * wall.glide;
       }
       Vec<Dim> sum = Vec<Dim>::Zero();
-      visit_rubbing_pairs(scene, law.spacing, i, [&](std::int32_t w, std::int32_t row, double weight, std::size_t) {
+      visit_friction_pairs(scene, law.spacing, i, [&](std::int32_t w, std::int32_t row, double weight, std::size_t) {
         sum += weight * along_wall<Dim>(scene, row, no_slip[w] - velocity[i]);
       });
       acceleration[i] += law.viscosity * sum;
@@ -126,14 +126,14 @@ void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
-  template std::vector<RubbingWall<Dim>> find_rubbing_walls<Dim>(                                                    \
-      const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>, std::span<const Vec<Dim>>);              \
-  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const RubbingWall<Dim>>, \
-                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,    \
-                                       std::span<double>);                                                           \
-  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,    \
-                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                    \
+#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
+  template std::vector<FrictionWall<Dim>> find_friction_walls<Dim>(                                                   \
+      const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>, std::span<const Vec<Dim>>);               \
+  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const FrictionWall<Dim>>, \
+                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,     \
+                                       std::span<double>);                                                            \
+  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,     \
+                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                     \
                                             std::span<const double>, std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -19,7 +19,7 @@ struct FrictionLaw {
 
 /// What a fluid particle feels of the walls with friction in its reach: weighted means over their particles.
 template <int Dim>
-struct RubbingWall {
+struct FrictionWall {
   double weight = 0.0;                ///< 1/m^2; sum of lambda c_iw; 0: no such wall
   Vec<Dim> glide = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
   double distance = 0.0;              ///< m; at least dx/4, which is as near as particles keep
@@ -32,8 +32,8 @@ struct RubbingWall {
 /// Finds it for each owned particle; the weight of wall particles is 0. `V` is the wall's velocity for each row of its
 /// table; `velocity` is the water's.
 template <int Dim>
-std::vector<RubbingWall<Dim>> find_rubbing_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
-                                                 std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity);
+std::vector<FrictionWall<Dim>> find_friction_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
+                                                   std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity);
 
 /// Adds lambda times the stress of `walls` to the acceleration [m/s^2] of fluid particles: the tangential part of
 /// sum_w lambda c_iw [nu (u_noslip - u_i) - k_i (u_i - V)]. Here c_iw is the Morris weight, `no_slip` the wall model's
@@ -41,7 +41,7 @@ std::vector<RubbingWall<Dim>> find_rubbing_walls(const WallScene<Dim>& scene, co
 /// k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
 /// receives it for owned particles. Relative to the wall, friction only slows the water.
 template <int Dim>
-void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const RubbingWall<Dim>> walls,
+void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const FrictionWall<Dim>> walls,
                        std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
                        std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity = {});
 

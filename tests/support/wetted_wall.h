@@ -64,12 +64,12 @@ struct WettedWall {
     std::vector<Vec<Dim>> no_slip(set.size(), Vec<Dim>::Zero());
     std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
     model->find_no_slip_velocity(scene(), V, velocity, no_slip);
-    add_wall_friction<Dim>(scene(), law, rubbing_walls(law, velocity), no_slip, velocity, acceleration);
+    add_wall_friction<Dim>(scene(), law, friction_walls(law, velocity), no_slip, velocity, acceleration);
     return acceleration;
   }
 
-  std::vector<RubbingWall<Dim>> rubbing_walls(const FrictionLaw& law, const std::vector<Vec<Dim>>& velocity) const {
-    return find_rubbing_walls<Dim>(scene(), law, V, velocity);
+  std::vector<FrictionWall<Dim>> friction_walls(const FrictionLaw& law, const std::vector<Vec<Dim>>& velocity) const {
+    return find_friction_walls<Dim>(scene(), law, V, velocity);
   }
 
   WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, here}; }

@@ -183,7 +183,7 @@ TYPED_TEST(WallTest, WallsFeelTheOppositeOfTheirFriction) {
     std::vector<Vec<Dim>> force(wall.set.size(), Vec<Dim>::Zero());
     std::vector<double> excess_viscosity(wall.set.size());
     wall.model->find_no_slip_velocity(wall.scene(), wall.V, velocity, no_slip);
-    add_wall_friction<Dim>(wall.scene(), law, wall.rubbing_walls(law, velocity), no_slip, velocity, acceleration,
+    add_wall_friction<Dim>(wall.scene(), law, wall.friction_walls(law, velocity), no_slip, velocity, acceleration,
                            excess_viscosity);
     find_friction_on_walls<Dim>(wall.scene(), law, wall.V, no_slip, velocity, excess_viscosity, force);
     Vec<Dim> sum = Vec<Dim>::Zero();
