@@ -79,9 +79,10 @@ void check(const BodyTable& body, TableReader& reader) {
   for (const std::string& way : body.free) {
     const bool is_turn = way.starts_with("rotation");
     if (way.find('z') != std::string::npos ? is_flat : is_turn && (way == "rotation") != is_flat) {
-      reader.wrong("free", *reader.given("free"),
-                   fmt::format("\"{}\" is none of the ways in {} dimensions; choose from {}", way, reader.dimension(),
-                               is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
+      reader.wrong(
+          "free", *reader.given("free"),
+          fmt::format("\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", way,
+                      reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
       return;
     }
   }

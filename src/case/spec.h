@@ -389,7 +389,7 @@ struct WaveMakerTable {
   }
 };
 
-/// Names of the ways in which a body can be free; in 2D it turns about its one axis, "rotation".
+/// Names of a body's degrees of freedom; in 2D it turns about its one axis, "rotation".
 inline constexpr std::array<std::string_view, 7> freedom_names{"x",          "y",          "z",         "rotation",
                                                                "rotation_x", "rotation_y", "rotation_z"};
 
@@ -415,8 +415,7 @@ struct BodyTable {
         "inertia", self.inertia, "kg m^2",
         "Its moments of inertia about the centre: [I] in 2D, per metre of width; [Ixx, Iyy, Izz] in 3D, about axes "
         "along x, y and z as it is drawn, which must be its principal axes (needed where it is free to turn)");
-    v.texts("free", self.free, freedom_names,
-            "The ways in which it may move (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
+    v.texts("free", self.free, freedom_names, "Degrees of freedom (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
     v.coordinates("velocity", self.velocity, "m/s", "Its velocity at the start (default: at rest)");
   }
 };

@@ -12,8 +12,8 @@ namespace {
 /// what a laboratory does. They would make every step as many times shorter.
 constexpr double fastest_over_water = 10.0;
 
-/// Share of the largest way in a file by which the curve may leave the values of two neighbouring lines. A sine does so
-/// by 1 % with 20 lines per period and by 10 % with 7.
+/// Share of the largest displacement in a file by which the curve may leave the values of two neighbouring lines. A
+/// sine does so by 1 % with 20 lines per period and by 10 % with 7.
 constexpr double largest_overshoot = 0.1;
 
 /// Height of the water at the start along gravity [m]; 0 without gravity.
@@ -51,8 +51,9 @@ class FileWalk {
       const AffineMap<Dim> before = path_.at(from);
       const AffineMap<Dim> after = path_.at(to);
       for (const Vec<Dim>& corner : corners_) {
-        const double way = (after(corner) - before(corner)).norm();
-        if (fastest > 0.0 && way > 0.25 * dx_ && way > fastest * (to - from)) return {jump(k, way, to - from, fastest)};
+        const double displacement = (after(corner) - before(corner)).norm();
+        if (fastest > 0.0 && displacement > 0.25 * dx_ && displacement > fastest * (to - from))
+          return {jump(k, displacement, to - from, fastest)};
         largest_way = std::max(largest_way, (after(corner) - start(corner)).norm());
         const double overshoot = overshoot_of(corner, before, after, from, to);
         if (overshoot > worst) {
@@ -69,26 +70,26 @@ class FileWalk {
   }
 
  private:
-  Finding jump(std::size_t k, double way, double duration, double fastest) const {
+  Finding jump(std::size_t k, double displacement, double duration, double fastest) const {
     return Finding::error(
         "{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g} m/s, which is more than "
         "{:.0f} "
         "times as fast as the water falls ({:.3g} m/s); correct the lines, or the units in the file's header",
-        label_, series_.line[k], series_.line[k + 1], series_.file, way, duration, way / duration, fastest_over_water,
-        fastest / fastest_over_water);
+        label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration, displacement / duration,
+        fastest_over_water, fastest / fastest_over_water);
   }
 
-  /// How far a corner gets from the straight way between two samples, along that way and beyond its ends; for a corner
-  /// that rests, in any direction.
+  /// How far a corner gets from the straight line between two samples, along that line and beyond its ends; for a
+  /// corner that rests, in any direction.
   double overshoot_of(const Vec<Dim>& corner, const AffineMap<Dim>& before, const AffineMap<Dim>& after, double from,
                       double to) const {
     const Vec<Dim> begin = before(corner);
-    const Vec<Dim> way = after(corner) - begin;
+    const Vec<Dim> displacement = after(corner) - begin;
     double largest = 0.0;
     for (const double share : {0.25, 0.5, 0.75}) {
       const Vec<Dim> off = path_.at(from + share * (to - from))(corner) - begin;
-      const double along = way.norm() > 0.0 ? off.dot(way.normalized()) : off.norm();
-      largest = std::max({largest, along - way.norm(), way.norm() > 0.0 ? -along : 0.0});
+      const double along = displacement.norm() > 0.0 ? off.dot(displacement.normalized()) : off.norm();
+      largest = std::max({largest, along - displacement.norm(), displacement.norm() > 0.0 ? -along : 0.0});
     }
     return largest;
   }

@@ -61,7 +61,7 @@ Mover<Dim> make_mover(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall
   return mover;
 }
 
-/// Follows the walls from the start to the end and checks them every dx/4 of their way.
+/// Follows the walls from the start to the end and checks them every dx/4 of their displacement.
 template <int Dim>
 class PathWalk {
  public:
@@ -125,15 +125,15 @@ class PathWalk {
                                        const AffineMap<Dim>& after) const {
     std::pair<Vec<Dim>, double> result{Vec<Dim>::Zero(), 0.0};
     for (const Vec<Dim>& corner : mover.corners) {
-      const double way = (after(corner) - before(corner)).norm();
-      if (!(way <= result.second)) result = {before(corner), way};  // also if it is not a number
+      const double displacement = (after(corner) - before(corner)).norm();
+      if (!(displacement <= result.second)) result = {before(corner), displacement};  // also if it is not a number
     }
     return result;
   }
 
   /// Returns whether a wall may move by `length` (m) between two times. If not, adds an error and stops following the
   /// wall.
-  bool accepts_way(Mover<Dim>& mover, const Vec<Dim>& where, double length, double from, double to) {
+  bool accepts_displacement(Mover<Dim>& mover, const Vec<Dim>& where, double length, double from, double to) {
     if (!std::isfinite(length)) {
       findings_.push_back(Finding::error(
           "{} is at no finite place at t = {:.6g} s: correct its displacement or rotation", label(mover.wall), to));
@@ -155,9 +155,9 @@ class PathWalk {
     bool is_far = false;
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       if (!movers_[m].is_followed) continue;
-      const auto [where, way] = farthest(movers_[m], start[m], end[m]);
-      if (!accepts_way(movers_[m], where, way, from, to)) continue;
-      longest = std::max(longest, way);
+      const auto [where, displacement] = farthest(movers_[m], start[m], end[m]);
+      if (!accepts_displacement(movers_[m], where, displacement, from, to)) continue;
+      longest = std::max(longest, displacement);
       is_far = is_far || farthest(movers_[m], places_[m], end[m]).second > 0.25 * dx_;
     }
     if (longest > 0.25 * dx_) {
@@ -224,11 +224,11 @@ class PathWalk {
       has_moved = has_moved || (movers_[m].is_followed && is_far);
     }
     if (!findings_.empty() || !has_moved) return;
-    std::vector<AffineMap<Dim>> way(faces_.size());
+    std::vector<AffineMap<Dim>> displacement(faces_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {
-      for (const int f : movers_[m].faces) way[f] = way_between(places_of_room_[m], places_[m]);
+      for (const int f : movers_[m].faces) displacement[f] = displacement_between(places_of_room_[m], places_[m]);
     }
-    room_->move(faces_, way);
+    room_->move(faces_, displacement);
     places_of_room_ = places_;
     const auto enclosed = room_->enclosed();
     if (!enclosed || enclosed->volume >= room_->water()) return;

@@ -23,12 +23,12 @@ RoomForWater<Dim>::RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn
 }
 
 template <int Dim>
-void RoomForWater<Dim>::move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& way) {
+void RoomForWater<Dim>::move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& displacement) {
   std::vector<bool> is_passed(space_.count(), false);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (way[f].linear == Mat<Dim>::Identity() && way[f].constant == Vec<Dim>::Zero()) continue;
+    if (displacement[f].linear == Mat<Dim>::Identity() && displacement[f].constant == Vec<Dim>::Zero()) continue;
     const WallFace<Dim>& before = space_.faces()[f];
-    const AffineMap<Dim> back = way_between(way[f], {});
+    const AffineMap<Dim> back = displacement_between(displacement[f], {});
     space_.visit_around(before, faces[f], [&](const auto& cell) {
       // In the wall's frame the cell moves.
       const Vec<Dim> x = space_.centre(cell);

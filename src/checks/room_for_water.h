@@ -19,8 +19,8 @@ class RoomForWater {
 
   double water() const { return water_; }  ///< m^Dim
 
-  /// Moves the walls, each face by its `way`. Cells that a face has passed over no longer hold water.
-  void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& way);
+  /// Moves the walls, each face by its map `displacement`. Cells that a face has passed over no longer hold water.
+  void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& displacement);
 
   struct Enclosed {
     double volume;            ///< m^Dim, at most

@@ -41,25 +41,26 @@ bool remove_outflow(Flow<Dim>& flow) {
   const Floor<Dim> floor = find_floor(flow);
   const std::size_t falls = ends.size();
   const std::size_t stays = ends.size() + 1;
-  std::vector<std::size_t> way(particles.owned);  // the end that it passes, `falls` or `stays`
+  std::vector<std::size_t> leaves_by(particles.owned);  // the end that it passes, `falls` or `stays`
   for_each(particles.owned, [&](std::size_t i) {
-    way[i] = stays;
+    leaves_by[i] = stays;
     if (!particles.is_fluid(i)) return;
     const Vec<Dim>& x = particles.position[i];
     const auto end =
         std::find_if(ends.begin(), ends.end(), [&](const OpenEnd<Dim>& e) { return e.opening.is_passed_by(x); });
     if (end != ends.end()) {
-      way[i] = static_cast<std::size_t>(end - ends.begin());
+      leaves_by[i] = static_cast<std::size_t>(end - ends.begin());
     } else if (floor.is_passed_by(x)) {
-      way[i] = falls;
+      leaves_by[i] = falls;
     }
   });
-  const std::vector<std::size_t> kept = indices_where(particles.owned, [&](std::size_t i) { return way[i] == stays; });
+  const std::vector<std::size_t> kept =
+      indices_where(particles.owned, [&](std::size_t i) { return leaves_by[i] == stays; });
   const bool some_left = kept.size() != particles.owned;
   if (!flow.setup.ranks.any(some_left)) return false;
   for (std::size_t w = 0; w <= falls; ++w) {
     Passed passed = sum_over(particles.owned, Passed{}, [&](std::size_t i) -> Passed {
-      if (way[i] != w) return {};
+      if (leaves_by[i] != w) return {};
       return {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
     });
     flow.setup.ranks.sum_each(passed.particles, passed.volume, passed.energy);

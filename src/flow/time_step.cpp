@@ -15,7 +15,7 @@ constexpr double time_between_looks = 0.01;
 
 /// [dx]; how much nearer two particles may come in a step. Those that would meet at one place gain energy
 /// (docs/theory/robustness.md).
-constexpr double largest_way_together = 0.9;
+constexpr double largest_approach_in_step = 0.9;
 
 /// [1 over the frequency of a line with what hangs on it]; the force of a line is that at the start of the step.
 constexpr double longest_step_of_moorings = 0.5;
@@ -30,13 +30,13 @@ double largest_layer_diffusivity(const Flow<Dim>& flow) {
 
 /// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
 template <int Dim>
-double farthest_way_within(const Flow<Dim>& flow, double dt) {
+double largest_displacement_within(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
   const int looks = std::max(1, static_cast<int>(std::ceil(dt / time_between_looks)));
   double farthest = 0.0;
   for (int k = 1; k <= looks; ++k) {
     const double to = k == looks ? time + dt : time + k * dt / looks;
-    farthest = std::max(farthest, flow.setup.wall_motion.farthest_way(time, to, flow.state.motion));
+    farthest = std::max(farthest, flow.setup.wall_motion.largest_displacement(time, to, flow.state.motion));
   }
   return farthest;
 }
@@ -69,7 +69,7 @@ double largest_approach(Flow<Dim>& flow) {
   // Of two particles that come nearer so fast that it matters one has at least half of that speed.
   const TimeStepRule& rule = flow.setup.time_step_rule;
   const double speed = largest_speed(flow);
-  const double least_speed = 0.5 * largest_way_together / rule.courant * rule.limiting_speed(speed);
+  const double least_speed = 0.5 * largest_approach_in_step / rule.courant * rule.limiting_speed(speed);
   if (speed < least_speed) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
@@ -99,7 +99,7 @@ double step_of_water(const Flow<Dim>& flow) {
   const double dt = setup.time_step_rule.largest(speed, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
   const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
-  return approach > 0.0 ? std::min(dt, largest_way_together * setup.spacing / approach) : dt;
+  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.spacing / approach) : dt;
 }
 
 template <int Dim>
@@ -107,13 +107,13 @@ double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   double dt = step_of_water(flow);
   if (setup.wall_motion.moving().empty()) return dt;
-  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their way, not their speed, because a
-  // gate may start within the step.
+  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
+  // because a gate may start within the step.
   dt = std::min(dt, step_of_moorings(setup));
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
-  const double longest_way = setup.time_step_rule.courant * setup.spacing;
-  for (double way = 0.0; (way = farthest_way_within(flow, dt)) > longest_way;) {
-    dt *= std::max(0.1, 0.99 * longest_way / way);
+  const double largest = setup.time_step_rule.courant * setup.spacing;
+  for (double displacement = 0.0; (displacement = largest_displacement_within(flow, dt)) > largest;) {
+    dt *= std::max(0.1, 0.99 * largest / displacement);
   }
   return dt;
 }

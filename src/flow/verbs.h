@@ -46,7 +46,7 @@ void place_walls(Flow<Dim>& flow, double time);
 
 /// How the walls move in a step of dt from the state's time.
 template <int Dim>
-WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt);
+WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt);
 
 /// Sets the wall entries of `velocity` to the velocity that the walls show to the water, and brings ghosts up to date.
 /// `V` is the walls' own velocity, one entry per row of their table.

@@ -49,17 +49,17 @@ void place_walls(Flow<Dim>& flow, double time) {
 }
 
 template <int Dim>
-WallWays<Dim> ways_of_walls(const Flow<Dim>& flow, double dt) {
+WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt) {
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
-  WallWays<Dim> ways;
-  if (motion.moving().empty()) return ways;
-  ways.dt = dt;
-  ways.way.resize(flow.walls.boundary.walls.size());
+  WallDisplacements<Dim> displacements;
+  if (motion.moving().empty()) return displacements;
+  displacements.dt = dt;
+  displacements.of_wall.resize(flow.walls.boundary.walls.size());
   for (const auto& moving : motion.moving()) {
-    ways.way[moving.wall] =
-        way_between(moving.at(flow.state.time, flow.state.motion), moving.at(flow.state.time + dt, flow.state.motion));
+    displacements.of_wall[moving.wall] = displacement_between(moving.at(flow.state.time, flow.state.motion),
+                                                              moving.at(flow.state.time + dt, flow.state.motion));
   }
-  return ways;
+  return displacements;
 }
 
 template <int Dim>
@@ -94,7 +94,7 @@ void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, 
   template WallDrive<Dim> drive_walls<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);          \
   template WallDrive<Dim> drive_walls_to_end<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);   \
   template void place_walls<Dim>(Flow<Dim>&, double);                                                 \
-  template WallWays<Dim> ways_of_walls<Dim>(const Flow<Dim>&, double);                                \
+  template WallDisplacements<Dim> displacements_of_walls<Dim>(const Flow<Dim>&, double);              \
   template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&); \
   template void see_walls_halfway<Dim>(Flow<Dim>&, const StepStart<Dim>&, double, std::vector<Vec<Dim>>&);
 TAILWATER_INSTANTIATE(2)

@@ -18,7 +18,7 @@ struct AffineMap {
 
 /// The motion of a body from its place under `before` to its place under `after`.
 template <int Dim>
-AffineMap<Dim> way_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
+AffineMap<Dim> displacement_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
   const Mat<Dim> turn = after.linear * before.linear.transpose();
   return {turn, after.constant - turn * before.constant};
 }

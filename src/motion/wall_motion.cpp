@@ -247,7 +247,7 @@ void WallMotion<Dim>::get_velocity(double time, const MotionState<Dim>& state, s
 }
 
 template <int Dim>
-double WallMotion<Dim>::farthest_way(double from, double to, const MotionState<Dim>& state) const {
+double WallMotion<Dim>::largest_displacement(double from, double to, const MotionState<Dim>& state) const {
   double farthest = 0.0;
   for (const MovingWall& moving : moving_) {
     const AffineMap<Dim> before = moving.at(from, state);

@@ -154,7 +154,7 @@ class WallMotion {
   void get_velocity(double time, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const;
 
   /// The largest distance [m] that a corner of a wall moves from one time to the other.
-  double farthest_way(double from, double to, const MotionState<Dim>& state) const;
+  double largest_displacement(double from, double to, const MotionState<Dim>& state) const;
 
  private:
   /// A particle of a moving wall.

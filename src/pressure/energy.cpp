@@ -40,8 +40,8 @@ double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pr
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
     const Vec<Dim>& acceleration = predicted.acceleration[i];
-    const Vec<Dim> way = dt * (start.velocity[i] + 0.5 * dt * acceleration);
-    return flow.setup.density * particles.volume[i] * acceleration.dot(way);
+    const Vec<Dim> displacement = dt * (start.velocity[i] + 0.5 * dt * acceleration);
+    return flow.setup.density * particles.volume[i] * acceleration.dot(displacement);
   });
 }
 

@@ -29,8 +29,8 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   std::vector<double> overlap(owned);
   find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.spacing, flow.state.particles, overlap);
   const double lift = flow.state.density_share;
-  const double ways = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.spacing;
-  const double share = relaxation * ways;
+  const double courant = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.spacing;
+  const double share = relaxation * courant;
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
     const double answered = (error < 0.0 ? pull * flow.here.interior[i] : lift) * error + overlap[i];

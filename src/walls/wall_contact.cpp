@@ -10,18 +10,19 @@ constexpr double least_gap = 0.01;        // dx; a move that starts nearer, or b
 
 /// Where the water was before a move, carried along by the wall.
 template <int Dim>
-Vec<Dim> carried_by(const WallWays<Dim>& ways, int wall, const Vec<Dim>& before) {
-  return ways.way.empty() ? before : ways.way[wall](before);
+Vec<Dim> carried_by(const WallDisplacements<Dim>& displacements, int wall, const Vec<Dim>& before) {
+  return displacements.of_wall.empty() ? before : displacements.of_wall[wall](before);
 }
 
 /// The wall that is in the way: a plate that the move has passed, else the nearest wall.
 template <int Dim>
-NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways,
-                                 const Vec<Dim>& before, const Vec<Dim>& position) {
+NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing,
+                                 const WallDisplacements<Dim>& displacements, const Vec<Dim>& before,
+                                 const Vec<Dim>& position) {
   // Twice the way, because a wall that moves carries the place where it began.
   for (const int s : boundary.screens_near(position, 2.0 * (position - before).norm())) {
     const Screen<Dim>& screen = boundary.screens[s];
-    const Vec<Dim> carried = carried_by(ways, screen.wall, before);
+    const Vec<Dim> carried = carried_by(displacements, screen.wall, before);
     if (!screen.is_between(carried, position)) continue;
     const double height = screen.height(position);
     return {screen.height(carried) >= 0.0 ? screen.front : screen.back, position - height * screen.normal,
@@ -33,24 +34,24 @@ NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing, 
 /// Applies one cushion per adjacent wall; a corner has at most Dim of them. Returns whether the move would have ended
 /// behind a wall.
 template <int Dim>
-bool cushion(const Boundary<Dim>& boundary, double spacing, const WallWays<Dim>& ways, const Vec<Dim>& before,
-             Vec<Dim>& position, Vec<Dim>* velocity) {
+bool cushion(const Boundary<Dim>& boundary, double spacing, const WallDisplacements<Dim>& displacements,
+             const Vec<Dim>& before, Vec<Dim>& position, Vec<Dim>* velocity) {
   const double contact = contact_distance * spacing;
   bool would_cross = false;
   int last_face = -1;
   for (int attempt = 0; attempt < Dim; ++attempt) {
-    const NearestWall<Dim> wall = wall_in_the_way(boundary, spacing, ways, before, position);
+    const NearestWall<Dim> wall = wall_in_the_way(boundary, spacing, displacements, before, position);
     if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
     last_face = wall.face;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    const Vec<Dim> carried = carried_by(ways, face.wall, before);
+    const Vec<Dim> carried = carried_by(displacements, face.wall, before);
     const double gap = std::clamp(face.height(carried), least_gap * spacing, contact);
     const double approach = gap - wall.signed_distance;
     if (approach <= 0.0) continue;
     const double share = gap / (gap + approach);
     position += (share * gap - wall.signed_distance) * face.normal;
     if (velocity) {
-      const double advance = ways.way.empty() ? 0.0 : face.normal.dot(carried - before) / ways.dt;
+      const double advance = displacements.of_wall.empty() ? 0.0 : face.normal.dot(carried - before) / displacements.dt;
       *velocity -= (1.0 - share) * std::min(0.0, velocity->dot(face.normal) - advance) * face.normal;
     }
     would_cross = would_cross || wall.signed_distance < 0.0;
@@ -76,21 +77,22 @@ void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, d
 
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
-                           const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
-                           std::span<Vec<Dim>> velocity) {
+                           const WallDisplacements<Dim>& displacements, std::span<const Vec<Dim>> before,
+                           Particles<Dim>& particles, std::span<Vec<Dim>> velocity) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     // Beside the end of a plate no wall particle need be in sight.
     return particles.is_fluid(i) && (!boundary.screens.empty() || pairs.sees_wall[i] != 0) &&
-           cushion(boundary, spacing, ways, before[i], particles.position[i],
+           cushion(boundary, spacing, displacements, before[i], particles.position[i],
                    velocity.empty() ? nullptr : &velocity[i]);
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                \
-  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,    \
-                                       std::span<double>);                                                        \
-  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const WallWays<Dim>&, \
-                                           std::span<const Vec<Dim>>, Particles<Dim>&, std::span<Vec<Dim>>);
+#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
+  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,        \
+                                       std::span<double>);                                                            \
+  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double,                           \
+                                           const WallDisplacements<Dim>&, std::span<const Vec<Dim>>, Particles<Dim>&, \
+                                           std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -35,18 +35,18 @@ void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, d
 
 /// How the walls moved during a move of the particles.
 template <int Dim>
-struct WallWays {
-  std::vector<AffineMap<Dim>> way;  ///< of each wall, from where it was to where it is
-  double dt = 0.0;                  ///< s; duration of the move; any value if no wall moved
+struct WallDisplacements {
+  std::vector<AffineMap<Dim>> of_wall;  ///< map of each wall from where it was to where it is
+  double dt = 0.0;                      ///< s; duration of the move; any value if no wall moved
 };
 
 /// Cushions the move of owned fluid particles from `before` to their present positions, for those with a wall particle
-/// among their neighbours. `boundary` holds the walls after the move; `ways` is empty if they rest. `velocity` is the
-/// velocity of the move; it is empty for a shift, which has none. Returns how many particles would have ended behind a
-/// wall.
+/// among their neighbours. `boundary` holds the walls after the move; `displacements` is empty if they rest. `velocity`
+/// is the velocity of the move; it is empty for a shift, which has none. Returns how many particles would have ended
+/// behind a wall.
 template <int Dim>
 std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
-                           const WallWays<Dim>& ways, std::span<const Vec<Dim>> before, Particles<Dim>& particles,
-                           std::span<Vec<Dim>> velocity);
+                           const WallDisplacements<Dim>& displacements, std::span<const Vec<Dim>> before,
+                           Particles<Dim>& particles, std::span<Vec<Dim>> velocity);
 
 }  // namespace tailwater

@@ -141,7 +141,7 @@ const std::vector<BadInput> table{
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
          "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"rotation_x\"]\n",
      "16:8",
-     {"body[0].free", "\"rotation_x\" is none of the ways in 2 dimensions", "x, y, rotation"}},
+     {"body[0].free", "\"rotation_x\" is none of the degrees of freedom in 2 dimensions", "x, y, rotation"}},
     {"body_in_the_other_scheme",
      required_keys + water +
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "

@@ -29,7 +29,7 @@ TEST(WallMotion, TurnsAboutThePivotAndThenMoves) {
   // (0, 1.2) stands 1 m over the pivot; turned to the right it lies 1 m beside it, and 1 m further.
   EXPECT_LT((path.at(1.0)(Vec<2>(0.0, 1.2)) - Vec<2>(2.0, 0.2)).norm(), 4.0 * eps);
   EXPECT_LT((path.at(0.0)(Vec<2>(0.3, 0.7)) - Vec<2>(0.3, 0.7)).norm(), 4.0 * eps);
-  const AffineMap<2> way = way_between(path.at(0.3), path.at(0.8));
+  const AffineMap<2> way = displacement_between(path.at(0.3), path.at(0.8));
   EXPECT_LT((way(path.at(0.3)(Vec<2>(0.3, 0.7))) - path.at(0.8)(Vec<2>(0.3, 0.7))).norm(), 8.0 * eps);
 }
 
@@ -68,7 +68,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
     const Vec<2> expected(1.0 + std::numbers::pi / 2.0 * arm[1], -std::numbers::pi / 2.0 * arm[0]);
     EXPECT_LT((velocity[row] - expected).norm(), 1e-8);
   }
-  EXPECT_NEAR(motion.farthest_way(0.0, 0.0, {}), 0.0, 0.0);
+  EXPECT_NEAR(motion.largest_displacement(0.0, 0.0, {}), 0.0, 0.0);
 }
 
 // A gate that stands on the bed: the bed's rows go on under it, and nothing of the gate is in the bed.

@@ -83,11 +83,11 @@ TEST(WallContact, IsRelativeToAWallThatMoves) {
   const std::vector<Vec<2>> start{{1.0, 3.0 * dx}, {0.1 * dx, 3.0 * dx}, {0.4 * dx, 2.0 * dx}, {-0.1 * dx, 2.0 * dx}};
   const std::vector<Vec<2>> moves(start.size(), Vec<2>::Zero());
   Corner moving(start);
-  WallWays<2> ways{.way = std::vector<AffineMap<2>>(1), .dt = dt};
-  ways.way[0].constant = Vec<2>(way, 0.0);
-  EXPECT_EQ(
-      keep_off_walls<2>(moving.pairs, moving.boundary, dx, ways, start, moving.particles, moving.particles.velocity),
-      1u);
+  WallDisplacements<2> displacements{.of_wall = std::vector<AffineMap<2>>(1), .dt = dt};
+  displacements.of_wall[0].constant = Vec<2>(way, 0.0);
+  EXPECT_EQ(keep_off_walls<2>(moving.pairs, moving.boundary, dx, displacements, start, moving.particles,
+                              moving.particles.velocity),
+            1u);
   Corner resting(start);
   std::vector<Vec<2>> before = start;
   for (Vec<2>& x : before) x[0] += way;
