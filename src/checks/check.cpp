@@ -21,7 +21,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   }
   append(findings, check_wall_thickness(spec, boundary, fluid));
   append(findings, check_plates(spec, boundary));
-  append(findings, check_closed_gaps(spec, boundary));
+  if (!has_error(findings)) append(findings, check_closed_gaps(spec, boundary));
   append(findings, check_roughness(spec, boundary));
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
