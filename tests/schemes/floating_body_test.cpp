@@ -293,7 +293,7 @@ TEST(FloatingBody, IsTiedToAnotherByALine) {
   line.length = 0.9;
   line.stiffness = omega * omega / (1.0 / m_a + 1.0 / m_b);
   spec.moorings = {line};
-  Flow<2> flow(spec);
+  Flow<2> flow = make_flow<2>(spec);
   const std::vector<BodyState<2>>& bodies = flow.state.motion.bodies.each;
   double longest = 0.0;
   while (flow.state.time < 0.2) longest = std::max(longest, step(flow).dt);  // a quarter of a period
