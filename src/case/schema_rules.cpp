@@ -85,8 +85,11 @@ Json rules_of_wave_makers() {
 
 /// A body that is free to turn, as it is when nothing is said, needs its inertia.
 Json rules_of_bodies() {
-  const Json does_not_turn{{"required", Json::array({"free"})},
-                           {"properties", {{"free", {{"not", {{"contains", {{"pattern", "^rotation"}}}}}}}}}};
+  const Json turn{{"pattern", "^rotation"}};
+  const Json no_turn =
+      Json::array({Json{{"type", "array"}, {"not", {{"contains", turn}}}}, Json{{"type", "string"}, {"not", turn}}});
+  Json does_not_turn = rule_for("free", {{"anyOf", no_turn}});
+  does_not_turn["required"] = Json::array({"free"});
   return Json::array({
       needs("walls"),
       rule_for("walls", at_least(1)),
@@ -122,7 +125,9 @@ Json table_rules_of_schema(std::string_view table) {
   if (table == "outlet") return Json::array({has_length()});
   if (table == "wave_maker") return rules_of_wave_makers();
   if (table == "body") return rules_of_bodies();
-  if (table == "mooring") return Json::array({rule_for("body", {{"minLength", 1}})});
+  if (table == "mooring") {
+    return Json::array({needs("body"), rule_for("body", {{"minLength", 1}, {"minItems", 1}, {"maxItems", 2}})});
+  }
   if (table == "probe") return rules_of_probes();
   return Json::array();
 }

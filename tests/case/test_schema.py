@@ -27,7 +27,7 @@ UNSEEN = {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
         "level_of_a_fill_where_gravity_is_sideways", "outlet_without_extent", "period_backwards", "period_empty",
         "probe_stretch_is_a_point", "probe_times_backwards",
-        "region_upside_down", "wave_that_breaks_at_once", "weight_that_does_not_lift", "fluid inside out",
+        "region_upside_down", "wave_that_breaks_at_once", "fluid inside out",
         "wall without length"},
     "expressions": {
         "displacement_of_a_position", "gravity_of_itself", "infinite_expression", "inlet_discharge_of_position",
@@ -37,9 +37,10 @@ UNSEEN = {
         "unknown parameter", "discharge that jumps", "discharge without a value", "velocity that overflows"},
     "names": {
         "body_of_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
-        "gate_with_the_name_of_a_wall", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
+        "gate_with_the_name_of_a_wall", "inlet_with_water_from_an_unknown_outlet", "measurement_of_no_probe",
+        "mooring_of_no_body",
         "probe_name_twice", "duplicate names of walls and fluids", "duplicate names of probes"},
-    "files": {"hydrograph that is not there"},
+    "files": {"hydrograph that is not there", "measurement_in_a_file_that_is_not_there"},
     "no number is equal to it": {"not_a_number", "not a number"},
     "PETSc": {
         "unknown option of PETSc", "option that opens a file", "option that names a file", "option of the whole program",
