@@ -49,7 +49,9 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 ///   d_ij = u_j - u_i - l_ij,    l_ij = (grad u_i + grad u_j)/2 . (r_j - r_i),
 ///
 /// without its component along u_j - u_i where that would add energy. Between two particles of a boundary layer d_ij is
-/// without its component along l_ij too, so that it does not flatten the logarithmic profile. It vanishes for linear
+/// without its component along l_ij too, so that it does not flatten the logarithmic profile. Of other pairs of which
+/// one has a wall with friction in its reach, l_ij is the difference nearest to u_j - u_i between those that either
+/// gradient alone explains: there they are one-sided (docs/theory/friction.md). It vanishes for linear
 /// fields and is of fourth order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved,
 /// and energy never grows.
 template <int Dim>

@@ -60,7 +60,8 @@ void add_loads(const Loads<Dim>& loads, std::vector<Vec<Dim>>& acceleration) {
   for_each(loads.acceleration.size(), [&](std::size_t i) { acceleration[i] += loads.acceleration[i]; });
 }
 
-/// grad u of fluid particles, ghosts too.
+/// grad u of fluid particles, ghosts too. In reach of a wall with friction it is that of the water alone, since dummies
+/// show none of the shear.
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -68,7 +69,9 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    gradient[i] = corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], velocity);
+    gradient[i] = particles.wall_distance[i] < kernel_radius(flow.setup.kernel)
+                      ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
+                      : corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], velocity);
   });
   flow.halo().exchange(gradient);
   return gradient;

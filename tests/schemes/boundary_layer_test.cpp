@@ -83,6 +83,37 @@ TYPED_TEST(BoundaryLayerTest, IsNotThereWithoutFrictionNorInLaminarFlow) {
   }
 }
 
+TEST(BoundaryLayer, ALaminarFilmKeepsItsParabola) {
+  // Ten rows, Re = 128: the noise viscosity is 4.5 times the water's own, and must see no noise in the shear.
+  const double h = 0.4;
+  const double nu = 0.005;
+  const double pull = 0.1;
+  CaseSpec spec;
+  spec.particles.spacing = 0.1 * h;
+  spec.physics.gravity = {pull, -g};
+  spec.physics.viscosity = nu;
+  spec.domain.periodic_x = {0.0, 1.2 * h};
+  WallTable bed;
+  bed.points = {{0.0, 0.0}, {1.2 * h, 0.0}};
+  bed.slip = Slip::no_slip;
+  spec.walls = {bed};
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {1.2 * h, h};
+  water.velocity = {"1.6*(1-(1-y/0.4)^2)", 0.0};
+  spec.fluid = {water};
+  Flow<2> flow = make_flow<2>(spec);
+  const auto mean_speed = [&] {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (flow.state.particles.is_fluid(i)) sum += flow.state.particles.velocity[i][0];
+    }
+    return sum / static_cast<double>(count_fluid(flow));
+  };
+  while (flow.state.time < 8.0) step(flow);
+  EXPECT_NEAR(mean_speed(), pull * h * h / (3.0 * nu), 0.02 * pull * h * h / (3.0 * nu));
+}
+
 TEST(BoundaryLayer, GrowsAsTheBalanceOfMomentumAsks) {
   // d delta/dt = kappa u_tau while the layer is thinner than dx; the model's production gives c_b1/kappa u_tau, 0.81 of
   // it, and a little more diffuses upwards.
