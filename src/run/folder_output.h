@@ -32,7 +32,7 @@ class FolderOutput final : public RunObserver<Dim> {
 
   void started(const Flow<Dim>& flow) override { output_.record_probes(flow, measure(flow)); }
   void before_step(const Flow<Dim>& flow) override { output_.write_due_fields(flow); }
-  void shared_out(const Flow<Dim>& flow, const Repartition& repartition) override {
+  void repartitioned(const Flow<Dim>& flow, const Repartition& repartition) override {
     output_.record_repartition(flow, repartition);
   }
   void can_go_on(const Flow<Dim>& flow, double reference_step) override {

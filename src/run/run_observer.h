@@ -18,7 +18,7 @@ class RunObserver {
   /// A step is about to be made ready.
   virtual void before_step(const Flow<Dim>& flow) = 0;
   /// Particles were handed to the ranks that own their places, and sorted.
-  virtual void shared_out(const Flow<Dim>& flow, const Repartition& repartition) = 0;
+  virtual void repartitioned(const Flow<Dim>& flow, const Repartition& repartition) = 0;
   /// The state is complete: a run can go on from it. `reference_step` [s] is that of the guard (step_guard.h).
   virtual void can_go_on(const Flow<Dim>& flow, double reference_step) = 0;
   /// A step was taken.

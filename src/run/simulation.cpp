@@ -69,8 +69,8 @@ void Simulation<Dim>::rearrange() {
   const bool is_repartitioned = flow_.state.step % steps_between_sorts == 0;
   if (is_repartitioned) {
     if (flow_.state.step != repartition_step_) {
-      const Repartition repartition = repartition(flow_);
-      if (observer_ != nullptr) observer_->shared_out(flow_, repartition);
+      const Repartition result = repartition(flow_);
+      if (observer_ != nullptr) observer_->repartitioned(flow_, result);
     }
     if (observer_ != nullptr) observer_->can_go_on(flow_, guard_.reference_step());
   }

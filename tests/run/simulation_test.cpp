@@ -19,7 +19,7 @@ struct Moments final : RunObserver<Dim> {
   std::string told;
   void started(const Flow<Dim>&) override { told += "started "; }
   void before_step(const Flow<Dim>&) override { told += "before "; }
-  void shared_out(const Flow<Dim>&, const Repartition&) override { told += "shared "; }
+  void repartitioned(const Flow<Dim>&, const Repartition&) override { told += "shared "; }
   void can_go_on(const Flow<Dim>&, double) override { told += "complete "; }
   void stepped(const Flow<Dim>&, const StepReport&) override { told += "stepped "; }
 };
