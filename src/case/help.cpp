@@ -13,7 +13,9 @@ namespace tailwater {
 namespace {
 
 /// Tables that no case needs: the reference does not list them.
-bool is_for_studies(const TableInfo& table) { return table.name == "study" || table.name == "parallel"; }
+bool is_for_studies(const TableInfo& table) {
+  return table.name == "study" || table.name == "parallel" || table.name == "limits";
+}
 
 /// The default of the Courant number with each formulation.
 std::string courant_text() {
@@ -177,7 +179,9 @@ std::string study_reference_markdown() {
       "page.\n\n"
       "The keys of [study] change parts of the robust formulations, so that a study can show what each is worth "
       "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
-      "The published formulations have none of them. [parallel] is for who measures runs on several ranks.\n");
+      "The published formulations have none of them. [limits] says at which errors of its energy and volume a run "
+      "warns "
+      "or ends; [parallel] is for who measures runs on several ranks.\n");
   for (const TableInfo& table : case_tables()) {
     if (is_for_studies(table)) text += markdown_of(table);
   }

@@ -85,8 +85,7 @@ struct CaseTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.integer("format", self.format, "", Range::at_least(1),
-              "Version of the format that the case is written in; a program refuses one that is newer than its own",
-              Presence::written);
+              "Version of the format that the case is written in; a program refuses one that is newer than its own");
     v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
   }
