@@ -14,7 +14,8 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT
         COMPONENT documents)
 set(TAILWATER_SITE "" CACHE PATH "Site that scripts/site.py has built, to be installed in place of the documents")
 if(TAILWATER_SITE)
-  install(DIRECTORY ${TAILWATER_SITE}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT documents)
+  install(DIRECTORY ${TAILWATER_SITE}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT documents
+          PATTERN sitemap.xml.gz EXCLUDE)  # for a web server; has the time of the build in it
 else()
   install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 endif()
@@ -45,13 +46,15 @@ if(TAILWATER_FASTER_PROGRAM)
 endif()
 # What Debian asks of each package.
 if(TAILWATER_DEBIAN_FILES)
-  foreach(pair program:tailwater library:libtailwater-dev documents:tailwater-doc)
+  foreach(pair program:tailwater module:python3-tailwater library:libtailwater-dev documents:tailwater-doc)
     string(REPLACE ":" ";" pair ${pair})
     list(GET pair 0 component)
     list(GET pair 1 package)
     install(FILES ${TAILWATER_DEBIAN_FILES}/copyright ${TAILWATER_DEBIAN_FILES}/changelog.gz
             DESTINATION share/doc/${package} COMPONENT ${component})
   endforeach()
+  install(CODE "execute_process(COMMAND gzip -9nf \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1/tailwater.1
+                                COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 endif()
 
 get_property(rooms GLOBAL PROPERTY tailwater_rooms)

@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Tries the packages in DIR on a bare Debian 12: a root made by debootstrap, in which apt installs them and a user makes,
 # runs, draws, shows and validates a case, with the program for all processors too. Tells the time to the first picture
-# and fails if that is more than 3 minutes. As root. Usage: packaging/try.sh DIR
+# and fails if that is more than 3 minutes. As root. Usage: packaging/try.sh DIR [ROOT]
+# ROOT: a bare root that debootstrap has made before; it is used up.
 set -euo pipefail
 packages=$(realpath "$1")
-root=$(mktemp -d)
+root=${2:-$(mktemp -d)}
 trap 'umount "$root/proc" 2>/dev/null || true; rm -rf "$root"' EXIT
-echo "try.sh: making a bare Debian 12"
-debootstrap --variant=minbase bookworm "$root" >/dev/null
+if (($# < 2)); then
+  echo "try.sh: making a bare Debian 12"
+  debootstrap --variant=minbase bookworm "$root" >/dev/null
+fi
 cp "$packages"/tailwater_*_amd64.deb "$root/"
 mount -t proc proc "$root/proc"
 in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh -ec "$1"; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the Debian packages: build/package/tailwater_VERSION_amd64.deb, libtailwater-dev and tailwater-doc. The program is
-# in it twice, for any amd64 processor and for those with AVX2. Usage: scripts/package.sh [--check]
+# Makes the Debian packages: build/package/tailwater_VERSION_amd64.deb, python3-tailwater,
+# libtailwater-dev and tailwater-doc. The program is in the first twice, for any amd64 processor and for those with AVX2. Usage: scripts/package.sh [--check]
 # --check: also lintian, and a trial of the installed packages in a Debian root made by debootstrap (as root).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
