@@ -20,8 +20,8 @@ from .run import Run
 try:
     from . import _simulation
 except ImportError as error:
-    raise IoError(f"this installation has no simulations in Python ({error}); remedy: build the program with "
-                  "pybind11-dev and python3-dev (scripts/install.sh)") from error
+    raise IoError(f"this installation has no simulations in Python ({error}); remedy: the package "
+                  "python3-tailwater, or a build with pybind11-dev and python3-dev (scripts/install.sh)") from error
 
 __all__ = ["Body", "Simulation", "Step"]
 
