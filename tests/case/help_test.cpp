@@ -37,8 +37,12 @@ TEST(CaseReference, HasNoMoreKeysThanItMay) {
   for (const TableInfo& table : case_tables()) {
     const auto keys = static_cast<std::size_t>(
         std::ranges::count_if(table.keys, [](const KeyInfo& key) { return key.presence != Presence::written; }));
-    if (table.name == "study") EXPECT_LE(keys, 10u);
-    if (table.name == "scheme") EXPECT_LE(keys, 9u);
+    if (table.name == "study") {
+      EXPECT_LE(keys, 10u);
+    }
+    if (table.name == "scheme") {
+      EXPECT_LE(keys, 9u);
+    }
     // On the page of keys for studies, which no case needs.
     if (table.name == "study" || table.name == "parallel" || table.name == "limits") continue;
     all += keys;
