@@ -8,7 +8,7 @@ void add_bed_command(CLI::App& app, ExitCode&) {
   command->set_help_flag();  // the Python program explains its own options
   command->prefix_command();
   command->footer("Example: tailwater bed terrain.tif --to bed.stl --box 512000 5401000 512400 5401200 --step 0.5");
-  command->callback([command] { become_python("bed", command->remaining()); });
+  command->callback([command] { become_python("tailwater_validation.bed", command->remaining()); });
 }
 
 }  // namespace tailwater
