@@ -17,7 +17,7 @@ struct Curve {
   std::vector<double> value;
 
   /// Before the first sample its value, after the last one that.
-  double at(double time) const;
+  double at(double when) const;
 };
 
 /// Of computed values less measured ones, at the times of the measured ones; each counts as the time that it stands

@@ -166,7 +166,7 @@ template <int Dim>
 nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow) {
   const double density = flow.setup.density;
   const auto json_of_passed = [&](const Passed& passed) {
-    nlohmann::ordered_json json = json_of({passed.particles, passed.volume}, density);
+    nlohmann::ordered_json json = json_of(Water{passed.particles, passed.volume}, density);
     json["energy_J"] = passed.energy;
     return json;
   };
