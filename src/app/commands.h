@@ -20,12 +20,8 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
                         const std::vector<std::string>& words);
 void add_info_command(CLI::App& app, ExitCode& code);
-void add_bench_command(CLI::App& app, ExitCode& code);
-void add_validate_command(CLI::App& app, ExitCode& code);
-void add_study_command(CLI::App& app, ExitCode& code);
-void add_waves_command(CLI::App& app, ExitCode& code);
-void add_bed_command(CLI::App& app, ExitCode& code);
-void add_pictures_command(CLI::App& app, ExitCode& code);
+/// `bench`, `validate`, `study`, `waves`, `bed` and `pictures`.
+void add_python_commands(CLI::App& app);
 void add_view_command(CLI::App& app, ExitCode& code);
 /// `man` and `completion`, which tell of all commands of `app`.
 void add_help_commands(CLI::App& app);

@@ -99,12 +99,7 @@ void add_commands(CLI::App& app, int argc, char** argv, ExitCode& code, const Co
   add_run_command(app, code, ranks, {argv + 1, argv + argc});
   add_resume_command(app, code, ranks, {argv + 1, argv + argc});
   add_info_command(app, code);
-  add_bench_command(app, code);
-  add_validate_command(app, code);
-  add_study_command(app, code);
-  add_waves_command(app, code);
-  add_bed_command(app, code);
-  add_pictures_command(app, code);
+  add_python_commands(app);
   add_view_command(app, code);
   add_help_commands(app);
 }

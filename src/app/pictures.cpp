@@ -8,7 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include "app/commands.h"
 #include "app/python_package.h"
 #include "io/messages.h"
 #include "io/vtp_writer.h"
@@ -82,14 +81,6 @@ void draw_start(const std::filesystem::path& image, const std::string& title, do
     options.push_back(fmt::format("--mark={},{},{}", x[0], x[1], x[2]));
   }
   run_python("tailwater_validation.start_picture", options);
-}
-
-void add_pictures_command(CLI::App& app, ExitCode&) {
-  CLI::App* command = app.add_subcommand("pictures", "Draw pictures of a run, and in 3D the water's surface as meshes");
-  command->set_help_flag();  // the Python program explains its own options
-  command->prefix_command();
-  command->footer("Example: tailwater pictures my_run --count 12 --from 1 -1 0.5");
-  command->callback([command] { become_python("tailwater_validation.pictures", command->remaining()); });
 }
 
 }  // namespace tailwater

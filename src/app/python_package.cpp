@@ -61,13 +61,6 @@ std::vector<std::string> python_command(const std::string& module, const std::ve
   return words;
 }
 
-std::vector<char*> as_arguments(std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  return arguments;
-}
-
 [[noreturn]] void throw_cannot_start(int error) {
   throw IoError(
       fmt::format("cannot start {}: {}; remedy: install python3 with numpy, matplotlib and VTK (scripts/install.sh)",
@@ -78,7 +71,7 @@ std::vector<char*> as_arguments(std::vector<std::string>& words) {
 
 void become_python(const std::string& module, const std::vector<std::string>& options) {
   std::vector<std::string> words = python_command(module, options);
-  execv(python, as_arguments(words).data());
+  execv(python, arguments_of(words).data());
   throw_cannot_start(errno);
 }
 
@@ -91,7 +84,7 @@ void run_python(const std::string& module, const std::vector<std::string>& optio
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   pid_t child = 0;
-  const int error = posix_spawn(&child, python, &actions, nullptr, as_arguments(words).data(), environ);
+  const int error = posix_spawn(&child, python, &actions, nullptr, arguments_of(words).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   std::string told;

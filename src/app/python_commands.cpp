@@ -1,0 +1,56 @@
+// The commands that are programs in Python. Each explains its own options.
+#include <array>
+#include <string>
+
+#include "app/commands.h"
+#include "app/python_package.h"
+
+namespace tailwater {
+namespace {
+
+struct PythonCommand {
+  const char* name;
+  const char* what;
+  const char* module;
+  const char* example;
+};
+
+constexpr std::array<PythonCommand, 2> benches{{
+    {"robustness", "The gates of the robust core", "tailwater_validation.robustness", ""},
+    {"speed", "CPU time and memory of cases, steps and rooms, and how they grow", "tailwater_validation.speed", ""},
+}};
+
+constexpr std::array<PythonCommand, 5> commands{{
+    {"validate", "Run the papers' cases and the exact solutions, and write a report of the scores",
+     "tailwater_validation.validate", ""},
+    {"study", "Run a case at several spacings, and say how well its numbers are known", "tailwater.study_command", ""},
+    {"waves", "Wave heights, periods, spectra and reflection from a run's gauges", "tailwater_validation.waves",
+     "Example: tailwater waves my_run g1 g2 g3 --from 20"},
+    {"bed", "Make the mesh of a wall from a surveyed terrain, GeoTIFF or XYZ", "tailwater_validation.bed",
+     "Example: tailwater bed terrain.tif --to bed.stl --box 512000 5401000 512400 5401200 --step 0.5"},
+    {"pictures", "Draw pictures of a run, and in 3D the water's surface as meshes", "tailwater_validation.pictures",
+     "Example: tailwater pictures my_run --count 12 --from 1 -1 0.5"},
+}};
+
+void add(CLI::App& app, const PythonCommand& python) {
+  CLI::App* command = app.add_subcommand(python.name, python.what);
+  command->set_help_flag();
+  command->prefix_command();
+  command->footer(python.example);
+  command->callback([command, module = std::string(python.module)] { become_python(module, command->remaining()); });
+}
+
+}  // namespace
+
+void add_python_commands(CLI::App& app) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure robustness or speed with a set of cases");
+  bench->require_subcommand(1);
+  bench->footer(
+      "Examples: tailwater bench robustness --list\n"
+      "          tailwater bench robustness --out my_bench --gate tank --gate noise\n"
+      "          tailwater bench speed --compare before/speed.json");
+  for (const PythonCommand& command : benches) add(*bench, command);
+  for (const PythonCommand& command : commands) add(app, command);
+}
+
+}  // namespace tailwater
