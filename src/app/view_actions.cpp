@@ -42,7 +42,8 @@ std::string title_of(std::string_view text) {
 
 /// The folder in which new runs are made, and whose files a case may name.
 fs::path working_folder(const ViewContent& content) {
-  return content.case_file ? content.case_file->parent_path() : content.runs.front().path.parent_path();
+  if (content.case_file) return content.case_file->parent_path();
+  return content.runs.empty() ? fs::current_path() : content.runs.front().path.parent_path();  // a report may show none
 }
 
 /// my_run, my_run_2, ...: the first that is free.
@@ -143,7 +144,9 @@ fs::path start_case(const fs::path& folder, const std::optional<fs::path>& case_
 ViewActions view_actions(const ViewContent& content, const std::vector<fs::path>& sweeps) {
   const fs::path folder = working_folder(content);
   const std::optional<fs::path> case_file = content.case_file;
-  const std::string stem = case_file ? case_file->stem().string() : content.runs.front().name;
+  const std::string stem = case_file              ? case_file->stem().string()
+                           : content.runs.empty() ? "case"
+                                                  : content.runs.front().name;
   ViewActions actions;
   actions.version = version_line();
   actions.most_ranks = usable_cores();

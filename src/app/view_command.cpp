@@ -114,9 +114,10 @@ class Browser {
  public:
   explicit Browser(const std::string& address) {
     const char* own = getenv("XDG_RUNTIME_DIR");
-    const fs::path folder = own != nullptr && *own != '\0' ? fs::path(own) : fs::temp_directory_path();
+    std::error_code error;  // without a place for a file the user opens the address that is printed
+    const fs::path folder = own != nullptr && *own != '\0' ? fs::path(own) : fs::temp_directory_path(error);
     std::string name = (folder / "tailwater-view-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) return;
+    if (error || mkdtemp(name.data()) == nullptr) return;
     folder_ = name;
     try {
       write_text_file(folder_ / "open.html", fmt::format("<!DOCTYPE html><title>Tailwater</title>"

@@ -303,6 +303,10 @@ class OfADoneRun(Viewed):
         data = json.loads(re.search(r'id="tailwater-data">(.*?)</script>', text, re.DOTALL)[1])
         self.assertEqual((data["state"]["report"], len(data["runs"])), (report, 1))
         self.assertIn("shown alone", self.call("view", "report", "run", expect=2).stderr)
+        alone = [{"shown": None}]
+        (self.folder / "report/report.json").write_text(json.dumps({"studies": alone}))
+        self.view("report")  # without the folder of a run to start from
+        self.assertEqual(self.json("api/state")["report"]["studies"], alone)
         (self.folder / "report/report.json").write_text("[1]")
         self.assertIn("not a report", self.call("view", "report", expect=2).stderr)
 
