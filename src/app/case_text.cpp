@@ -53,7 +53,8 @@ std::map<std::string, std::vector<std::pair<int, int>>> lines_of_tables(std::str
     const std::string_view line = take_line(text);
     const std::string table = table_in(line);
     if (!table.empty()) open = &tables[table].emplace_back(number, number);
-    const bool is_blank = without_indent(line).empty() || line.starts_with('#');
+    const std::string_view words = without_indent(line);
+    const bool is_blank = words.empty() || words.starts_with('#');
     if (open != nullptr && !is_blank) open->second = number;
   }
   return tables;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "app/commands.h"
 #include "app/files_of_others.h"
 #include "app/pictures.h"
+#include "case/case_toml.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/preview.h"
@@ -62,9 +62,7 @@ std::filesystem::path preview_file(const CheckOptions& options) {
 /// The text of a case file, "-" for that on standard input.
 std::string text_of_case(const std::filesystem::path& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
-  return {std::istreambuf_iterator<char>(file), {}};
+  return read_case_file(path, largest_case_file);
 }
 
 void print_as_json(const CheckOptions& options) {

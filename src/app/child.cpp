@@ -10,9 +10,11 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "app/processes.h"
 #include "base/error.h"
 
 namespace tailwater {
@@ -61,17 +63,10 @@ struct Streams {
   dup2(streams.output, STDOUT_FILENO);
   dup2(streams.errors, STDERR_FILENO);
   if (chdir(folder) == 0) execvp(words[0], words);
+  constexpr std::string_view failure = "the program cannot be started\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, failure.data(), failure.size());
   _exit(127);
 }
-
-std::vector<char*> words_of(std::vector<std::string>& command) {
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
-  return words;
-}
-
-int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 milliseconds until(std::chrono::steady_clock::time_point deadline) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now()));
@@ -90,7 +85,7 @@ void take(Pipe& pipe, std::string& text) {
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                    const std::string& input, milliseconds patience) {
   std::vector<std::string> owned = command;
-  const std::vector<char*> words = words_of(owned);
+  const std::vector<char*> words = arguments_of(owned);
   Pipe in(owned[0]), out(owned[0]), errors(owned[0]);
   const pid_t child = fork();
   if (child < 0) throw_no_start(owned[0]);
@@ -120,14 +115,14 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   if (out.reader() >= 0 || errors.reader() >= 0) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  end.code = code_of(status);
+  end.code = exit_code_of(status);
   return end;
 }
 
 void start_apart(const std::vector<std::string>& command, const std::filesystem::path& folder,
                  const std::function<bool()>& is_ready, milliseconds patience) {
   std::vector<std::string> owned = command;
-  const std::vector<char*> words = words_of(owned);
+  const std::vector<char*> words = arguments_of(owned);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   Pipe errors(owned[0]);
   // The child leaves at once; its own child belongs to nobody, and nobody need wait for its end.

@@ -16,13 +16,14 @@ struct ChildEnd {
 };
 
 /// Runs a program in a folder with `input` on its standard input, and waits for it; after `patience` it is killed.
-/// Throws IoError if it cannot be started. May be called by several threads at once, as all functions here.
+/// A program that cannot be started says so and has code 127; IoError if there is no process for it. May be called by
+/// several threads at once, as all functions here.
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                    const std::string& input, std::chrono::milliseconds patience);
 
 /// Starts a program in a folder that goes on when this one ends, in a session of its own. Waits until it `is_ready`,
-/// has ended, or `patience` is over. Throws InputError with what it said if it has ended before it was ready; IoError
-/// if it cannot be started.
+/// has ended, or `patience` is over. Throws InputError with what it said if it has ended before it was ready, or could
+/// not be started; IoError if there is no process for it.
 void start_apart(const std::vector<std::string>& command, const std::filesystem::path& folder,
                  const std::function<bool()>& is_ready, std::chrono::milliseconds patience);
 

@@ -22,9 +22,7 @@ namespace {
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   if (standard_error != STDERR_FILENO) dup2(standard_error, STDERR_FILENO);
-  std::vector<char*> words;
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
+  const std::vector<char*> words = arguments_of(command);
   execvp(words[0], words.data());
   const int error_number = errno;
   [[maybe_unused]] const ssize_t written = write(failure, &error_number, sizeof(error_number));
@@ -77,8 +75,17 @@ pid_t AwaitedSignals::start(std::vector<std::string> command, int standard_error
 std::optional<int> ending_of(pid_t process) {
   int status = 0;
   if (waitpid(process, &status, WNOHANG) == 0) return std::nullopt;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return exit_code_of(status);
 }
+
+std::vector<char*> arguments_of(std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
+int exit_code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 bool is_own_exit_code(int code) { return code == 0 || code == 2 || code == 3 || code == 4; }
 

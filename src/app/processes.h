@@ -38,6 +38,12 @@ class AwaitedSignals {
 /// Exit code of a process that has ended, or 128 and the number of the signal that ended it; nothing while it goes on.
 std::optional<int> ending_of(pid_t process);
 
+/// A command as execv takes it; it points into the words.
+std::vector<char*> arguments_of(std::vector<std::string>& words);
+
+/// Exit code of a process, or 128 and the number of the signal that ended it, from the status that waitpid gives.
+int exit_code_of(int status);
+
 /// Is this one of the exit codes with which a command of this program ends in order, other than by a request?
 bool is_own_exit_code(int code);
 

@@ -114,10 +114,10 @@ std::string score_at(const Scores& scores, const std::string& name, const char* 
 }
 
 /// Of all measurements of all members, in the order of their names.
-std::set<std::string> measured_in(const std::filesystem::path& sweep, const SweepPlan& plan) {
+std::set<std::string> measured_in(const std::vector<nlohmann::json>& summaries) {
   std::set<std::string> names;
-  for (const SweepMember& member : plan.members) {
-    for (const auto& [name, score] : scores_of(summary_of(sweep / member.folder))) names.insert(name);
+  for (const nlohmann::json& summary : summaries) {
+    for (const auto& [name, score] : scores_of(summary)) names.insert(name);
   }
   return names;
 }
@@ -134,7 +134,9 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   for (const std::string& key : plan.keys) names.push_back(quoted_field(key));
   names.insert(names.end(), {"status", "exit_code"});
   for (const SummaryColumn& column : summary_columns) names.emplace_back(column.name);
-  const std::set<std::string> measured = measured_in(sweep, plan);
+  std::vector<nlohmann::json> summaries;
+  for (const SweepMember& member : plan.members) summaries.push_back(summary_of(sweep / member.folder));
+  const std::set<std::string> measured = measured_in(summaries);
   for (const std::string& name : measured) {
     for (const ScoreColumn& column : score_columns) names.push_back(quoted_field(name + "_" + column.name));
   }
@@ -142,7 +144,7 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   std::string table = fmt::format("{}\n", fmt::join(names, ","));
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     const SweepMember& member = plan.members[m];
-    nlohmann::json summary = summary_of(sweep / member.folder);
+    nlohmann::json& summary = summaries[m];
     const std::string status = status_of(summary, news[m]);
     if (status == "running") summary = nlohmann::json::object();  // of its start, or of an earlier part
     std::vector<std::string> fields{quoted_field(member.folder)};
