@@ -1,12 +1,12 @@
 #include "run/frame_output.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/for_each.h"
 #include "geometry/boundary.h"
+#include "parallel/together.h"
 #include "view/scene.h"
 
 namespace tailwater {
@@ -33,27 +33,27 @@ std::vector<AffineMap<Dim>> poses_of(const Flow<Dim>& flow) {
 template <int Dim>
 FrameOutput<Dim>::FrameOutput(const CaseSpec& spec, const RunFolder& folder, const Flow<Dim>& flow)
     : series_(folder.view(), spec.particles.spacing, flow.box()),
-      interval_(spec.output.view_interval > 0.0 ? spec.output.view_interval : spec.time.end / default_frames) {}
+      schedule_(spec.output.view_interval > 0.0 ? spec.output.view_interval : spec.time.end / default_frames) {}
 
 template <int Dim>
 void FrameOutput<Dim>::begin(const CaseSpec& spec, const Flow<Dim>& flow) {
   // Walls of the flow are where they are now; a viewer moves them from where they are drawn.
-  const bool is_root = flow.setup.ranks.is_root();
-  const std::string scene = is_root ? scene_json<Dim>(spec, make_boundary<Dim>(spec)).dump() + "\n" : "";
+  std::string scene;
+  do_on_root(flow.setup.ranks, [&] { scene = scene_json<Dim>(spec, make_boundary<Dim>(spec)).dump() + "\n"; });
   series_.write_beside(scene_name, scene, flow.setup.ranks);
 }
 
 template <int Dim>
 void FrameOutput<Dim>::write_due(const Flow<Dim>& flow) {
-  if (flow.state.time < next_) return;
+  if (!schedule_.is_due(flow.state.time)) return;
   write(flow);
-  next_ = due_after(flow.state.time);
+  schedule_.set_next(flow.state.time);
 }
 
 template <int Dim>
 void FrameOutput<Dim>::write(const Flow<Dim>& flow) {
-  if (last_time_ == flow.state.time) return;
-  last_time_ = flow.state.time;
+  if (schedule_.last() == flow.state.time) return;
+  schedule_.set_last(flow.state.time);
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<std::size_t> fluid =
       indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
@@ -74,21 +74,16 @@ void FrameOutput<Dim>::write(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-double FrameOutput<Dim>::due_after(double time) const {
-  return (std::floor(time / interval_) + 1.0) * interval_;
-}
-
-template <int Dim>
 nlohmann::json FrameOutput<Dim>::saved() const {
-  return {{"count", series_.size()}, {"interval", interval_}, {"next", next_}, {"last", last_time_}};
+  nlohmann::json saved = schedule_.saved();
+  saved["count"] = series_.size();
+  return saved;
 }
 
 template <int Dim>
 void FrameOutput<Dim>::take_up(const nlohmann::json& saved, const Communicator& ranks) {
   series_.go_on(saved.at("count"), ranks);
-  next_ = saved.at("next");
-  last_time_ = saved.at("last");
-  if (saved.at("interval") != interval_) next_ = due_after(last_time_);
+  schedule_.take_up(saved);
 }
 
 template class FrameOutput<2>;

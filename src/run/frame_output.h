@@ -6,6 +6,7 @@
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "io/run_folder.h"
+#include "run/schedule.h"
 #include "view/frame_series.h"
 
 namespace tailwater {
@@ -27,12 +28,8 @@ class FrameOutput {
   void take_up(const nlohmann::json& saved, const Communicator& ranks);
 
  private:
-  double due_after(double time) const;
-
   FrameSeries<Dim> series_;
-  double interval_;          ///< s
-  double next_ = 0.0;        ///< s
-  double last_time_ = -1.0;  ///< s; of the last frame
+  Schedule schedule_;
 };
 
 }  // namespace tailwater

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -91,7 +90,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       statistics_(measure(flow)),
       limits_(spec.limits, flow),
       water_at_start_(water_in(flow)),
-      fields_interval_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
+      fields_schedule_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
                                                          : spec.time.end / default_field_files),
       cpu_start_(cpu_seconds_of_process()) {
   do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), kept_bytes(kept, "steps")); });
@@ -113,15 +112,13 @@ template <int Dim>
 nlohmann::json RunOutput<Dim>::saved() const {
   nlohmann::json probes = nlohmann::json::array();
   for (const ProbeMark& mark : probes_.marks()) probes.push_back({{"taken", mark.taken}, {"bytes", mark.size}});
+  nlohmann::json fields = fields_schedule_.saved();
+  fields["times"] = series_.times();
+  fields["wall_times"] = wall_series_.times();
   return {{"case_file", case_file_},
           {"bytes", {{"steps", step_log_ ? step_log_->csv().size() : 0}, {"ranks", rank_log_.size()}}},
           {"probes", probes},
-          {"fields",
-           {{"times", series_.times()},
-            {"wall_times", wall_series_.times()},
-            {"interval", fields_interval_},
-            {"next", next_fields_},
-            {"last", last_fields_time_}}},
+          {"fields", fields},
           {"view", frames_.saved()},
           {"statistics", statistics_.saved()},
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
@@ -141,9 +138,7 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   const nlohmann::json& fields = kept.at("fields");
   series_.go_on(fields.at("times"), ranks_);
   wall_series_.go_on(fields.at("wall_times"), ranks_);
-  last_fields_time_ = fields.at("last");
-  next_fields_ = fields.at("next");
-  if (fields.at("interval") != fields_interval_) next_fields_ = fields_due_after(last_fields_time_);
+  fields_schedule_.take_up(fields);
   frames_.take_up(kept.at("view"), ranks_);
   statistics_.restore(kept.at("statistics"));
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
@@ -183,21 +178,16 @@ void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
 template <int Dim>
 void RunOutput<Dim>::write_due_fields(const Flow<Dim>& flow) {
   frames_.write_due(flow);
-  if (flow.state.time < next_fields_) return;
+  if (!fields_schedule_.is_due(flow.state.time)) return;
   write_fields(flow);
   probes_.write_maps(folder_, flow.state.time, ranks_);
-  next_fields_ = fields_due_after(flow.state.time);
-}
-
-template <int Dim>
-double RunOutput<Dim>::fields_due_after(double time) const {
-  return (std::floor(time / fields_interval_) + 1.0) * fields_interval_;
+  fields_schedule_.set_next(flow.state.time);
 }
 
 template <int Dim>
 void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
-  if (last_fields_time_ == flow.state.time && series_.size() > 0) return;
-  last_fields_time_ = flow.state.time;
+  if (fields_schedule_.last() == flow.state.time && series_.size() > 0) return;
+  fields_schedule_.set_last(flow.state.time);
   const FluidFields<Dim> fields(flow, flow.state.particles, spec_.output.fields);
   series_.write(flow.state.time, fields.view(), ranks_);
   // Walls at rest are written once, in 3D: a picture needs them, and no chain of points in the case tells of a mesh.
@@ -372,6 +362,10 @@ void RunOutput<Dim>::tell_results() const {
   }
   for (std::size_t k = 0; k < std::min(scores_.size(), most_told); ++k) {
     tell(fmt::format("{}: {}", scores_[k].probe, scores_[k].words()));
+  }
+  if (scores_.size() > most_told) {
+    tell(fmt::format("and {} more measurements: tailwater info {}", scores_.size() - most_told,
+                     folder_.path().string()));
   }
 }
 

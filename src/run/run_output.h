@@ -23,6 +23,7 @@
 #include "run/rank_log.h"
 #include "run/result_limits.h"
 #include "run/run_options.h"
+#include "run/schedule.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
 #include "run/water_books.h"
@@ -76,7 +77,6 @@ class RunOutput {
   void require_folder_in_place();
   double wall_seconds() const;  ///< of the earlier runs too, as the next
   double cpu_seconds() const;   ///< of all ranks; collective
-  double fields_due_after(double time) const;
   void write_fields(const Flow<Dim>& flow);
   void warn_if_outside(const Flow<Dim>& flow, std::size_t outside);
   void write_summary(const Flow<Dim>& flow, const std::string& status, std::optional<ExitCode> code,
@@ -102,9 +102,7 @@ class RunOutput {
   std::vector<ProbeResult> results_;  ///< at the end, on the root
   std::vector<MeasurementScore> scores_;
   Water water_at_start_;
-  double fields_interval_;    ///< s
-  double next_fields_ = 0.0;  ///< s
-  double last_fields_time_ = -1.0;
+  Schedule fields_schedule_;
   bool warned_outside_ = false;
   EndWatch end_watch_;
   Clock::time_point start_ = Clock::now();

@@ -1,0 +1,36 @@
+// When an output is due that comes at whole multiples of an interval, at the first step at or after each.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace tailwater {
+
+class Schedule {
+ public:
+  /// `interval` [s] is above 0.
+  explicit Schedule(double interval) : interval_(interval) {}
+
+  bool is_due(double time) const { return time >= next_; }
+  /// At the time of an output, when the one that was due is done.
+  void set_next(double time) { next_ = (std::floor(time / interval_) + 1.0) * interval_; }
+
+  /// s; of the last output, or -1.
+  double last() const { return last_; }
+  void set_last(double time) { last_ = time; }
+
+  /// For a checkpoint, and from one of a run whose interval may have been another.
+  nlohmann::json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
+  void take_up(const nlohmann::json& saved) {
+    saved.at("next").get_to(next_);
+    saved.at("last").get_to(last_);
+    if (saved.at("interval") != interval_) set_next(last_);
+  }
+
+ private:
+  double interval_;     ///< s
+  double next_ = 0.0;   ///< s
+  double last_ = -1.0;  ///< s
+};
+
+}  // namespace tailwater
