@@ -21,11 +21,11 @@ constexpr std::array<Unit, 6> discharge_units{
     {{"m^3/s", 1.0}, {"m3/s", 1.0}, {"m^2/s", 1.0}, {"m2/s", 1.0}, {"l/s", 1e-3}, {"m^3/h", 1.0 / 3600.0}}};
 
 // What 2D gives per metre of width may be written so, or not.
-constexpr std::array<Unit, 3> volume_units{{{"m^3", 1.0}, {"m3", 1.0}, {"l", 1e-3}}};
+constexpr std::array<Unit, 5> volume_units{{{"m^3", 1.0}, {"m3", 1.0}, {"l", 1e-3}, {"m^3/m", 1.0}, {"l/m", 1e-3}}};
 constexpr std::array<Unit, 5> pressure_units{{{"pa", 1.0}, {"hpa", 1e2}, {"kpa", 1e3}, {"mbar", 1e2}, {"bar", 1e5}}};
 constexpr std::array<Unit, 4> force_units{{{"n", 1.0}, {"kn", 1e3}, {"n/m", 1.0}, {"kn/m", 1e3}}};
 constexpr std::array<Unit, 4> moment_units{{{"n m", 1.0}, {"kn m", 1e3}, {"n m/m", 1.0}, {"kn m/m", 1e3}}};
-constexpr std::array<Unit, 3> energy_units{{{"j", 1.0}, {"kj", 1e3}, {"j/m", 1.0}}};
+constexpr std::array<Unit, 4> energy_units{{{"j", 1.0}, {"kj", 1e3}, {"j/m", 1.0}, {"kj/m", 1e3}}};
 
 class SeriesFile : ColumnFile {
  public:
@@ -149,11 +149,15 @@ class SeriesFile : ColumnFile {
     }
   }
 
-  /// The first column of time, and the one that is measured.
+  /// The column of time, and the one that is measured.
   void choose_measured(const std::vector<std::string_view>& fields) {
     std::vector<std::string> headings;
     for (const std::string_view field : fields) headings.push_back(Heading(field).name);
-    const auto time = std::ranges::find_if(fields, [](auto field) { return is_time(Heading(field)); }) - fields.begin();
+    const auto names_time = [](auto field) { return is_time(Heading(field)); };
+    if (std::ranges::count_if(fields, names_time) > 1) {
+      wrong("names more than one column of time; keep the one that the values go with");
+    }
+    const auto time = std::ranges::find_if(fields, names_time) - fields.begin();
     auto measured = std::ranges::find_if(names_, [&](std::string_view name) {
       return std::ranges::find(headings, lower_case_of(name)) != headings.end();
     });

@@ -194,6 +194,7 @@ TEST_F(GaugeFile, IsRefusedWithPlaceAndRemedy) {
            Bad{"\"H2\"", "t [s], H2 [m]\n0, 1\n1, x\n", {"gauge.csv:3", "\"x\" is not a number"}},
            Bad{"\"H2\"", "t [s], H2 [m]\n0, 1\n", {"1 lines of numbers", "at least two"}},
            Bad{"\"H2\"", "H2 [m]\n0\n", {"does not name the column t"}},
+           Bad{"\"H2\"", "t [s], H2 [m], time [ms]\n0, 1, 0\n", {"gauge.csv:1", "more than one column of time"}},
            Bad{"\"H2\"",
                "t [s], H2 [m]\n-5, 1\n-4, 1\n",
                {"ends at t = -4 s, where the run begins", "zero of its times"}},
