@@ -52,7 +52,7 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
                                unknown_name_hint(measurement.probe, names_in(spec.probes, &ProbeTable::name))));
     return;
   }
-  const std::vector<SeriesColumn> columns = columns_of(probe->type, spec.general.dimension);
+  const std::vector<SeriesColumn> columns = columns_of(*probe, spec.general.dimension);
   if (columns.empty()) {
     reporter.wrong("probe",
                    fmt::format("the table of a {} probe has several lines of one time; give a probe of another "

@@ -7,38 +7,32 @@
 namespace tailwater {
 namespace {
 
-/// How names of columns end.
-std::span<const std::string_view> endings_of(Measure measure) {
-  static constexpr std::array<std::string_view, 1> lengths{"m"};
-  static constexpr std::array<std::string_view, 1> angles{"rad"};
-  static constexpr std::array<std::string_view, 2> speeds{"m_s", "m_per_s"};
-  static constexpr std::array<std::string_view, 1> discharges{"m3_per_s"};
-  static constexpr std::array<std::string_view, 1> volumes{"m3"};
-  static constexpr std::array<std::string_view, 1> pressures{"Pa"};
-  static constexpr std::array<std::string_view, 2> forces{"N", "N_per_m"};
-  static constexpr std::array<std::string_view, 2> moments{"N_m", "N_m_per_m"};
-  static constexpr std::array<std::string_view, 1> energies{"J"};
-  switch (measure) {
-    case Measure::length:
-      return lengths;
-    case Measure::angle:
-      return angles;
-    case Measure::speed:
-      return speeds;
-    case Measure::discharge:
-      return discharges;
-    case Measure::volume:
-      return volumes;
-    case Measure::pressure:
-      return pressures;
-    case Measure::force:
-      return forces;
-    case Measure::moment:
-      return moments;
-    case Measure::energy:
-      break;
-  }
-  return energies;
+/// How names of columns end, and the unit that it says.
+struct Ending {
+  std::string_view text;
+  const char* unit;
+  const char* unit_2d;
+};
+
+// Longer ones before those that they end with.
+constexpr std::array endings{
+    Ending{"_m3_per_s", "m^3/s", "m^3/s per m"},
+    Ending{"_N_m_per_m", "N m/m", "N m/m"},
+    Ending{"_N_per_m", "N/m", "N/m"},
+    Ending{"_N_m", "N m", "N m"},
+    Ending{"_m_per_s", "m/s", "m/s"},
+    Ending{"_m_s", "m/s", "m/s"},
+    Ending{"_m3", "m^3", "m^3 per m"},
+    Ending{"_rad", "rad", "rad"},
+    Ending{"_Pa", "Pa", "Pa"},
+    Ending{"_J", "J", "J per m"},
+    Ending{"_N", "N", "N"},
+    Ending{"_m", "m", "m"},
+};
+
+const Ending* ending_of(std::string_view column) {
+  const auto* found = std::ranges::find_if(endings, [&](const Ending& one) { return column.ends_with(one.text); });
+  return found == endings.end() ? nullptr : found;
 }
 
 constexpr std::array<SeriesColumn, 7> forces{{{"force_x", Measure::force},
@@ -118,19 +112,23 @@ bool is_of_dimension(std::string_view name, int dimension) {
 
 }  // namespace
 
-std::vector<SeriesColumn> columns_of(ProbeType type, int dimension) {
+std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension) {
   std::vector<SeriesColumn> columns;
-  for (const SeriesColumn& column : all_columns_of(type)) {
-    if (is_of_dimension(column.name, dimension)) columns.push_back(column);
+  for (const SeriesColumn& column : all_columns_of(probe.type)) {
+    const bool is_written = column.measure != Measure::moment || !probe.moment_about.empty();
+    if (is_written && is_of_dimension(column.name, dimension)) columns.push_back(column);
   }
   return columns;
 }
 
 bool is_heading_of(const SeriesColumn& column, std::string_view heading) {
-  if (!heading.starts_with(column.name)) return false;
-  heading.remove_prefix(column.name.size());
-  if (!heading.starts_with('_')) return false;
-  return std::ranges::find(endings_of(column.measure), heading.substr(1)) != endings_of(column.measure).end();
+  const auto* ending = ending_of(heading);
+  return ending != nullptr && heading.substr(0, heading.size() - ending->text.size()) == column.name;
+}
+
+std::string unit_of_column(std::string_view column, int dimension) {
+  const auto* ending = ending_of(column);
+  return ending == nullptr ? "" : dimension == 2 ? ending->unit_2d : ending->unit;
 }
 
 }  // namespace tailwater

@@ -1,18 +1,23 @@
 // The columns of probes' tables that hold one quantity over time, with which a measurement can be compared.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "case/choices.h"
+#include "case/spec.h"
 #include "case/time_series.h"
 
 namespace tailwater {
 
-/// Those of a probe of this type, the first its default; none where its table has several lines of one time.
-std::vector<SeriesColumn> columns_of(ProbeType type, int dimension);
+/// Those that the probe writes, the first its default; none where its table has several lines of one time.
+std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension);
 
 /// Whether a heading of a table, as in "force_x_N_per_m", is that of the column.
 bool is_heading_of(const SeriesColumn& column, std::string_view heading);
+
+/// The unit of a column by the end of its name. In 2D a force is per metre of width, as its column says; an energy and
+/// a volume are too, which theirs do not say.
+std::string unit_of_column(std::string_view column, int dimension);
 
 }  // namespace tailwater

@@ -117,7 +117,7 @@ std::string MeasurementScore::words() const {
 std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const RunFolder& folder) {
   std::vector<MeasurementScore> scores;
   for (const MeasurementTable& measurement : spec.measurements) {
-    const std::vector<SeriesColumn> columns = columns_of(probe_of(measurement, spec).type, spec.general.dimension);
+    const std::vector<SeriesColumn> columns = columns_of(probe_of(measurement, spec), spec.general.dimension);
     const auto column = std::ranges::find(columns, measurement.column, &SeriesColumn::name);
     TAILWATER_ASSERT(column != columns.end(), "a measurement has a column of its probe");
     const ProbeColumn found = read_probe_column(

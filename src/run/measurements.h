@@ -47,7 +47,7 @@ struct MeasurementScore {
 
   /// Whether the rms, with the best shift, is no more than the scatter.
   bool is_inside() const { return scatter > 0.0 && shifted.rms <= scatter; }
-  /// "rms 0.0041 m, bias +0.0012 m against gauge.csv ..."
+  /// "connected_m against gauge.csv, 50 samples of 0 to 2 s: rms 0.0041 m, bias +0.0012 m ..."
   std::string words() const;
 };
 

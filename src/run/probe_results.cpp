@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "case/probe_columns.h"
 #include "run/probe_table.h"
 
 namespace tailwater {
@@ -149,33 +150,6 @@ std::string number_in_words(double value) {
 }
 
 }  // namespace
-
-std::string unit_of_column(std::string_view column, int dimension) {
-  struct Ending {
-    std::string_view text;
-    const char* unit;
-    const char* unit_2d;
-  };
-  // Longer ones before those that they end with.
-  static constexpr std::array endings{
-      Ending{"_m3_per_s", "m^3/s", "m^3/s per m"},
-      Ending{"_N_m_per_m", "N m/m", "N m/m"},
-      Ending{"_N_per_m", "N/m", "N/m"},
-      Ending{"_N_m", "N m", "N m"},
-      Ending{"_m_per_s", "m/s", "m/s"},
-      Ending{"_m_s", "m/s", "m/s"},
-      Ending{"_m3", "m^3", "m^3 per m"},
-      Ending{"_rad", "rad", "rad"},
-      Ending{"_Pa", "Pa", "Pa"},
-      Ending{"_J", "J", "J per m"},
-      Ending{"_N", "N", "N"},
-      Ending{"_m", "m", "m"},
-  };
-  for (const Ending& ending : endings) {
-    if (column.ends_with(ending.text)) return dimension == 2 ? ending.unit_2d : ending.unit;
-  }
-  return "";
-}
 
 std::string ProbeResult::words() const {
   std::string text;

@@ -32,10 +32,6 @@ struct ProbeResult {
   std::string words() const;
 };
 
-/// The unit of a column by the end of its name. In 2D a force is per metre of width, as its column says; an energy and
-/// a volume are too, which theirs do not say.
-std::string unit_of_column(std::string_view column, int dimension);
-
 /// Of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws IoError if a
 /// table cannot be read.
 std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time);
