@@ -93,6 +93,17 @@ void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, 
   add_names("wave_maker", spec.wave_makers);
 }
 
+/// Reports a `name` under `key`, as in "mooring[0].body", that none of `targets`, tables of one kind, has.
+template <class Target>
+void check_name(const std::string& name, const std::vector<Target>& targets, std::string_view kind,
+                std::string_view key, const toml::node& node, Problems& problems) {
+  std::vector<std::string_view> names;
+  for (const Target& target : targets) names.push_back(target.name);
+  if (std::ranges::find(names, name) != names.end()) return;
+  problems.add(&node.source(), fmt::format("{} = {}: there is no {} \"{}\"; {}", key, value_text(node), kind, name,
+                                           unknown_name_hint(name, names)));
+}
+
 /// A body is made of walls that nothing else moves.
 void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   std::map<std::string_view, std::string_view> body_of_wall;
@@ -105,9 +116,8 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
     for (const std::string& name : body.walls) {
       const auto wall = std::ranges::find(spec.walls, name, &WallTable::name);
       if (wall == spec.walls.end()) {
-        std::vector<std::string_view> names;
-        for (const WallTable& other : spec.walls) names.push_back(other.name);
-        wrong(fmt::format("there is no wall \"{}\"; {}", name, unknown_name_hint(name, names)));
+        check_name(name, spec.walls, "wall", fmt::format("body[{}].walls", k), *root["body"][k]["walls"].node(),
+                   problems);
         continue;
       }
       const auto varies = [](const Varying& value) { return value != Varying(0.0); };
@@ -144,17 +154,6 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
     problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.formulation = \"{}\"; remove it",
                                              key.str(), value_text(node), name_of(spec.scheme.formulation)));
   }
-}
-
-/// Reports a `name` under `key`, as in "mooring[0].body", that none of `targets`, tables of one kind, has.
-template <class Target>
-void check_name(const std::string& name, const std::vector<Target>& targets, std::string_view kind,
-                std::string_view key, const toml::node& node, Problems& problems) {
-  std::vector<std::string_view> names;
-  for (const Target& target : targets) names.push_back(target.name);
-  if (std::ranges::find(names, name) != names.end()) return;
-  problems.add(&node.source(), fmt::format("{} = {}: there is no {} \"{}\"; {}", key, value_text(node), kind, name,
-                                           unknown_name_hint(name, names)));
 }
 
 void check_names_of_others(const CaseSpec& spec, const toml::table& root, Problems& problems) {

@@ -180,8 +180,7 @@ std::string study_reference_markdown() {
       "The keys of [study] change parts of the robust formulations, so that a study can show what each is worth "
       "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
       "The published formulations have none of them. [limits] says at which errors of its energy and volume a run "
-      "warns "
-      "or ends; [parallel] is for who measures runs on several ranks.\n");
+      "warns or ends; [parallel] is for who measures runs on several ranks.\n");
   for (const TableInfo& table : case_tables()) {
     if (is_for_studies(table)) text += markdown_of(table);
   }

@@ -22,7 +22,8 @@ std::string case_reference_json();
 /// marks. It sees one key at a time, and which keys go together; it knows no expressions, shapes or files.
 std::string case_schema();
 
-/// For `tailwater run --help-case=study`: the keys of [study] alone, docs/reference/study-keys.md.
+/// For `tailwater run --help-case=study`: the keys that no case needs,
+/// docs/reference/study-keys.md.
 std::string study_reference_markdown();
 
 }  // namespace tailwater

@@ -15,11 +15,10 @@ bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-bool mentions(const KeyUse& use, std::string_view key) {
-  return contains(use.needed, key) || contains(use.possible, key);
-}
-
 }  // namespace
+
+bool KeyUse::needs(std::string_view key) const { return contains(needed, key); }
+bool KeyUse::mentions(std::string_view key) const { return needs(key) || contains(possible, key); }
 
 std::span<const KeyUse> key_uses() {
   static const std::vector<KeyUse> uses{
@@ -73,7 +72,7 @@ std::span<const KeyUse> key_uses() {
 KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows) {
   std::string_view selector;
   for (const KeyUse& use : key_uses()) {
-    if (use.table == table && mentions(use, key)) {
+    if (use.table == table && use.mentions(key)) {
       selector = use.selector;
     }
   }
@@ -84,7 +83,7 @@ KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<c
   TAILWATER_ASSERT(row != rows.end(), "a selector is a key of its table");
   for (const KeyUse& use : key_uses()) {
     if (use.table == table && use.selector == selector && toml_string(use.choice) == row->value) {
-      const KeyNeed need = contains(use.needed, key)     ? KeyNeed::needed
+      const KeyNeed need = use.needs(key)                ? KeyNeed::needed
                            : contains(use.possible, key) ? KeyNeed::possible
                                                          : KeyNeed::unused;
       return {need, &use};
@@ -97,9 +96,9 @@ KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<c
 std::string key_use_text(std::string_view table, std::string_view key) {
   std::string text;
   for (const KeyUse& use : key_uses()) {
-    if (use.table == table && mentions(use, key)) {
+    if (use.table == table && use.mentions(key)) {
       text += text.empty() ? fmt::format("{} = ", use.selector) : ", ";
-      text += fmt::format("\"{}\"{}", use.choice, contains(use.needed, key) ? " (needed)" : "");
+      text += fmt::format("\"{}\"{}", use.choice, use.needs(key) ? " (needed)" : "");
     }
   }
   return text;

@@ -18,6 +18,9 @@ struct KeyUse {
   std::string_view choice;
   std::vector<std::string_view> needed;
   std::vector<std::string_view> possible;
+
+  bool needs(std::string_view key) const;
+  bool mentions(std::string_view key) const;  ///< as needed or possible
 };
 
 std::span<const KeyUse> key_uses();

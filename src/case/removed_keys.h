@@ -10,8 +10,8 @@ namespace tailwater {
 struct RemovedKey {
   std::string_view table;
   std::string_view key;
-  std::string_view fate;       ///< what a message says of it, as in "was removed: ..."
-  std::string_view successor;  ///< the key of [study] that has its value today; empty: none
+  std::string_view fate;            ///< what a message says of it, as in "was removed: ..."
+  std::string_view successor = {};  ///< the key of [study] that has its value today; empty: none
 };
 
 /// Those that `tailwater migrate` changes: of tables of which a case has one.

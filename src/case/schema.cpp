@@ -83,10 +83,6 @@ std::string tooltip(std::string_view table, const KeyInfo& key) {
   return use.empty() ? text : fmt::format("{}. Goes with {}", text, use);
 }
 
-bool lists(const std::vector<std::string_view>& keys, std::string_view key) {
-  return std::ranges::find(keys, key) != keys.end();
-}
-
 /// What one choice asks for, and the keys that it leaves to the others of its selector.
 Json rule_of(const KeyUse& use, const TableInfo& table) {
   const auto info = std::ranges::find(table.keys, use.selector, &KeyInfo::key);
@@ -96,11 +92,10 @@ Json rule_of(const KeyUse& use, const TableInfo& table) {
   Json then = Json::object();
   if (!use.needed.empty()) then["required"] = use.needed;
   for (const KeyInfo& key : table.keys) {
-    if (lists(use.needed, key.key) && key.type == "text") then["properties"][key.key] = {{"minLength", 1}};
-    if (lists(use.needed, key.key) || lists(use.possible, key.key)) continue;
+    if (use.needs(key.key) && key.type == "text") then["properties"][key.key] = {{"minLength", 1}};
+    if (use.mentions(key.key)) continue;
     const bool is_of_another = std::ranges::any_of(key_uses(), [&](const KeyUse& other) {
-      return other.table == use.table && other.selector == use.selector &&
-             (lists(other.needed, key.key) || lists(other.possible, key.key));
+      return other.table == use.table && other.selector == use.selector && other.mentions(key.key);
     });
     if (is_of_another) then["properties"][key.key] = false;
   }

@@ -345,7 +345,6 @@ struct WaveMakerTable {
   double period = 0.0;
   int order = 2;
   double peak_enhancement = 3.3;
-  int components = 200;  ///< no key: enough for any record that is not periodic within the run
   int seed = 1;
   double start = 0.0;
   double ramp = 0.0;
@@ -833,7 +832,7 @@ struct Parameter {
   bool operator==(const Parameter&) const = default;
 };
 
-/// A whole case, each key read and validated; the geometry as a whole is checked in geometry/check.h.
+/// A whole case, each key read and validated; the geometry as a whole is checked in checks/check.h.
 struct CaseSpec {
   std::vector<Parameter> parameters;
   CaseTable general;

@@ -18,6 +18,9 @@ constexpr double phase_at_start = -3.8;
 constexpr double lowest_frequency = 0.5;
 constexpr double highest_frequency = 3.0;
 
+/// Sines of irregular waves.
+constexpr int components = 200;
+
 /// Largest height of a periodic wave over its length, and over tanh kh: R. Miche (1944).
 constexpr double steepest = 0.142;
 
@@ -103,11 +106,11 @@ PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double
     return;
   }
   const auto seed = static_cast<std::uint64_t>(maker.seed);
-  const double width = (highest_frequency - lowest_frequency) / maker.components;
+  const double width = (highest_frequency - lowest_frequency) / components;
   double energy = 0.0;
   std::vector<double> amplitudes;
   std::vector<double> frequencies;
-  for (int n = 0; n < maker.components; ++n) {
+  for (int n = 0; n < components; ++n) {
     // Anywhere in its own bin, so that the waves do not repeat themselves.
     const double f = lowest_frequency + width * (n + 0.5 + 0.5 * random_number(seed, static_cast<std::uint64_t>(n), 0));
     frequencies.push_back(f);
@@ -115,7 +118,7 @@ PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double
     energy += 0.5 * amplitudes.back() * amplitudes.back();
   }
   const double factor = 0.25 * maker.height / std::sqrt(energy);  // H_m0 = 4 sqrt(m_0)
-  for (int n = 0; n < maker.components; ++n) {
+  for (int n = 0; n < components; ++n) {
     const double phase = std::numbers::pi * random_number(seed, static_cast<std::uint64_t>(n), 1);
     sines_.push_back(sine(2.0 * std::numbers::pi * frequencies[n] / maker.period, factor * amplitudes[n], phase));
   }
