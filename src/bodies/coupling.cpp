@@ -50,10 +50,15 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
     scale_[static_cast<Eigen::Index>(w)] = bodies[freedoms_[w].body].scale()[freedoms_[w].entry];
   }
   push_ = Eigen::VectorXd::Zero(scale_.size());
-  before_ = flow.state.motion.bodies.each;
-  for (std::size_t b = 0; b < before_.size(); ++b) before_[b].velocity = start.body_velocity[b];
-  one_sided_ = find_contacts<Dim>(flow, before_, dt, freedoms_);
-  std::ranges::move(find_moorings<Dim>(flow.setup, before_, freedoms_), std::back_inserter(one_sided_));
+  std::vector<BodyState<Dim>> before = flow.state.motion.bodies.each;
+  const std::vector<Twist<Dim>> frictions = forces_.of_friction();
+  for (std::size_t b = 0; b < before.size(); ++b) {
+    before[b].velocity = start.body_velocity[b];
+    loads_.push_back(bodies[b].load(before[b], flow.setup.gravity) + frictions[b] + before[b].carried_over / dt);
+    if (!flow.loads.on_bodies.empty()) loads_[b] += flow.loads.on_bodies[b];
+  }
+  one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
+  std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
 }
 
 template <int Dim>
@@ -89,20 +94,17 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   finish_pressure(flow_, drive_);
   const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
   flow_.state.particles.pressure = solved;
-  const std::vector<Twist<Dim>> frictions = forces_.of_friction();
   Eigen::VectorXd g(scale_.size());
-  Eigen::VectorXd loads(scale_.size());
+  Eigen::VectorXd forces(scale_.size());
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
     const auto [b, entry] = freedoms_[w];
     const FloatingBody<Dim>& body = flow_.setup.bodies[b];
     const BodyState<Dim>& state = flow_.state.motion.bodies.each[b];
-    Twist<Dim> load = body.load(before_[b], flow_.setup.gravity) + frictions[b] + state.carried_over / dt_;
-    if (!flow_.loads.on_bodies.empty()) load += flow_.loads.on_bodies[b];
     const auto k = static_cast<Eigen::Index>(w);
-    loads[k] = std::max({std::abs(load[entry]), std::abs(pressures[b][entry]), std::abs(push_[k])});
-    g[k] = body.force_of(state, state.acceleration)[entry] - pressures[b][entry] - load[entry];
+    forces[k] = std::max({std::abs(loads_[b][entry]), std::abs(pressures[b][entry]), std::abs(push_[k])});
+    g[k] = body.force_of(state, state.acceleration)[entry] - pressures[b][entry] - loads_[b][entry];
   }
-  largest_force_ = size(loads);
+  largest_force_ = size(forces);
   return g - push_;
 }
 

@@ -64,8 +64,8 @@ class BodyCoupling {
   ForcesOnBodies<Dim> forces_;
   std::vector<CoveredParticle> covered_;
   std::vector<Freedom> freedoms_;
-  Eigen::VectorXd scale_;                 ///< mass or moment of inertia of each degree of freedom
-  std::vector<BodyState<Dim>> before_;    ///< the bodies as they are at the start of the step
+  Eigen::VectorXd scale_;          ///< mass or moment of inertia of each degree of freedom
+  std::vector<Twist<Dim>> loads_;  ///< on each body: all but pressure, contacts and lines; the same in all passes
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
   Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom
   double largest_force_ = 0.0;            ///< size of the largest force in the last residual

@@ -44,12 +44,9 @@ class ForceSums {
 template <int Dim>
 std::vector<std::size_t> walls_of_bodies(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::size_t> walls;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (particles.is_fluid(i)) continue;
-    if (flow.setup.body_of_wall[flow.walls.particles.wall[particles.wall_row[i]]] >= 0) walls.push_back(i);
-  }
-  return walls;
+  return indices_where(particles.owned, [&](std::size_t i) {
+    return !particles.is_fluid(i) && flow.setup.body_of_wall[flow.walls.particles.wall[particles.wall_row[i]]] >= 0;
+  });
 }
 
 /// Adds force(n) on each of these wall particles of bodies to its body.

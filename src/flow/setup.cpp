@@ -138,6 +138,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       wave_plates(make_wave_plates<Dim>(spec)),
       bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),
+      body_of_wall(bodies_of_walls(bodies, drawing.walls.boundary.walls.size())),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       damping(make_damping<Dim>(spec)),
       kernel(formulation.kernel),
@@ -150,10 +151,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
         end.reach = std::max(end.reach, at_end - end.opening.normal.dot(corner));
       }
     }
-  }
-  body_of_wall.assign(drawing.walls.boundary.walls.size(), -1);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
   }
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity,

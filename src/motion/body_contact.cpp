@@ -54,10 +54,7 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
   ContactSurfaces<Dim> surfaces;
   if (bodies.empty()) return surfaces;
   const double reach = contact_reach * spacing;
-  std::vector<int> body_of_wall(boundary.walls.size(), -1);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
-  }
+  const std::vector<int> body_of_wall = bodies_of_walls(bodies, boundary.walls.size());
   surfaces.each.push_back(
       {part_of(boundary, reach_behind_walls * spacing, [&](int wall) { return !boundary.walls[wall].moves(); })});
   for (int w = 0; w < static_cast<int>(boundary.walls.size()); ++w) {

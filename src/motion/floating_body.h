@@ -134,6 +134,16 @@ struct FloatingBody {
 template <int Dim>
 std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec);
 
+/// The index of the body of each of so many walls, or -1.
+template <int Dim>
+std::vector<int> bodies_of_walls(const std::vector<FloatingBody<Dim>>& bodies, std::size_t walls) {
+  std::vector<int> body_of_wall(walls, -1);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (const int wall : bodies[b].walls) body_of_wall[wall] = static_cast<int>(b);
+  }
+  return body_of_wall;
+}
+
 /// Throws InputError as a body does.
 template <int Dim>
 std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec);
