@@ -54,19 +54,10 @@ class Dummies final : public WallModel<Dim> {
 
   void show_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                      std::span<Vec<Dim>> velocity) const override {
-    const std::vector<Four> of_water = in_fours<Dim>(velocity);
-    for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (scene.particles.is_fluid(i)) return;
-      velocity[i].setZero();
-      if (!scene.here.is_wet[i]) return;
-      const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
-      const auto row = scene.particles.wall_row[i];
-      const Vec<Dim> own = entry_of<Dim>(V, row);
-      const Vec<Dim> relative = mean - own;
-      const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
-      const Vec<Dim> tangential_part = relative - normal_part;
-      velocity[i] = own + tangential_part - normal_part;
-    });
+    show_water<Dim>(scene, V, velocity,
+                    [](auto /*row*/, const Vec<Dim>& own, const Vec<Dim>& tangential, const Vec<Dim>& normal) {
+                      return Vec<Dim>(own + tangential - normal);
+                    });
   }
 
   /// The velocity of a no-slip mirror image, 2 V - mean_w.

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 
@@ -20,6 +22,26 @@ Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double f
   VecLanes<Dim> sum{};
   for_each_pair(pairs, i, [&](const auto& several) { sum += several.kernel_of_fluid() * several.of(velocity); });
   return sum_of(sum) / fluid_weight;
+}
+
+/// Sets the entries of owned wall particles in `velocity` (WallModel::show_velocity): of wet ones to
+/// shown(row, V, tangential, normal), of the wall's own velocity and the parts of the water's mean relative to it; of
+/// dry ones to 0.
+template <int Dim, class Shown>
+void show_water(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V, std::span<Vec<Dim>> velocity, Shown&& shown) {
+  const std::vector<Four> of_water = in_fours<Dim>(velocity);
+  for_each(scene.pairs.owned(), [&](std::size_t i) {
+    if (scene.particles.is_fluid(i)) return;
+    velocity[i].setZero();
+    if (!scene.here.is_wet[i]) return;
+    const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
+    const auto row = scene.particles.wall_row[i];
+    const Vec<Dim> own = entry_of<Dim>(V, row);
+    const Vec<Dim> relative = mean - own;
+    const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
+    const Vec<Dim> tangential_part = relative - normal_part;
+    velocity[i] = shown(row, own, tangential_part, normal_part);
+  });
 }
 
 }  // namespace tailwater
