@@ -95,26 +95,47 @@ std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int pla
   return widest;
 }
 
-/// Faces of other walls at rest that come nearer than `reach` to an edge.
 template <int Dim>
-std::vector<int> faces_near(const Boundary<Dim>& boundary, int plate, const PlateEdge<Dim>& edge, double reach) {
-  Eigen::AlignedBox<double, Dim> box;
+using Box = Eigen::AlignedBox<double, Dim>;
+
+template <int Dim>
+Box<Dim> box_of(const PlateEdge<Dim>& edge) {
+  Box<Dim> box;
   for (const Vec<Dim>& x : edge.points) box.extend(x);
+  return box;
+}
+
+/// Which of these faces come nearer than `reach` to a box.
+template <int Dim>
+std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int>& faces, const Box<Dim>& box,
+                            double reach) {
   std::vector<int> near;
-  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
-    const int wall = boundary.faces[f].wall;
-    if (wall == plate || boundary.walls[wall].moves()) continue;
+  for (const int f : faces) {
     if (box.exteriorDistance(boundary.faces[f].box()) < reach) near.push_back(f);
   }
   return near;
 }
 
-/// Where there is all along, beyond an edge of a plate, a wall so near that the opening is narrow. Walls beside the
-/// plate do not count, as those of a flume at its top edge.
+/// Faces of other walls at rest that come nearer than `reach` to an edge of a plate.
 template <int Dim>
-std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, int plate, const PlateEdge<Dim>& edge,
-                                          double dx) {
-  const std::vector<int> near = faces_near(boundary, plate, edge, narrow * dx);
+std::vector<int> faces_near_plate(const Boundary<Dim>& boundary, int plate, const std::vector<PlateEdge<Dim>>& edges,
+                                  double reach) {
+  Box<Dim> box;
+  for (const PlateEdge<Dim>& edge : edges) box.extend(box_of(edge));
+  std::vector<int> others;
+  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
+    const int wall = boundary.faces[f].wall;
+    if (wall != plate && !boundary.walls[wall].moves()) others.push_back(f);
+  }
+  return faces_near<Dim>(boundary, others, box, reach);
+}
+
+/// Where there is all along, beyond an edge of a plate, a wall so near that the opening is narrow. Walls beside the
+/// plate do not count, as those of a flume at its top edge. `faces` are those that may be near.
+template <int Dim>
+std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const std::vector<int>& faces, int plate,
+                                          const PlateEdge<Dim>& edge, double dx) {
+  const std::vector<int> near = faces_near<Dim>(boundary, faces, box_of(edge), narrow * dx);
   std::optional<Gap<Dim>> widest;
   for (const Vec<Dim>& x : edge.points) {
     std::optional<Gap<Dim>> nearest;
@@ -168,9 +189,11 @@ std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
   std::vector<Gap<Dim>> gaps;
   for (const WallPlate& plate : boundary.plates) {
     if (boundary.walls[plate.wall].moves()) continue;
-    for (const PlateEdge<Dim>& edge : edges_of(boundary, plate, dx)) {
+    const std::vector<PlateEdge<Dim>> edges = edges_of(boundary, plate, dx);
+    const std::vector<int> faces = faces_near_plate<Dim>(boundary, plate.wall, edges, narrow * dx);
+    for (const PlateEdge<Dim>& edge : edges) {
       auto gap = closed_gap_beside<Dim>(boundary, plate.wall, edge, dx);
-      if (!gap) gap = narrow_gap_beyond<Dim>(boundary, plate.wall, edge, dx);
+      if (!gap) gap = narrow_gap_beyond<Dim>(boundary, faces, plate.wall, edge, dx);
       if (gap) gaps.push_back(*gap);
     }
   }
