@@ -7,14 +7,11 @@
 namespace tailwater {
 
 template <int Dim>
-void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, bool keep_marks) {
+void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, bool /*keep_marks*/) {
   Surroundings<Dim>& here = flow.here;
   const Particles<Dim>& particles = flow.state.particles;
   find_interior<Dim>(flow.pairs(), particles, here.concentration, flow.setup.kernel_values.W_0, here.interior);
-  if (!keep_marks) {
-    mark_thin_water<Dim>(particles, here.concentration, here.is_surface);
-    flow.halo().exchange(here.is_surface);
-  }
+  mark_thin_water<Dim>(particles, here.concentration, here.is_surface);  // for the field files
   flow.halo().exchange(here.interior);
 }
 
