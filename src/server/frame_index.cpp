@@ -136,12 +136,10 @@ std::optional<FrameEntry> FrameIndex::read_entry(const std::string& name) const 
   }
 }
 
-FrameIndex::News FrameIndex::cut_from(std::uint32_t index) {
-  News news;
-  news.is_cut = true;
+void FrameIndex::cut_from(std::uint32_t index, News& news) {
   frames_.erase(frames_.lower_bound(index), frames_.end());
-  if (!frames_.empty()) news.cut_time = frames_.rbegin()->second.time;
-  return news;
+  news.is_cut = true;
+  news.cut_time = frames_.empty() ? News{}.cut_time : frames_.rbegin()->second.time;
 }
 
 FrameIndex::News FrameIndex::look() {
@@ -160,7 +158,7 @@ FrameIndex::News FrameIndex::look_at_stream(const Found& found) {
   };
   if (!frames_.empty() && !is_same(*frames_.rbegin())) {
     const auto other = std::find_if_not(frames_.begin(), frames_.end(), is_same);
-    if (other != frames_.end()) news = cut_from(other->first);
+    if (other != frames_.end()) cut_from(other->first, news);
   }
   const std::uint32_t first = frames_.empty() ? 0 : frames_.rbegin()->first + 1;
   for (auto file = found.lower_bound(first); file != found.end(); ++file) {
@@ -188,15 +186,13 @@ FrameIndex::News FrameIndex::look_at_fields() {
     if (!mark) continue;
     const auto known = frames_.find(k);
     if (known != frames_.end() && known->second.mark == *mark) continue;
-    if (known != frames_.end()) news = cut_from(k);
+    if (known != frames_.end()) cut_from(k, news);
     frames_[k] = {
         .time = entries[k].time, .is_key = true, .bytes = mark->size, .mark = *mark, .field_file = entries[k].file};
     news.added.push_back(k);
   }
   if (!frames_.empty() && frames_.rbegin()->first >= entries.size()) {
-    std::vector<std::uint32_t> added = std::move(news.added);
-    news = cut_from(static_cast<std::uint32_t>(entries.size()));
-    news.added = std::move(added);
+    cut_from(static_cast<std::uint32_t>(entries.size()), news);
   }
   return news;
 }

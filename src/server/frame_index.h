@@ -45,7 +45,7 @@ class FrameIndex {
   std::optional<FrameEntry> read_entry(const std::string& name) const;
   News look_at_stream(const Found& found);
   News look_at_fields();
-  News cut_from(std::uint32_t index);
+  void cut_from(std::uint32_t index, News& news);
 
   FolderReader folder_;
   std::map<std::uint32_t, FrameEntry> frames_;
