@@ -60,7 +60,7 @@ void ResultLimits::check(Limit& limit, double time, double error, double harmles
                                   describe("stop", limit.stop)));
   }
   if (limit.warning > 0.0 && error > std::max(limit.warning, harmless) && limit.told == 0.0) {
-    limit.told = error;
+    limit.told = growth;
     warn(describe("warning", limit.warning));
   }
 }

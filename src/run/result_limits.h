@@ -34,7 +34,7 @@ class ResultLimits {
     const char* keys;  ///< the keys are limits.KEYS_warning and limits.KEYS_stop
     double warning;
     double stop;
-    double told = 0.0;  ///< the error that was warned of
+    double told = 0.0;  ///< the growth when it was warned of
     double largest = 0.0;
     double time_of_largest = 0.0;  ///< s
   };

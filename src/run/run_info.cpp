@@ -23,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string plural(std::size_t count) { return count == 0 ? "none" : fmt::format("{}", count); }
-
 double number_of(const Json& block, const char* key) { return block.at(key).get<double>(); }
 std::string text_of_key(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
 
@@ -154,7 +152,8 @@ Json read_summary(const fs::path& run) {
 std::vector<InfoLine> summary_digest(const Json& summary) {
   std::vector<InfoLine> lines{{"status", text_of_key(summary, "status")}};
   if (!text_of_key(summary, "message").empty()) lines.push_back({"message", text_of_key(summary, "message")});
-  std::string warnings = plural(summary.at("warnings").size());
+  const std::size_t count = summary.at("warnings").size();
+  std::string warnings = count == 0 ? "none" : fmt::format("{}", count);
   for (const Json& warning : summary.at("warnings"))
     warnings += fmt::format("\n  {}", printable(warning.get<std::string>()));
   lines.push_back({"warnings", warnings});
