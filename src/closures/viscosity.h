@@ -60,9 +60,4 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration);
 
-/// Friction of a 2D channel's side walls on fluid particles. It only slows them.
-template <int Dim>
-void add_side_wall_friction(const Particles<Dim>& particles, const ViscosityLaw& law,
-                            std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> acceleration);
-
 }  // namespace tailwater

@@ -164,18 +164,17 @@ void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow,
 /// water beside it and the level drives it; slowly it follows the speed of that water, continued over the spacing
 /// between them.
 template <int Dim>
-double border_speed(const OpenEnd<Dim>& end, const Readings& readings, double density, double dt,
-                    const OpenEndState& state, double& gain) {
+double border_speed(const OpenEnd<Dim>& end, const Readings& readings, double density, double dt, OpenEndState& state) {
   const double spacing = 0.5 * end.gauge;
   const double at_border = readings.border.speed_or(state.speed);
   const double celerity = std::sqrt(end.gravity * std::max(state.depth_at_gauge, end.gauge));
   const double rate = celerity / end.distance();
-  gain += (1.0 - std::exp(-dt * rate)) * (at_border - state.speed - gain);
-  if (readings.border.volume == 0.0) return at_border + gain;
+  state.gain += (1.0 - std::exp(-dt * rate)) * (at_border - state.speed - state.gain);
+  if (readings.border.volume == 0.0) return at_border + state.gain;
   // The water beside it is read a spacing before the border on the mean, and the stretch begins half a spacing after.
   const double push = readings.border.excess / (density * 1.5 * spacing * readings.border.volume);
-  const double driven = state.border_speed + dt * (push - state.border_speed * gain / spacing);
-  return driven + (1.0 - std::exp(-dt * rate / way_of_following)) * (at_border + gain - driven);
+  const double driven = state.border_speed + dt * (push - state.border_speed * state.gain / spacing);
+  return driven + (1.0 - std::exp(-dt * rate / way_of_following)) * (at_border + state.gain - driven);
 }
 
 /// Where a level is prescribed: the depth of the end stretch goes where that of its pressure is, slowly enough that
@@ -222,7 +221,7 @@ void hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Readings& 
     if (state.depth == 0.0) state.depth = std::min(stands, end.height);
   }
   deepen(end, dt, state);
-  state.border_speed = std::max(border_speed(end, readings, flow.setup.density, dt, state, state.gain), -fastest);
+  state.border_speed = std::max(border_speed(end, readings, flow.setup.density, dt, state), -fastest);
   state.entry_speed = -state.border_speed + end.stretch * state.depth_rate / state.depth;
   const bool is_felt = state.speed < 0.0 || state.depth_at_gauge <= depth_at_speed(invariant, end.gravity, state.speed);
   watch_level(is_felt ? stands - beyond.mean_depth() : 0.0, beyond, flow, dt, state.miss);

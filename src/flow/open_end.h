@@ -1,4 +1,4 @@
-// What happens at inlets and outlets (geometry/channel_end.h): docs/theory/open_ends.md.
+// What happens at inlets and outlets (motion/channel_end.h): docs/theory/open_ends.md.
 //
 // The stretch of the channel at the end, one dx longer than the kernel's support, is the end stretch. For their
 // neighbours its particles are part of the flow, but they are not solved for: how they move, and their pressure, follow

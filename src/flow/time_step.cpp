@@ -107,10 +107,10 @@ double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   double dt = step_of_water(flow);
   if (setup.wall_motion.moving().empty()) return dt;
-  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
-  // because a gate may start within the step.
   dt = std::min(dt, step_of_moorings(setup));
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
+  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
+  // because a gate may start within the step.
   const double largest = setup.time_step_rule.courant * setup.spacing;
   for (double displacement = 0.0; (displacement = largest_displacement_within(flow, dt)) > largest;) {
     dt *= std::max(0.1, 0.99 * largest / displacement);

@@ -5,9 +5,6 @@
 
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <string_view>
 
 #include "base/error.h"
 
@@ -151,12 +148,6 @@ VtpFile read_vtp_bytes(std::string_view bytes, const std::string& name) {
   } catch (const IoError& error) {
     throw IoError(fmt::format("cannot read '{}': {}", name, error.what()));
   }
-}
-
-VtpFile read_vtp(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
-  return read_vtp_bytes(std::string(std::istreambuf_iterator<char>(file), {}), path.string());
 }
 
 std::vector<PvdEntry> read_pvd(std::string_view bytes) {

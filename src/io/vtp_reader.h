@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tailwater {
@@ -21,9 +21,7 @@ struct VtpFile {
   std::map<std::string, Array> fields;
 };
 
-/// Throws IoError, which names the file, if it cannot be read or is not whole.
-VtpFile read_vtp(const std::filesystem::path& path);
-/// The same for the bytes of a file that messages call `name`.
+/// From the bytes of a file that messages call `name`. Throws IoError if it is not whole.
 VtpFile read_vtp_bytes(std::string_view bytes, const std::string& name);
 
 /// Files and times [s] of a list that pvd_series.h has written. Throws IoError.

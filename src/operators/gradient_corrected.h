@@ -29,6 +29,13 @@ double share_of_correction(const Mat<Dim>& first_moment) {
   return correction_share(least_eigenvalue<Dim>(first_moment));
 }
 
+/// A sum over pairs with this share of the correction by M.
+template <int Dim>
+Mat<Dim> corrected(const Mat<Dim>& sum, const Mat<Dim>& M, double share) {
+  if (share == 0.0) return sum;
+  return sum * (share * M.inverse() + (1.0 - share) * Mat<Dim>::Identity());
+}
+
 /// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. `first_moment` is M_i.
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
@@ -40,10 +47,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
     const VecLanes<Dim> difference = several.of(field) - field[i];
     for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
   });
-  const Mat<Dim> sum = sum_of(sums);
-  const double share = share_of_correction<Dim>(first_moment);
-  if (share == 0.0) return sum;
-  return sum * (share * first_moment.inverse() + (1.0 - share) * Mat<Dim>::Identity());
+  return corrected<Dim>(sum_of(sums), first_moment, share_of_correction<Dim>(first_moment));
 }
 
 /// The same over fluid neighbours alone, with M of the same sum, so exact for linear fields: for water that sticks to a
@@ -62,11 +66,8 @@ Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<con
       moments.column[b] += weight * place.d.at[b] * place.d;
     }
   });
-  const Mat<Dim> sum = sum_of(sums);
   const Mat<Dim> moment = sum_of(moments);
-  const double share = std::clamp((least_eigenvalue<Dim>(moment) - 0.1) / 0.15, 0.0, 1.0);
-  if (share == 0.0) return sum;
-  return sum * (share * moment.inverse() + (1.0 - share) * Mat<Dim>::Identity());
+  return corrected<Dim>(sum_of(sums), moment, std::clamp((least_eigenvalue<Dim>(moment) - 0.1) / 0.15, 0.0, 1.0));
 }
 
 }  // namespace tailwater

@@ -23,7 +23,7 @@
 // too:
 //
 // B_i    tends to T_i = lambda_min M_i^-1 at the surface, so that B_i M_i has no direction: stretching the surface is
-//        not taken for a compression, and across it the kernel's gradient stays, which fits the air (pressure/weights).
+//        not taken for a compression, and across it the kernel's gradient stays, which fits the air (robust/rows.cpp).
 // l_i    gives there the force of a uniform pressure the potential that it has with the kernel's gradients,
 //        sum_j w_j a_ij -> sum_j w_j dW e_ij, or water at rest would roll. The share of both equations is `interior`.
 //

@@ -23,10 +23,8 @@ template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
   if (!flow.setup.finds_wall_forces) return;
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::size_t> walls;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (!particles.is_fluid(i)) walls.push_back(i);
-  }
+  const std::vector<std::size_t> walls =
+      indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i); });
   const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
   for_each(walls.size(),
            [&](std::size_t n) { flow.wall_forces.pressure[walls[n]] -= particles.volume[walls[n]] * pushes[n]; });

@@ -64,10 +64,8 @@ template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt) {
   if (flow.setup.wall_motion.moving().empty()) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::size_t> walls;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (!particles.is_fluid(i) && flow.here.is_wet[i]) walls.push_back(i);
-  }
+  const std::vector<std::size_t> walls =
+      indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.here.is_wet[i]; });
   const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, particles.pressure);
   return sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];

@@ -37,7 +37,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 
 /// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
 /// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
-/// (0 in the outermost rows, 1 inside; that of a wall that cannot pull by 0), and the system is solved again. With an
+/// (0 in the outermost rows, 1 inside; that of a wall by 0), and the system is solved again. With an
 /// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). The matrix is gone
 /// then.
 template <int Dim>

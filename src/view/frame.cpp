@@ -118,8 +118,6 @@ std::vector<Number> take_ascending(Taker& bytes, std::size_t count) {
   return numbers;
 }
 
-void put_ids(std::string& bytes, const std::vector<std::int64_t>& now) { put_ascending(bytes, now); }
-
 void put_changes(std::string& bytes, const std::vector<std::int64_t>& now, const std::vector<std::int64_t>& last) {
   std::vector<std::int64_t> removed;  // places in the list of the last frame
   std::vector<std::int64_t> added;    // ids
@@ -202,7 +200,7 @@ std::string planes_of(const Frame& frame, const FramesBefore& before) {
   std::string planes;
   planes.reserve(count * (2 * now.place.size() + now.scalar.size() + 1) + 16);
   if (order == 0) {
-    put_ids(planes, now.id);
+    put_ascending(planes, now.id);
   } else {
     put_changes(planes, now.id, before.last.id);
   }
