@@ -151,7 +151,8 @@ class Simulation:
 
     With `out` it also writes a run's folder, as `tailwater run` does. Throws InputError, IoError and SolverError;
     Ctrl-C is Python's, between two steps. Under mpirun all ranks do the same in step; each has the particles of its part
-    of space, and an error that only one of them meets ends all."""
+    of space. Ending a run is work of all ranks too, so an error of the script on any of them ends all at once, without
+    a checkpoint; of a SolverError all know."""
 
     def __init__(self, case, out=None, *, hook=None, force: bool = False):
         if any(out is not None or other._out is not None for other in open_simulations):
@@ -175,7 +176,8 @@ class Simulation:
             if hook is not None:
                 hook(Step(self))
             self._attempt(lambda: self._flow.start())
-        except BaseException:
+        except BaseException as error:
+            self._end_others(error)
             self.close()
             raise
 
@@ -239,6 +241,11 @@ class Simulation:
             raise InputError("this simulation writes no folder; remedy: case.simulation(out=DIR)")
         return Run(self._out)
 
+    def _end_others(self, error):
+        """They would wait for ever for this rank in `close`, or it for them."""
+        if error is not None and not self._failure and self.ranks > 1:
+            end_all_ranks(type(error), error, error.__traceback__)
+
     def close(self):
         """Ends the run, and its folder if there is one: with a checkpoint if the end of the case is not reached."""
         if self in open_simulations:
@@ -248,7 +255,8 @@ class Simulation:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind, error, trace):
+        self._end_others(error)
         self.close()
 
 
