@@ -26,6 +26,15 @@ except ImportError as error:
 __all__ = ["Body", "Simulation", "Step"]
 
 open_simulations = weakref.WeakSet()
+warned = 0  # of the warnings of this process: how many are Python's; each simulation that opens begins them anew
+
+
+def warn_of_new():
+    global warned
+    told = _simulation.warnings()
+    new, warned = told[warned:], len(told)
+    for line in new:
+        warnings.warn(line, RunWarning, stacklevel=3)
 
 
 class Body:
@@ -155,17 +164,18 @@ class Simulation:
     a checkpoint; of a SolverError all know."""
 
     def __init__(self, case, out=None, *, hook=None, force: bool = False):
+        global warned
         if any(out is not None or other._out is not None for other in open_simulations):
             raise InputError("a simulation that writes a folder is the only one in its process; remedy: close the other "
                              "first")
-        self._warned = 0
         self._failure = ""
         self._out = out
         words = case.words()
+        warned = 0
         try:
             self._flow = _simulation.open(words[0], words[2::2], None if out is None else str(out), force)
         finally:
-            self._warn()
+            warn_of_new()
         self.dimension, self.end = self._flow.dimension, self._flow.end
         self.spacing, self.density = self._flow.spacing, self._flow.density
         self._hook, self._hooked = hook, -1  # the last step that the hook has seen
@@ -175,7 +185,7 @@ class Simulation:
         try:
             if hook is not None:
                 hook(Step(self))
-            self._attempt(lambda: self._flow.start())
+            self._attempt(self._flow.start)
         except BaseException as error:
             self._end_others(error)
             self.close()
@@ -189,12 +199,6 @@ class Simulation:
     def ranks(self) -> int:
         return _simulation.ranks()
 
-    def _warn(self):
-        told = _simulation.warnings()
-        for line in told[self._warned:]:
-            warnings.warn(line, RunWarning, stacklevel=3)
-        self._warned = len(told)
-
     def _attempt(self, work):
         if self._failure:
             raise RuntimeError(f"the simulation has failed: {self._failure}")
@@ -204,16 +208,16 @@ class Simulation:
             self._failure = str(error)
             raise
         finally:
-            self._warn()
+            warn_of_new()
 
     def __iter__(self):
-        while self._attempt(lambda: self._flow.prepare()):
+        while self._attempt(self._flow.prepare):
             step = Step(self)
             if self._hook is not None and step.number > self._hooked:
                 self._hooked = step.number
                 self._hook(step)
             yield step
-            self._attempt(lambda: self._flow.step())
+            self._attempt(self._flow.step)
 
     def run(self, until: float = float("inf")):
         """Goes on to the end, or to the first step at or after `until` (s)."""
@@ -250,7 +254,10 @@ class Simulation:
         """Ends the run, and its folder if there is one: with a checkpoint if the end of the case is not reached."""
         if self in open_simulations:
             open_simulations.discard(self)
-            self._flow.finish(self._failure)
+            try:
+                self._flow.finish(self._failure)
+            finally:
+                warn_of_new()
 
     def __enter__(self):
         return self

@@ -160,6 +160,21 @@ class Errors(PackageTest):
         with self.case.simulation():
             self.assertEqual(_simulation.warnings(), [])
 
+    def test_warning_of_the_end_is_told(self):
+        self.case["limits.volume_warning"] = 1e-9
+        with self.assertWarnsRegex(tw.RunWarning, "the most in this run"):
+            with self.case.simulation("out") as simulation:
+                simulation.run()
+
+    def test_warning_of_one_of_several_is_told_once(self):
+        late = '[[probe]]\nname = "profile"\ntype = "profile"\nfrom = [0.5, 0]\nto = [0.5, 0.5]\ntimes = [7]\n'
+        warns = tw.Case(self.write("late.toml", DAM + late))
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            with self.case.simulation() as one, warns.simulation():
+                one.run()
+        self.assertEqual([each.category for each in told], [tw.RunWarning])
+
     def test_only_one_writes(self):
         with self.case.simulation("one"):
             with self.assertRaisesRegex(tw.InputError, "close the other first"):
