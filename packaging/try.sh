@@ -19,7 +19,7 @@ in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root 
 start=$SECONDS
 in_root '
   apt-get update -qq
-  DEBIAN_FRONTEND=noninteractive apt-get install -y -qq /tailwater_*_amd64.deb >/dev/null 2>&1
+  DEBIAN_FRONTEND=noninteractive apt-get install -y -qq /tailwater_*_amd64.deb >/dev/null
   useradd --create-home engineer
 '
 echo "try.sh: installed in $((SECONDS - start)) s"
@@ -31,7 +31,7 @@ echo "try.sh: first picture after $first s"
 user 'tailwater view my_run --export my_run.html && grep -q tailwater-data my_run.html'
 user 'tailwater run /usr/share/tailwater/cases/zhou1999/case.toml --out zhou --quiet --set particles.spacing=0.06'
 user 'tailwater validate --list && tailwater validate poiseuille ritter --level quick --out report'
-in_root 'DEBIAN_FRONTEND=noninteractive apt-get install -y -qq /python3-tailwater_*_amd64.deb >/dev/null 2>&1'
+in_root 'DEBIAN_FRONTEND=noninteractive apt-get install -y -qq /python3-tailwater_*_amd64.deb >/dev/null'
 user 'python3 -c "import tailwater as tw; print(next(iter(tw.Case.template(\"tank\").simulation())))"'
 user 'tailwater man | head -1 && test -s /usr/share/tailwater/case.schema.json'
 user 'TAILWATER_ARCH=x86-64-v2 tailwater info | grep "ARCH x86-64-v2" && TAILWATER_ARCH=x86-64-v2 tailwater run my.toml \

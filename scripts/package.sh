@@ -47,7 +47,7 @@ TEXT
 
 configure() {  # NAME ARCH [cmake arguments]
   cmake -S . -B "build/package-$1" -G Ninja -D CMAKE_BUILD_TYPE=Release -D TAILWATER_BUILD_TESTS=OFF -D TAILWATER_ARCH="$2" \
-    -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
+    -D TAILWATER_PYTHON=ON -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
 }
 scripts/site.py build/site
 configure v3 x86-64-v3
@@ -56,6 +56,7 @@ strip -o "$files/tailwater-v3" build/package-v3/bin/tailwater
 configure v2 x86-64-v2 -D TAILWATER_FASTER_PROGRAM="$PWD/$files/tailwater-v3" -D TAILWATER_DEBIAN_FILES="$PWD/$files" \
   -D TAILWATER_SITE="$PWD/build/site"
 cmake --build build/package-v2
+rm -rf build/package
 mkdir -p build/package
 (cd build/package-v2 && cpack -G DEB -B ../package >/dev/null)
 rm -rf build/package/_CPack_Packages
