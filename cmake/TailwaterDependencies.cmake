@@ -11,11 +11,11 @@ find_package(MPI REQUIRED COMPONENTS C)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 # The flags that Debian built PETSc with. With them a room could not use the precompiled header of the others.
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-# That with which PETSc is linked: a process cannot hold two builds of HDF5.
-pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
+# That with which PETSc is linked: a process cannot hold two builds of HDF5. Debian's name first, then HDF5's own.
+pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi hdf5)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 find_path(ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos REQUIRED)
-find_library(ZOLTAN_LIBRARY trilinos_zoltan REQUIRED)
+find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan REQUIRED)
 if(NOT TARGET Zoltan::zoltan)
   add_library(Zoltan::zoltan INTERFACE IMPORTED)
   target_include_directories(Zoltan::zoltan SYSTEM INTERFACE ${ZOLTAN_INCLUDE_DIR})

@@ -32,10 +32,10 @@ class Tailwater(CMakePackage):
     depends_on("python@3.11:", type="run")
     depends_on("py-numpy", type="run")
     depends_on("py-pandas", type="run")
-    depends_on("py-pybind11", type="build")
     depends_on("py-matplotlib", type="run")
 
     generator("ninja")
 
     def cmake_args(self):
-        return [self.define("TAILWATER_BUILD_TESTS", False), self.define("TAILWATER_ARCH", "")]
+        return [self.define("TAILWATER_BUILD_TESTS", False), self.define("TAILWATER_PYTHON", False),
+                self.define("TAILWATER_ARCH", "")]
