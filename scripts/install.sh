@@ -8,7 +8,7 @@ build=(
   libpetsc-real-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libcpp-httplib-dev
-  python3-dev pybind11-dev python3-numpy python3-pandas python3-scipy
+  python3-dev pybind11-dev python3-numpy python3-pandas
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
@@ -16,7 +16,7 @@ web=(chromium)  # for the tests of the page; what builds it is Node, below
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 package=(dpkg-dev lintian debootstrap)  # scripts/package.sh
 site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
-tests=(libgtest-dev clang-format clang-tidy python3-jsonschema python3-rasterio "${pictures[@]}" "${site[@]}")
+tests=(libgtest-dev clang-format clang-tidy python3-jsonschema python3-rasterio python3-scipy "${pictures[@]}" "${site[@]}")
 
 # The page is built by the Node that is there, else by Debian's. Debian's npm does not install beside a newer Node, which
 # brings its own.
