@@ -3,6 +3,7 @@
 import difflib
 import html
 import json
+import os
 import shutil
 import tempfile
 import tomllib
@@ -199,9 +200,9 @@ class Case:
                     yield from texts(each)
 
         folder = self.file.parent
-        beside = {str(path.relative_to(folder)): path for pattern in ("*", "*/*") for path in folder.glob(pattern)
-                  if path.is_file() and path != self.file}
-        return list({text: beside[text] for text in texts(self._data) if text in beside}.values())
+        names = dict.fromkeys(os.path.normpath(text) for text in texts(self._data))
+        return [folder / name for name in names if not os.path.isabs(name) and not name.startswith("..")
+                and name != self.file.name and os.path.isfile(folder / name)]
 
     def check(self) -> Check:
         """Looks for what is wrong, without running. Never throws for what is wrong in the case."""

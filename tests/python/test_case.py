@@ -75,6 +75,17 @@ class Text(PackageTest):
         with self.assertRaisesRegex(tw.InputError, "is another file"):
             case.save("there/again.toml")
 
+    def test_files_in_folders_go_with_it_however_they_are_named(self):
+        names = ("data/lab/gauge.csv", "./hull.stl", "../elsewhere.csv", "/dev/null", "none.csv")
+        for folder in ("here/data/lab", "there"):
+            os.makedirs(folder)
+        for file in ("here/data/lab/gauge.csv", "here/hull.stl", "elsewhere.csv"):
+            self.write(file, file)
+        text = DAM + "".join(f'[[measurement]]\nprobe = "depth"\nfile = "{name}"\n' for name in names)
+        tw.Case(self.write("here/dam.toml", text)).save("there/dam.toml")
+        copied = sorted(str(path.relative_to("there")) for path in Path("there").rglob("*") if path.is_file())
+        self.assertEqual(copied, ["dam.toml", "data/lab/gauge.csv", "hull.stl"])
+
 
 class Checks(PackageTest):
     def test_error_has_file_line_and_key(self):
