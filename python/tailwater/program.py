@@ -36,18 +36,22 @@ def version() -> str:
     return call("--version").strip()
 
 
+def start(*words, folder=None) -> subprocess.Popen:
+    """The program, whose outputs are pipes; in a session of its own, which Ctrl-C does not reach. Throws IoError."""
+    command = [str(program()), *map(str, words)]
+    try:
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
+                                start_new_session=True)
+    except OSError as error:
+        raise IoError(f"{command[0]}: cannot be started ({error.strerror})") from error
+
+
 def call(*words, progress: bool = False, folder=None) -> str:
     """What the program says on standard output. Its warnings become Python's (RunWarning).
 
     With `progress`, what it tells on standard error is shown. Throws InputError, SolverError or IoError as the program
     ends; KeyboardInterrupt ends it in order first."""
-    command = [str(program()), *map(str, words)]
-    try:
-        # A session of its own: Ctrl-C reaches the program once, by the signal below.
-        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
-                                 start_new_session=True)
-    except OSError as error:
-        raise IoError(f"{command[0]}: cannot be started ({error.strerror})") from error
+    child = start(*words, folder=folder)
     try:
         said, told = follow(child) if progress else child.communicate()
     except KeyboardInterrupt:

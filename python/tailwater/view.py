@@ -2,12 +2,11 @@
 
 import atexit
 import html
-import subprocess
 import tempfile
 from pathlib import Path
 
 from .errors import error_of
-from .program import call, program
+from .program import call, start
 
 __all__ = ["View"]
 
@@ -18,9 +17,7 @@ class View:
 
     def __init__(self, *paths):
         self.paths = paths
-        command = [str(program()), "view", "--no-browser", *map(str, paths)]
-        self._child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                       start_new_session=True)
+        self._child = start("view", "--no-browser", *paths)
         line = self._child.stdout.readline()
         if "http://" not in line:
             told = self._child.communicate()[1]

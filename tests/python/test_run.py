@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 import unittest
+import unittest.mock
 import urllib.request
 from pathlib import Path
 
@@ -150,6 +151,12 @@ class Runs(PackageTest):
         self.assertIn("<iframe", view._repr_html_())
         with self.assertRaises((tw.InputError, tw.IoError)):
             tw.View("none")
+
+    def test_program_that_cannot_be_started(self):
+        with unittest.mock.patch("tailwater.program.program", return_value=Path("no_program")):
+            for start in (self.case.check, lambda: tw.View("out")):
+                with self.assertRaisesRegex(tw.IoError, "no_program: cannot be started"):
+                    start()
 
 
 class Tables(PackageTest):
