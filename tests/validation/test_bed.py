@@ -80,6 +80,11 @@ class Bed(unittest.TestCase):
         area = 0.5 * np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]).sum()
         self.assertAlmostEqual(area, 50 * 40, places=1)  # the hull of the points, without gap or overlap
 
+    def test_scattered_points_that_share_coordinates(self):
+        self.make(self.points("three.xyz", [(X0, Y0), (X0 + 1, Y0), (X0, Y0 + 1)]))
+        self.assertEqual(len(facets(self.stl)), 1)
+        self.is_the_plane(facets(self.stl))
+
     def test_part_of_it_on_a_coarser_grid_from_another_origin(self):
         grid = [(X0 + i, Y0 + j) for j in range(21) for i in range(31)]
         self.make(self.points("fine.xyz", grid), "--box", X0 + 5, Y0 + 5, X0 + 25, Y0 + 15, "--step", 2.5, "--origin",
@@ -115,6 +120,8 @@ class Bed(unittest.TestCase):
         grid = self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)])
         self.assertIn("no height in this --box", self.make(grid, "--box", 0, 0, 1, 1, expect=2))
         self.assertIn("above 0 m", self.make(grid, "--step", 0, expect=2))
+        for step in (1e-3, 1e-9):  # the second is more than there is memory for
+            self.assertIn("remedy: --box, or a coarser --step", self.make(grid, "--step", step, expect=2))
         self.assertFalse(self.stl.exists())
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .command import PlainParser, number
+from .command import PlainParser, complain, number
 from .curves import DataError
 from .whole_file import write_whole
 
@@ -112,7 +112,9 @@ def read_points(path):
     if x.size > 1 and y.size > 1 and x.size * y.size <= 2 * len(points):
         z = np.full((y.size, x.size), np.nan)
         z[row, column] = points[:, 2]
-        return from_grid(x, y, z)
+        grid = from_grid(x, y, z)
+        if len(grid.triangles):  # scattered points may share coordinates, too
+            return grid
     import matplotlib.tri
 
     try:
@@ -140,17 +142,24 @@ def write_stl(path, terrain, origin):
     write_whole(path, lambda part: part.write_bytes(head + facets.tobytes()))
 
 
+def require_few(path, triangles):
+    if triangles > LARGEST:
+        raise DataError(f"{path}: makes {triangles:.7g} triangles, more than {LARGEST}; remedy: --box, or a coarser "
+                        "--step in m")
+
+
 def make_bed(options):
     terrain = read_terrain(options.terrain)
     if options.box:
         terrain = terrain.within(*options.box)
     if options.step and len(terrain.triangles):
+        low, high = terrain.bounds()
+        require_few(options.terrain, 2 * np.prod((high - low)[:2] / options.step))
         terrain = terrain.resampled(options.step)
     count = len(terrain.triangles)
     if count == 0:
         raise DataError(f"{options.terrain}: has no height{' in this --box' if options.box else ''}")
-    if count > LARGEST:
-        raise DataError(f"{options.terrain}: makes {count} triangles, more than {LARGEST}; remedy: --box or a --step in m")
+    require_few(options.terrain, count)
     low, high = terrain.bounds()
     origin = np.array([*(options.origin or low[:2]), options.datum])
     write_stl(options.to, terrain, origin)
@@ -181,11 +190,9 @@ def main(arguments):
             raise DataError(f"--step {options.step:g}: a step is above 0 m")
         report(options, *make_bed(options))
     except DataError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(error, 4)
     return 0
 
 
