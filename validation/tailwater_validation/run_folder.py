@@ -48,13 +48,6 @@ class RunFolder(Run):
         again at the end."""
         return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
 
-    @property
-    def moving_walls(self):
-        """The same of those that move, where they start."""
-        walls = [wall_chain(wall) for wall in self.case.get("wall", []) if is_moving(wall)]
-        plates = self.case.get("gate", []) + self.case.get("wave_maker", [])
-        return walls + [[tuple(plate["from"]), tuple(plate["to"])] for plate in plates]
-
 
 def is_moving(wall):
     return any(wall.get("displacement", ())) or wall.get("rotation", 0) != 0 or wall.get("motion", "") != ""
