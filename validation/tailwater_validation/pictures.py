@@ -17,7 +17,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from tailwater.fields import list_frames, read_frame, read_polydata
 
 from . import plots, scene
-from .command import PlainParser, number
+from .command import PlainParser, complain, number
 from .curves import DataError
 from .run_folder import RunFolder
 from .surface import water_surface
@@ -180,11 +180,9 @@ def main(arguments):
     try:
         print(f"pictures: {draw(RunFolder(options.run), options.times, options.count, options.look_from)}")
     except DataError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(error, 4)
     return 0
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .command import PlainParser, number
+from .command import PlainParser, complain, number
 from .curves import DataError
 from .run_folder import RunFolder
 from .whole_file import write_whole
@@ -254,16 +254,14 @@ def main(arguments):
         else:
             numbers, spectra = analyse(run, options.gauges, options.start, options.end, options.depth)
     except DataError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     print(solitary_report(numbers) if options.solitary else report(numbers))
     try:
         write_text(options.run / "waves.json", json.dumps(numbers, indent=2) + "\n")
         if spectra:
             write_spectra(options.run / "waves_spectrum.csv", spectra)
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(error, 4)
     return 0
 
 
