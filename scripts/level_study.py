@@ -3,13 +3,15 @@
 
 Usage: scripts/level_study.py [NAME ...]   needs build/release/bin/tailwater (scripts/build.sh); all of it takes a minute
 """
-import csv
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from tailwater import tables  # noqa: E402
+
 PROGRAM = ROOT / "build/release/bin/tailwater"
 CHANNEL = ROOT / "cases/flume/channel.toml"
 RISE = '"0.4 + 0.3*min(1, t/3)"'
@@ -50,17 +52,6 @@ CASES = {  # what it is, the case, options, the probe, the times [s] at which it
 }
 
 
-def curve(path):
-    with open(path) as file:
-        rows = list(csv.reader(line for line in file if not line.startswith("#")))[1:]
-    return [(float(row[0]), float(row[1])) for row in rows]
-
-
-def mean(points, since, until):
-    values = [value for time, value in points if since <= time <= until]
-    return sum(values) / len(values)
-
-
 def main():
     print("| case | mean over 0.5 s around a time | least, largest | mean of the second half |")
     print("| --- | --- | --- | --- |")
@@ -72,12 +63,10 @@ def main():
             path.write_text(case or CHANNEL.read_text())
             options = [part for setting in settings for part in ("--set", setting)]
             subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/run", "--force", "--quiet", *options], check=True)
-            points = curve(f"{folder}/run/probes/{probe}.csv")
-            end = points[-1][0]
-            shown = ", ".join(f"{mean(points, t - 0.25, t + 0.25):.3f} at {t} s" for t in times)
-            values = [value for _, value in points]
-            print(f"| {name} | {shown} | {min(values):.3f}, {max(values):.3f} | {mean(points, end / 2, end):.5f} |",
-                  flush=True)
+            values = tables.frame(f"{folder}/run/probes/{probe}.csv").iloc[:, 0]
+            shown = ", ".join(f"{values[t - 0.25:t + 0.25].mean():.3f} at {t} s" for t in times)
+            second_half = values[values.index[-1] / 2:].mean()
+            print(f"| {name} | {shown} | {values.min():.3f}, {values.max():.3f} | {second_half:.5f} |", flush=True)
 
 
 if __name__ == "__main__":
