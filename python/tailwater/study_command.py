@@ -46,12 +46,15 @@ def count(text):
     return value
 
 
-def value_of(text):
-    """Of a change: a value as in a case file, or words and expressions without quotes."""
+def change(text):
+    """(key, value): a value as in a case file, or words and expressions without quotes."""
+    key, equals, value = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f'"{text}" has no "="; write it as in particles.spacing=0.01')
     try:
-        return tomllib.loads(f"value = {text}")["value"]
+        return key, tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
-        return text
+        return key, value
 
 
 def parser():
@@ -64,7 +67,8 @@ def parser():
     command.add_argument("--program", help=argparse.SUPPRESS)
     command.add_argument("case", help="case file")
     command.add_argument("--out", required=True, metavar="DIR", help="folder of the study")
-    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a value of the case")
+    command.add_argument("--set", action="append", type=change, default=[], metavar="KEY=VALUE",
+                         help="change a value of the case")
     command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three spacings or more, in m (default: "
                          "four, from twice that of the case down to it)")
     command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, as in 90, 20min or 1.5h, that "
@@ -76,6 +80,11 @@ def parser():
     return command
 
 
+def complain(what, code):
+    print(f"error: {what}", file=sys.stderr)
+    return code
+
+
 def main():
     options = parser().parse_args()
     if options.program:
@@ -84,18 +93,18 @@ def main():
 
     try:
         case = tw.Case(options.case)
-        for change in options.set:
-            key, _, value = change.partition("=")
-            case[key] = value_of(value)
+        case.update(dict(options.set))
         found = tw.study(case, out=options.out, spacings=options.spacings, budget=options.budget, starts=options.starts,
                          jobs=options.jobs, ranks=options.ranks, progress=not options.quiet)
         print(found.text(), end="")
-    except tw.Error as error:
-        print(f"error: {error}", file=sys.stderr)
-        return {tw.InputError: 2, tw.SolverError: 3}.get(type(error), 3 if isinstance(error, tw.DataError) else 4)
+    except tw.InputError as error:
+        return complain(error, 2)
+    except (tw.SolverError, tw.DataError) as error:
+        return complain(error, 3)
+    except tw.IoError as error:
+        return complain(error, 4)
     except OSError as error:
-        print(f"error: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 4
+        return complain(f"{error.filename}: {error.strerror}", 4)
     except KeyboardInterrupt:
         return 130
     return 0

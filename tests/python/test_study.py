@@ -74,11 +74,13 @@ class CommandLine(unittest.TestCase):
         for text in ("", "-1", "1 day", "0"):
             with self.assertRaises(study_command.argparse.ArgumentTypeError):
                 study_command.seconds(text)
-        self.assertEqual([study_command.value_of(text) for text in ("0.1", "[1, 2]", "2*H")], [0.1, [1, 2], "2*H"])
+        self.assertEqual([study_command.change(f"a.b={text}") for text in ("0.1", "[1, 2]", "2*H")],
+                         [("a.b", 0.1), ("a.b", [1, 2]), ("a.b", "2*H")])
 
     def test_mistakes_end_with_2(self):
         out = ["my.toml", "--out", "s"]
-        for words in (["my.toml"], [*out, "--starts", "-1"], [*out, "--spacings", "a"]):
+        for words in (["my.toml"], [*out, "--starts", "-1"], [*out, "--spacings", "a"],
+                      [*out, "--set", "particles.spacing"]):
             with self.assertRaises(SystemExit) as ended:
                 study_command.parser().parse_args(words)
             self.assertEqual(ended.exception.code, 2)
