@@ -112,7 +112,7 @@ class Run:
 
     def last(self) -> Frame:
         """The last fields: `position` (n, 3) in m, and by name as in `last()["velocity"]`."""
-        return self.at(float("inf")) if len(self.times) == 1 else self.at(self.times[-1])
+        return self.at(max(self.times, default=0.0))
 
     def view(self) -> View:
         """The run in a page of the browser, or of a notebook."""

@@ -100,9 +100,9 @@ def extrapolate(spacings, values) -> Extrapolation:
         form, fit = min(((form, fitted(h, value, weights, powers_of[form]))
                          for form in forms for weights in (alike, by_fineness)), key=scatter_of)
     limit, error, scatter, off = fit
-    # The order of three values is found from them alone: no scatter can show that it is chance.
-    is_safe = form == "h^p" and scatter < spread and h.size > 3
     if scatter < spread:
+        # The order of three values is found from them alone: no scatter can show that it is chance.
+        is_safe = form == "h^p" and h.size > 3
         uncertainty = (SAFE if is_safe else UNSAFE) * abs(error) + scatter + off
     else:
         uncertainty = 3 * scatter / spread * (abs(error) + scatter + off)
