@@ -23,6 +23,9 @@ export const keyList: [string, string][] = [
   ["?", "these keys"],
 ];
 
+/** What a key may do while the report is read. */
+const whileReading = ["t", "?", "Escape"];
+
 export function listen(app: App): () => void {
   const down = (event: KeyboardEvent) => {
     const target = event.target as HTMLElement;
@@ -33,7 +36,7 @@ export function listen(app: App): () => void {
     if (tag === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
     if (tag === "INPUT" && (target as HTMLInputElement).type === "range" && !target.closest(".time") && event.key.startsWith("Arrow")) return;
     if (tag === "INPUT" && (target as HTMLInputElement).type === "checkbox" && event.key === " ") return;
-    if (app.look.now.reading && !"t?Escape".includes(event.key)) return;
+    if (app.look.now.reading && !whileReading.includes(event.key)) return;
     if (act(app, event.key, event.shiftKey)) event.preventDefault();
   };
   addEventListener("keydown", down);

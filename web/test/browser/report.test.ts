@@ -61,6 +61,10 @@ async function read(page: Page): Promise<void> {
   assert.deepEqual(await text(page, "figcaption"), ["Depths.", "A picture.", "Not drawn (no run reached its end): Nothing."]);
   assert.equal(await page.$eval("figure img", (img) => (img as HTMLImageElement).naturalWidth), 9);
   assert.match((await text(page, "#dam details tr.missed"))[0]!, /other.*made to fail/);
+  const colours = () => page.evaluate("tailwater.look.now.map");
+  const before = await colours();
+  await page.keyboard.press("c"); // a key of the picture, which is not seen
+  assert.equal(await colours(), before);
   await page.evaluate("document.querySelector('.see button:nth-child(2)').click()");
   await until(page, "!app.look.now.reading && app.shown()[0]?.name === 'dam' && app.player.time === 0.5 && document.querySelector('.track input').value === '0.5' && app.shown()[0].frames.at(0.5)?.exact && app.view.eye");
   await page.waitForSelector(".gauge[data-probe=gauge] canvas");
