@@ -27,17 +27,19 @@ export function CasePanel({ app }: { app: App }) {
     let asked: AbortController | null = null;
     let version = 0;
     const ask = async (text: string) => {
+      clearTimeout(later);
       asked?.abort();
       asked = new AbortController();
+      const { signal } = asked;
       try {
-        const answer = await server.check(text, asked.signal);
+        const answer = await server.check(text, signal);
         show(answer);
         made.find(answer.findings);
         app.caseWord = "Nothing can be drawn before the errors are mended.";
         if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++version}`), answer.drawing);
         else app.data.tell();
         tell("");
-        if (!hasError(answer)) later = window.setTimeout(() => void estimate(text, asked!.signal), rest);
+        if (!hasError(answer)) later = window.setTimeout(() => void estimate(text, signal), rest);
       } catch (error) {
         if (!(error instanceof DOMException && error.name === "AbortError")) tell(error instanceof Error ? error.message : String(error));
       }
