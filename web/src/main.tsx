@@ -1,6 +1,6 @@
 // The page: a picture of the water, plots of its gauges, what the run tells, and the case.
 import { render } from "preact";
-import { useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import workerCode from "worker:frames/worker.ts";
 import { App } from "./app.ts";
 import { CasePanel } from "./case/panel.tsx";
@@ -23,6 +23,8 @@ function Page({ app }: { app: App }) {
   const run = app.shown()[0];
   const report = app.state?.report;
   const reading = look.reading && !!report;
+  // Every frame that is decoded draws this page anew, but not the report.
+  const reportPage = useMemo(() => report && <ReportPage app={app} report={report} away={!reading} />, [report, reading]);
   const tab = (name: Look["tab"], word: string) => (
     <button role="tab" id={`tab-${name}`} aria-selected={look.tab === name} aria-controls="panel" onClick={() => app.look.change({ tab: name, side: true })}>
       {word}
@@ -48,7 +50,7 @@ function Page({ app }: { app: App }) {
         <button class="icon" title="Keys (?)" aria-label="Keys" onClick={() => app.look.change({ dialog: "keys" })}><Icon name="keys" /></button>
         {!reading && <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>}
       </header>
-      {report && <ReportPage app={app} report={report} away={!reading} />}
+      {reportPage}
       <main inert={reading}>
         <Picture app={app} />
         {lookOpen && <LookPanel app={app} />}
