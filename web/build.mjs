@@ -11,7 +11,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const common = { bundle: true, write: false, minify: true, target: "es2022", format: "esm", legalComments: "none", metafile: true, absWorkingDir: here, charset: "utf8" };
 
 /** `import code from "worker:FILE"`: FILE, bundled, as a text. `inputs` gets the names of all that is in it. */
-export const workers = (inputs = []) => ({
+const workers = (inputs) => ({
   name: "workers",
   setup(plugin) {
     plugin.onResolve({ filter: /^worker:/ }, (found) => ({ path: join(here, "src", found.path.slice("worker:".length)), namespace: "worker" }));

@@ -152,10 +152,9 @@ export class Embedded implements Source {
   state = async () => this.bundle.state;
   scene = async (id: string) => this.run(id).scene;
   info = async (id: string) => this.run(id).info;
-  file = async (id: string, path: string, from: number) => {
+  file = async (id: string, path: string) => {
     const file = this.run(id).files[path];
-    const text = file === undefined ? "" : await inflatedText(fromBase64(file));
-    return { text: text.slice(from), isWhole: from === 0 };
+    return { text: file === undefined ? "" : await inflatedText(fromBase64(file)), isWhole: true };
   };
   listen = () => () => {};
   control = async () => "an exported page cannot control a run";

@@ -35,12 +35,6 @@ export class Table {
       cells.forEach((cell, c) => this.values[c]!.push(cell === "" ? NaN : Number(cell)));
     }
   }
-
-  /** Forgets what is later than `time` in the first column, as `resume` does with the file. */
-  cut(time: number): void {
-    const keep = this.values[0]?.findIndex((t) => t > time) ?? -1;
-    if (keep >= 0) for (const column of this.values) column.length = keep;
-  }
 }
 
 /** As it came: comma, a header with units in its names, a line per row. */

@@ -39,9 +39,6 @@ export function split(column: string): { label: string; unit: string } {
 
 const words = (name: string) => name.replaceAll("_", " ");
 
-/** "speed (m/s)" */
-export const labelled = (label: string, unit: string) => (unit ? `${label} (${unit})` : label);
-
 /** 1, 2 or 5 times a power of ten, at most `x`. */
 export function niceBelow(x: number): number {
   const power = 10 ** Math.floor(Math.log10(x));

@@ -117,6 +117,10 @@ export class Mock {
       response.statusCode = 404;
       send({ error: `there is no ${url.pathname}` });
     };
+    const nothing = () => {
+      response.statusCode = 204;
+      response.end();
+    };
     if (parts[0] !== this.token) return missing();
     if (parts[1] === "") return send(this.options.page, "text/html; charset=utf-8");
     const { runs } = this.options;
@@ -149,16 +153,11 @@ export class Mock {
     }
     if (parts[4] === "frame") {
       const frame = run.frames.find((f) => f.index === Number(parts[5]));
-      if (frame) return send(frame.bytes, "application/octet-stream");
-      response.statusCode = 204;
-      return void response.end();
+      return frame ? send(frame.bytes, "application/octet-stream") : nothing();
     }
     if (parts[4] === "file") {
       const text = run.files[parts.slice(5).join("/")];
-      if (text === undefined) {
-        response.statusCode = 204;
-        return void response.end();
-      }
+      if (text === undefined) return nothing();
       const range = /^bytes=(\d+)-$/.exec(request.headers.range ?? "");
       if (!range) return send(text, "text/plain");
       const isThere = Number(range[1]) < text.length;
