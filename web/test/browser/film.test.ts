@@ -31,7 +31,7 @@ test("a still and a film of the view are saved", async () => {
     await view.keyboard.press("m");
     await view.waitForSelector(".film button.primary");
     await view.click(".film button.primary");
-    await view.waitForFunction("globalThis.saved.length === 2", { timeout: 15_000 });
+    await view.waitForFunction("globalThis.saved.length === 2");
     const saved = (await view.evaluate("saved")) as { name: string; type: string; size: number }[];
     assert.match(saved[0]!.name, /^wave_0\.000s\.png$/);
     assert.equal(saved[0]!.type, "image/png");

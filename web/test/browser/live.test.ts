@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { existsSync, renameSync, statSync } from "node:fs";
 import { test } from "node:test";
-import { allowed, until } from "../support/browser.ts";
-import { camera, press, withProgram } from "../support/program.ts";
+import { allowed, camera, until } from "../support/browser.ts";
+import { press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
   await withProgram(context, async (place, open) => {
@@ -31,12 +31,12 @@ test("a live run on two ranks: its frames are on the screen within a second; sto
 
     await page.keyboard.press("r");
     await press(page, "Stop");
-    await until(page, "app.shownRuns()[0].info.state === 'stopped'", 20_000);
+    await until(page, "app.shownRuns()[0].info.state === 'stopped'");
     const reached = (await page.evaluate("tailwater.shownRuns()[0].end")) as number;
     await press(page, "Go on");
-    await until(page, `app.shownRuns()[0].info.state === 'running' && app.shownRuns()[0].end > ${reached}`, 20_000);
+    await until(page, `app.shownRuns()[0].info.state === 'running' && app.shownRuns()[0].end > ${reached}`);
     await press(page, "Stop");
-    await until(page, "app.shownRuns()[0].info.state === 'stopped'", 20_000);
+    await until(page, "app.shownRuns()[0].info.state === 'stopped'");
     renameSync(place.path("run"), place.path("elsewhere"));
     await page.evaluate("tailwater.player.seek(0)");
     await until(page, "app.shownRuns()[0].frames.at(0) !== null");

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { Mock, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
-import { allowed, until, visit } from "../support/browser.ts";
+import { allowed, camera, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
@@ -14,15 +14,14 @@ test("a live run: frames come in, the page follows, the camera stays; scrubbing,
   try {
     const view = visitor.page;
     await until(view, "app.shownRuns()[0]?.frames.isDecoded(19) && app.player.following");
-    const camera = () => view.evaluate("JSON.stringify([tailwater.view.eye.target, tailwater.view.eye.span])");
     await until(view, "app.view.eye");
-    const before = await camera();
+    const before = await camera(view);
     const asked = Date.now();
     mock.grow("a");
     await until(view, "app.player.time === app.shownRuns()[0].frames.list[20]?.time && app.shownRuns()[0].frames.at(app.player.time)?.exact");
     const took = Date.now() - asked;
     assert.ok(took < (await allowed(view, 1000)), `a frame is on the screen within 1 s; here ${took} ms`);
-    assert.equal(await camera(), before);
+    assert.equal(await camera(view), before);
 
     // Scrubbing: there is a picture at every moment, and the right one soon.
     await view.evaluate(`(async () => {
@@ -34,7 +33,7 @@ test("a live run: frames come in, the page follows, the camera stays; scrubbing,
       }
     })()`);
     assert.equal(await view.evaluate("blanks"), 0);
-    assert.equal(await camera(), before);
+    assert.equal(await camera(view), before);
 
     await view.click(".label.probe");
     await until(view, "document.querySelector('.gauge.lit')?.dataset.probe === app.look.now.probe && app.look.now.probe");

@@ -9,7 +9,7 @@ test("a case: an error at its place, the time it takes, and run on two ranks", a
   await withProgram(context, async (place, open) => {
     const page = await open(await place.view("dam.toml"));
     await until(page, "app.shown()[0]?.scene.probes[0].name === 'gauge'");
-    await page.waitForFunction("/About \\d+ steps/.test(document.querySelector('.found').textContent)", { timeout: 20_000 });
+    await page.waitForFunction("/About \\d+ steps/.test(document.querySelector('.found').textContent)");
     const put = (from: string, to: string) =>
       page.evaluate(`(() => {
         const text = document.querySelector(".cm-content").cmTile?.root?.view ?? document.querySelector(".cm-content").cmView.view;
@@ -26,8 +26,8 @@ test("a case: an error at its place, the time it takes, and run on two ranks", a
     await page.focus("[aria-label=Ranks]");
     await page.keyboard.press("ArrowUp");
     await page.click("button.primary");
-    await until(page, "app.look.now.tab === 'run' && app.shownRuns()[0]?.frames.list.length > 5", 20_000);
-    await until(page, "app.shownRuns()[0].info.state === 'done'", 40_000);
+    await until(page, "app.look.now.tab === 'run' && app.shownRuns()[0]?.frames.list.length > 5");
+    await until(page, "app.shownRuns()[0].info.state === 'done'");
     assert.match(readFileSync(place.path("dam.toml"), "utf8"), /spacing = 0.05/);
     assert.equal((JSON.parse(readFileSync(place.path("dam_run/summary.json"), "utf8")) as { ranks: { count: number } }).ranks.count, 2);
   });

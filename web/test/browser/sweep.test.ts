@@ -15,8 +15,8 @@ test("a sweep: members beside each other, one stopped, gone on with", async (con
     await page.keyboard.press("r");
     await page.waitForFunction("/^[0-2] of 3/.test(document.querySelector('.sweep p')?.textContent)");
     await press(page, "Go on with the sweep");
-    await page.waitForFunction("document.querySelector('.sweep p')?.textContent.startsWith('3 of 3')", { timeout: 60_000 });
-    await until(page, "app.shownRuns().every((run) => run.info.state === 'done' && run.end >= 2 && run.frames.list.length > 20)", 20_000);
+    await page.waitForFunction("document.querySelector('.sweep p')?.textContent.startsWith('3 of 3')");
+    await until(page, "app.shownRuns().every((run) => run.info.state === 'done' && run.end >= 2 && run.frames.list.length > 20)");
     await page.keyboard.press("g");
     await page.waitForFunction("document.querySelector('.score')?.textContent.includes('at dx = 0')");
     await page.keyboard.press("r");

@@ -53,7 +53,7 @@ test("speed of the page", { timeout: 900_000 }, async () => {
         }, 5);
       });`);
     await view.goto(await mock.listen());
-    await until(view, "globalThis.first && app.shown()[0].frames.list.every((_, i) => app.shown()[0].frames.isDecoded(i))", 240_000);
+    await until(view, "globalThis.first && app.shown()[0].frames.list.every((_, i) => app.shown()[0].frames.isDecoded(i))");
     const first = (await view.evaluate("first")) as number;
     const decoding = (await view.evaluate("tailwater.shown()[0].frames.milliseconds.sort((a, b) => a - b)[tailwater.shown()[0].frames.milliseconds.length >> 1]")) as number;
     const before = cpuTime(visitor.browser.process()!.pid!);

@@ -6,6 +6,9 @@ import puppeteer, { type Browser, type Page } from "puppeteer-core";
 
 export const chromium = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
 
+/** The longest that a test waits for anything, ms: so long that no busy machine reaches it, and less than CTest waits. */
+const patience = 200_000;
+
 export interface Visit {
   browser: Browser;
   page: Page;
@@ -18,13 +21,14 @@ export interface Visit {
 export async function visit(address: string, dark = false): Promise<Visit> {
   const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
   const browser = await puppeteer.launch({
-    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 },
+    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
     args: [
       "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
       "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
     ],
   });
   const page = (await browser.pages())[0] ?? (await browser.newPage());
+  page.setDefaultTimeout(patience);
   const faults: string[] = [];
   page.on("console", (message) => {
     if ((message.type() === "error" || message.type() === "warn") && !message.text().includes("GL Driver Message")) faults.push(`console: ${message.text()}`);
@@ -45,9 +49,12 @@ export async function visit(address: string, dark = false): Promise<Visit> {
 }
 
 /** Waits until the page says yes to `condition`, a JavaScript expression in which `app` is the page's App. */
-export async function until(page: Page, condition: string, milliseconds = 10_000): Promise<void> {
-  await page.waitForFunction(`(() => { const app = globalThis.tailwater; return app && (${condition}); })()`, { timeout: milliseconds, polling: 50 });
+export async function until(page: Page, condition: string): Promise<void> {
+  await page.waitForFunction(`(() => { const app = globalThis.tailwater; return app && (${condition}); })()`, { polling: 50 });
 }
+
+/** Where the eye of the picture is. */
+export const camera = (page: Page) => page.evaluate("JSON.stringify([tailwater.view.eye.target, tailwater.view.eye.span])");
 
 /** What a bar of `milliseconds` on a quiet machine is on this one now: as much more as a request and a picture take here,
  * the longest of five. */

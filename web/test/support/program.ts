@@ -95,8 +95,6 @@ export async function withProgram(context: TestContext, body: (place: Workplace,
   }
 }
 
-export const camera = (page: Page) => page.evaluate("JSON.stringify([tailwater.view.eye.target, tailwater.view.eye.span])");
-
 /** Presses the button with this word, once it is there. */
 export async function press(page: Page, word: string): Promise<void> {
   await page.waitForFunction((w) => [...document.querySelectorAll("button")].some((b) => b.textContent === w && !b.disabled), {}, word);
