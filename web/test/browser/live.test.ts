@@ -1,14 +1,14 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
-import { existsSync, renameSync, statSync } from "node:fs";
+import { renameSync, statSync } from "node:fs";
 import { test } from "node:test";
 import { allowed, camera, until } from "../support/browser.ts";
 import { press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
   await withProgram(context, async (place, open) => {
-    place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "output.view_interval=0.05");
-    while (!existsSync(place.path("run/view/00001.frame"))) await new Promise((resolve) => setTimeout(resolve, 20));
+    const run = place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "output.view_interval=0.05");
+    await place.written(run, "run/view/00001.frame");
     const page = await open(await place.view("run"));
     await until(page, "app.player.following && app.view?.eye && app.shownRuns()[0].frames.list.length > 2");
     const before = await camera(page);

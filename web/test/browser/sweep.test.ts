@@ -1,5 +1,5 @@
 // The page with the program itself behind it.
-import { existsSync, writeFileSync } from "node:fs";
+import { writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { until } from "../support/browser.ts";
 import { press, withProgram } from "../support/program.ts";
@@ -7,9 +7,10 @@ import { press, withProgram } from "../support/program.ts";
 test("a sweep: members beside each other, one stopped, gone on with", async (context) => {
   await withProgram(context, async (place, open) => {
     const sweep = place.start("run", "dam.toml", "--out", "sweep", "--quiet", "--sweep", "particles.spacing=0.06,0.05,0.04", "--set", "time.end=2");
-    while (!existsSync(place.path("sweep/particles.spacing=0.06/view/00001.frame"))) await new Promise((resolve) => setTimeout(resolve, 10));
+    const ended = new Promise((resolve) => sweep.once("exit", resolve));
+    await place.written(sweep, "sweep/particles.spacing=0.06/view/00001.frame");
     writeFileSync(place.path("sweep/STOP"), "");
-    await new Promise((resolve) => sweep.once("exit", resolve));
+    await ended;
     const page = await open(await place.view("sweep"));
     await until(page, "app.shownRuns().length === 3 && app.view.cells.length === 3");
     await page.keyboard.press("r");

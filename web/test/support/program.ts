@@ -8,8 +8,8 @@ import type { TestContext } from "node:test";
 import type { Page } from "puppeteer-core";
 import { visit, type Visit } from "./browser.ts";
 
-/** $TAILWATER, or what is built beside these sources; undefined: there is none. */
-export const program = [process.env["TAILWATER"], resolve(process.env["TAILWATER_WEB"]!, "../build/release/bin/tailwater")].find((path) => path && existsSync(path));
+/** $TAILWATER, or what is built beside these sources. */
+const program = process.env["TAILWATER"] ?? resolve(process.env["TAILWATER_WEB"]!, "../build/release/bin/tailwater");
 
 export class Workplace {
   readonly folder = mkdtempSync(join(tmpdir(), "tailwater-program-"));
@@ -17,14 +17,14 @@ export class Workplace {
 
   /** Calls the program and waits for it; throws what it says if it fails. */
   call(...words: string[]): string {
-    const { status, stdout, stderr } = spawnSync(program!, words, { cwd: this.folder, encoding: "utf8" });
+    const { status, stdout, stderr } = spawnSync(program, words, { cwd: this.folder, encoding: "utf8" });
     if (status !== 0) throw new Error(`tailwater ${words.join(" ")} ends with ${status}: ${stderr}`);
     return stdout;
   }
 
   /** Starts the program; it is ended with this workplace. */
   start(...words: string[]): ChildProcess {
-    const child = spawn(program!, words, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
+    const child = spawn(program, words, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
     this.children.push(child);
     return child;
   }
@@ -40,6 +40,15 @@ export class Workplace {
       });
       child.on("exit", (code) => failed(new Error(`tailwater view ends with ${code}`)));
     });
+  }
+
+  /** Waits until `child` has written this file; throws if it ends without. */
+  async written(child: ChildProcess, file: string): Promise<void> {
+    while (!existsSync(this.path(file))) {
+      const end = child.exitCode ?? child.signalCode;
+      if (end !== null) throw new Error(`tailwater ends with ${end} and has not written ${file}`);
+      await new Promise((resolve) => setTimeout(resolve, 10));
+    }
   }
 
   path(...names: string[]): string {
@@ -79,7 +88,7 @@ interval = 0.01
 
 /** Calls `body` with a workplace that holds the case as dam.toml, and a browser; there is no fault in its console. */
 export async function withProgram(context: TestContext, body: (place: Workplace, open: (address: string) => Promise<Page>) => Promise<void>): Promise<void> {
-  if (!program) return context.skip("the program is not built");
+  if (!existsSync(program)) return context.skip(`there is no ${program}`);
   const place = new Workplace();
   writeFileSync(place.path("dam.toml"), dam);
   const visits: Visit[] = [];
