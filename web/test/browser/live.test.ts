@@ -38,7 +38,9 @@ test("a live run on two ranks: its frames are on the screen within a second; sto
     await press(page, "Stop");
     await until(page, "app.shownRuns()[0].info.state === 'stopped'");
     renameSync(place.path("run"), place.path("elsewhere"));
-    await page.evaluate("tailwater.player.seek(0)");
-    await until(page, "app.shownRuns()[0].frames.at(0) !== null");
+    // All frames are asked for again: there are none, which is no error.
+    await page.evaluate("(({ frames }) => { const list = [...frames.list]; frames.cut(-1); frames.add(list); })(tailwater.shownRuns()[0])");
+    await until(page, "app.shownRuns()[0].frames.halted || app.shownRuns()[0].frames.error");
+    assert.deepEqual(await page.evaluate("(({ frames }) => [frames.at(0), frames.error])(tailwater.shownRuns()[0])"), [null, ""]);
   });
 });
