@@ -24,12 +24,6 @@ template <class D>
 class ViscosityTest : public testing::Test {};
 TYPED_TEST_SUITE(ViscosityTest, Dimensions);
 
-template <int Dim>
-ParticleSet<Dim> block() {
-  return ParticleSet<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
-                          make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx);
-}
-
 TEST(ViscosityLaw, GrowsWithTheSpeed) {
   const ViscosityLaw law{.molecular = 1e-6, .artificial = 0.02};
   EXPECT_DOUBLE_EQ(law.at_speed(0.0), 1e-6);
@@ -77,7 +71,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
 
 TYPED_TEST(ViscosityTest, ARigidRotationIsFreeOfStressUpToTheSurface) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Mat<Dim> spin = Mat<Dim>::Zero();
   spin(0, 1) = -2.0;
   spin(1, 0) = 2.0;
@@ -100,7 +94,7 @@ void add_noise_viscosity(const ParticleSet<Dim>& set, const std::vector<Vec<Dim>
 
 TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   constexpr int Dim = TypeParam::value;
-  ParticleSet<Dim> set = block<Dim>();
+  ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(43);
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   // Any gradients, right or wrong: what the limiter promises does not depend on them.
@@ -127,7 +121,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
 
 TYPED_TEST(ViscosityTest, NoiseViscosityLeavesTheProfileOfALayerAlone) {
   constexpr int Dim = TypeParam::value;
-  ParticleSet<Dim> set = block<Dim>();
+  ParticleSet<Dim> set = jittered_block<Dim>(dx);
   // All differences point along x: those of the profile, and those of its gradient, of which half is found, as beside
   // a wall whose particles glide along.
   const auto velocity =
@@ -147,7 +141,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesTheProfileOfALayerAlone) {
 
 TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(44);
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   const std::vector<double> viscosity(set.size(), 0.03);
@@ -197,7 +191,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
 
 TYPED_TEST(ViscosityTest, LeavesAUniformVelocityAlone) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   const auto velocity = sample(set, [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Constant(1.7)); });
   const std::vector<double> viscosity(set.size(), 0.1);
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());

@@ -52,8 +52,7 @@ std::vector<Vec<Dim>> sums_over_faces(const ParticleSet<Dim>& set, const PairVec
 TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
   constexpr int Dim = TypeParam::value;
   // A block with edges, any shares of the corrections.
-  const ParticleSet<Dim> set(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
-                             make_kernel<Dim>(KernelName::wendland_c2, radius), dx);
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(51);
   const auto interior =
       sample(set, [&](const Vec<Dim>& x) { return x.cwiseAbs().maxCoeff() < 2.0 * dx ? 0.5 + 0.5 * noise() : 0.0; });
@@ -76,8 +75,7 @@ TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
 
 TYPED_TEST(PairVectorsTest, TheMeanOfInteriorIsFoundOnTheWay) {
   constexpr int Dim = TypeParam::value;
-  ParticleSet<Dim> set(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
-                       make_kernel<Dim>(KernelName::wendland_c2, radius), dx);
+  ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(52);
   const auto is_wall = [](const Vec<Dim>& x) { return x[0] < -2.0 * dx; };
   for (std::size_t i = 0; i < set.size(); ++i) {

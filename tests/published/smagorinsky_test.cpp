@@ -24,12 +24,6 @@ class SmagorinskyTest : public testing::Test {};
 TYPED_TEST_SUITE(SmagorinskyTest, Dimensions);
 
 template <int Dim>
-ParticleSet<Dim> block() {
-  return ParticleSet<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
-                          make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx);
-}
-
-template <int Dim>
 std::vector<Mat<Dim>> stress_of(const ParticleSet<Dim>& set, const Mat<Dim>& gradient) {
   const auto velocity =
       sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(Vec<Dim>::Constant(0.5) + gradient * x); });
@@ -40,7 +34,7 @@ std::vector<Mat<Dim>> stress_of(const ParticleSet<Dim>& set, const Mat<Dim>& gra
 
 TYPED_TEST(SmagorinskyTest, UniformFlowAndRigidRotationHaveNone) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Mat<Dim> rotation = Mat<Dim>::Zero();
   rotation(0, 1) = -2.0;
   rotation(1, 0) = 2.0;
@@ -54,7 +48,7 @@ TYPED_TEST(SmagorinskyTest, UniformFlowAndRigidRotationHaveNone) {
 TYPED_TEST(SmagorinskyTest, SimpleShear) {
   constexpr int Dim = TypeParam::value;
   // u = G y: S_xy = G/2, |S| = sqrt(2 S:S) = G, nu_t = (c_s dx)^2 G, k = (nu_t/(0.08 dx))^2; exact at edges as well.
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   const double G = 3.0;
   const double nu_t = c_s * c_s * dx * dx * G;
   const double k = std::pow(nu_t / (0.08 * dx), 2);
@@ -79,7 +73,7 @@ TYPED_TEST(SmagorinskyTest, LoneParticlesHaveNone) {
 
 TYPED_TEST(SmagorinskyTest, DivergenceConservesMomentum) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(51);
   std::vector<Mat<Dim>> stress(set.size());
   for (Mat<Dim>& tau : stress) {

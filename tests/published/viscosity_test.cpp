@@ -16,15 +16,9 @@ template <class D>
 class PublishedViscosityTest : public testing::Test {};
 TYPED_TEST_SUITE(PublishedViscosityTest, Dimensions);
 
-template <int Dim>
-ParticleSet<Dim> block() {
-  return ParticleSet<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.3),
-                          make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx);
-}
-
 TYPED_TEST(PublishedViscosityTest, LeavesAUniformVelocityAlone) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   const ConsistentOperators<Dim> operators(set);
   const auto velocity = sample(set, [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Constant(1.7)); });
   const std::vector<double> viscosity(set.size(), 0.1);
@@ -36,7 +30,7 @@ TYPED_TEST(PublishedViscosityTest, LeavesAUniformVelocityAlone) {
 
 TYPED_TEST(PublishedViscosityTest, ConsistentFormIsExactForQuadraticVelocities) {
   constexpr int Dim = TypeParam::value;
-  const ParticleSet<Dim> set = block<Dim>();
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   const ConsistentOperators<Dim> operators(set);
   // Poiseuille: u = y^2 in x, lap u = 2; the other parts linear.
   const auto velocity = sample(set, [](const Vec<Dim>& x) {

@@ -98,6 +98,13 @@ struct ParticleSet {
   double spacing;
 };
 
+/// A jittered cube of fluid with a kernel that reaches three spacings.
+template <int Dim>
+ParticleSet<Dim> jittered_block(double spacing) {
+  return ParticleSet<Dim>(jittered_cube<Dim>(Dim == 2 ? 14 : 8, spacing, 0.3),
+                          make_kernel<Dim>(KernelName::wendland_c2, 3.0 * spacing), spacing);
+}
+
 /// `function` at every particle, ghosts included.
 template <int Dim, class Function>
 auto sample(const ParticleSet<Dim>& set, Function&& function) {
