@@ -399,7 +399,7 @@ TEST(Check, WaterBehindALineIsAnError) {
   spec.walls[1].shape = WallShape::plate;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.scheme.formulation = Formulation::published;
-  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "robust"});
+  expect_among(check(spec), Severity::error, {"'wall2' is a plate", "\"robust\""});
 }
 
 // Water on both sides of a slanted plate, each nearer than dx/2 to the other.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "operators/lattice.h"
 #include "support/particle_set.h"
 #include "walls/wall_friction.h"
 #include "walls/wet_walls.h"
@@ -80,6 +81,12 @@ struct WettedWall {
   std::vector<Vec<Dim>> V;
   Surroundings<Dim> here;
 };
+
+template <int Dim>
+FrictionLaw friction_law(double viscosity) {
+  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx);
+  return {.viscosity = viscosity, .spacing = dx, .exchange_length = 1.0 / lattice_sums<Dim>(kernel, dx).across_plane};
+}
 
 template <int Dim>
 Mat<Dim> flat() {

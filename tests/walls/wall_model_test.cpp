@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "closures/viscosity.h"
-#include "operators/lattice.h"
 #include "support/dimensions.h"
 #include "support/wetted_wall.h"
 #include "walls/dummies.h"
@@ -23,12 +22,6 @@ constexpr double single_eps = std::numeric_limits<float>::epsilon();
 template <class D>
 class WallTest : public testing::Test {};
 TYPED_TEST_SUITE(WallTest, Dimensions);
-
-template <int Dim>
-FrictionLaw friction_law(double viscosity) {
-  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx);
-  return {.viscosity = viscosity, .spacing = dx, .exchange_length = 1.0 / lattice_sums<Dim>(kernel, dx).across_plane};
-}
 
 TYPED_TEST(WallTest, OnlyWallsInReachOfFluidAreWet) {
   constexpr int Dim = TypeParam::value;
