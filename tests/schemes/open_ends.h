@@ -8,18 +8,37 @@ namespace tailwater {
 /// m; the spacing of these cases.
 constexpr double end_spacing = 0.05;
 
+/// Opens the tank of tank_case at high x, with an outlet there.
+inline OutletTable& open_end(CaseSpec& spec) {
+  WallTable& tank = spec.walls[0];
+  tank.open.emplace_back("+x");
+  OutletTable end;
+  end.from = tank.min;
+  end.from[0] = tank.max[0];
+  end.to = tank.max;
+  end.direction = Coordinates(tank.min.size(), 0.0);
+  end.direction[0] = 1.0;
+  return spec.outlets.emplace_back(end);
+}
+
+/// Opens the tank of tank_case at low x, with an inlet there.
+inline InletTable& open_start(CaseSpec& spec) {
+  WallTable& tank = spec.walls[0];
+  tank.open.emplace_back("-x");
+  InletTable start;
+  start.from = tank.min;
+  start.to = tank.max;
+  start.to[0] = tank.min[0];
+  start.direction = Coordinates(tank.min.size(), 0.0);
+  start.direction[0] = 1.0;
+  return spec.inlets.emplace_back(start);
+}
+
 /// The tank of tank_case with its end at high x open.
 template <int Dim>
 CaseSpec open_tank(double width, double depth) {
   CaseSpec spec = tank_case<Dim>(end_spacing, width, depth);
-  spec.walls[0].open.emplace_back("+x");
-  OutletTable end;
-  end.from = Coordinates(Dim, 0.0);
-  end.from[0] = width;
-  end.to = spec.walls[0].max;
-  end.direction = Coordinates(Dim, 0.0);
-  end.direction[0] = 1.0;
-  spec.outlets = {end};
+  open_end(spec);
   return spec;
 }
 
@@ -27,13 +46,7 @@ CaseSpec open_tank(double width, double depth) {
 template <int Dim>
 CaseSpec channel(double width, double depth) {
   CaseSpec spec = open_tank<Dim>(width, depth);
-  spec.walls[0].open.emplace_back("-x");
-  InletTable start;
-  start.from = Coordinates(Dim, 0.0);
-  start.to = spec.walls[0].max;
-  start.to[0] = 0.0;
-  start.direction = spec.outlets[0].direction;
-  spec.inlets = {start};
+  open_start(spec);
   return spec;
 }
 
