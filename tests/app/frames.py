@@ -8,20 +8,15 @@ class Frame:
 
     def __init__(self, path):
         data = path.read_bytes()
-        magic, self.format, self.dimension, self.order, self.index, self.count, self.time, poses, scalars = \
-            struct.unpack_from("<4sHBBIIdII", data)
+        magic, dimension, self.order, self.index, self.count, self.time, poses, scalars = \
+            struct.unpack_from("<4s2xBBIIdII", data)
         if magic != b"TWVF":
             raise ValueError(f"{path} is no frame")
-        place = 32
-        self.low, self.high = (struct.unpack_from(f"<{self.dimension}d", data, place + k * 8 * self.dimension)
-                               for k in (0, 1))
-        place += 16 * self.dimension
-        self.ranges = [struct.unpack_from("<2f", data, place + 8 * s) for s in range(scalars)]
-        place += 8 * scalars
-        size = 3 if self.dimension == 2 else 7
+        place = 32 + 16 * dimension + 8 * scalars  # after the box and the ranges of the scalars
+        size = 3 if dimension == 2 else 7
         self.poses = [struct.unpack_from(f"<{size}d", data, place + 8 * size * p) for p in range(poses)]
         place += 8 * size * poses
-        payload, self.raw_bytes = struct.unpack_from("<II", data, place)
+        payload, = struct.unpack_from("<I", data, place)
         if len(data) != place + 8 + payload:
             raise ValueError(f"{path} is not whole")
         self.bytes = len(data)

@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import time
 import unittest
 
 from frames import read_frames
@@ -146,7 +145,7 @@ end = 0.02
         self.wait_for((self.folder / "out" / "STOP").exists, process)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
-        self.wait_for_end_of_all()
+        self.wait_for(lambda: not self.processes())
         self.assertFalse((self.folder / "out" / "STOP").exists())
 
     def test_an_interrupt_before_anything_is_written_ends_all_at_once(self):
@@ -159,7 +158,7 @@ end = 0.02
         self.wait_for(lambda: len(self.ranks(process)) == 2, process)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
-        self.wait_for_end_of_all()
+        self.wait_for(lambda: not self.processes())
         if self.summary("out") != before:
             self.assertIn(self.summary("out")["status"], ("running", "interrupted"))
         self.assertFalse((self.folder / "out" / "STOP").exists())
@@ -168,13 +167,7 @@ end = 0.02
         process = self.start_long_run()
         process.kill()
         process.wait()
-        self.wait_for_end_of_all()
-
-    def wait_for_end_of_all(self):
-        deadline = time.monotonic() + PATIENCE
-        while self.processes() and time.monotonic() < deadline:
-            time.sleep(0.1)
-        self.assertEqual(self.processes(), [])
+        self.wait_for(lambda: not self.processes())
 
 
 if __name__ == "__main__":

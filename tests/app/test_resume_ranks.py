@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 import unittest
 
 import numpy as np
@@ -16,13 +15,6 @@ MPIRUN = os.environ["MPIRUN"]
 # Uneven work, so that space is cut again on the way.
 CASE = ("--set", "particles.spacing=0.05", "--set", "parallel.imbalance=0.01", "--quiet")
 HALF, WHOLE = ("--set", "time.end=0.15"), ("--set", "time.end=0.3")
-
-
-def wait_until(test, condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        test.assertLess(time.monotonic(), deadline, "nothing has happened")
-        time.sleep(0.02)
 
 
 class Resumed(ProgramTest):
@@ -54,10 +46,10 @@ class Resumed(ProgramTest):
                 mpirun = next(number for number in processes_of(out) if command_line(number)[0] == MPIRUN)
                 os.kill(launcher if role == "the launcher" else mpirun, signal.SIGKILL)
                 process.wait(timeout=PATIENCE)
-                wait_until(self, lambda: not processes_of(out))
+                self.wait_for(lambda: not processes_of(out))
                 steps = (out / "steps.csv").stat().st_size
                 process = self.start("resume", out, "--quiet")
-                wait_until(self, lambda before=steps: (out / "steps.csv").stat().st_size > before)
+                self.wait_for(lambda before=steps: (out / "steps.csv").stat().st_size > before)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
         self.assertEqual(self.summary("run")["ranks"]["count"], 2)

@@ -3,11 +3,10 @@
 import csv
 import itertools
 import signal
-import time
 import unittest
 
 from processes import processes_of
-from program import PATIENCE, ProgramTest
+from program import ProgramTest
 
 SPACINGS = ("0.1", "0.05")
 SWEPT = ("--sweep", "particles.spacing=" + ",".join(SPACINGS))
@@ -106,10 +105,7 @@ class Sweep(ProgramTest):
         self.wait_for((out / MEMBERS[0] / "summary.json").exists, sweep)
         sweep.kill()
         sweep.wait()
-        deadline = time.monotonic() + PATIENCE
-        while processes_of(out / MEMBERS[0]):
-            self.assertLess(time.monotonic(), deadline, "a member goes on")
-            time.sleep(0.02)
+        self.wait_for(lambda: not processes_of(out / MEMBERS[0]))
         self.assertIn(self.summary(f"sweep/{MEMBERS[0]}")["status"], ("interrupted", "running"))
 
     def test_what_is_wrong_is_refused_before_anything_is_written(self):

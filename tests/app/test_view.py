@@ -10,7 +10,6 @@ import shutil
 import signal
 import socket
 import subprocess
-import time
 import unittest
 import zlib
 
@@ -46,6 +45,21 @@ class Viewed(ProgramTest):
 
     def post(self, path, body="", expect=200):
         return self.json(path, expect, method="POST", body=body, headers=PAGE)
+
+    def events(self, path="api/run/0/events"):
+        """(name, data) of each event, as they come."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
+        self.addCleanup(connection.close)
+        connection.request("GET", f"/{self.token}/{path}")
+        answer = connection.getresponse()
+        self.assertEqual(answer.headers["Content-Type"], "text/event-stream")
+        name = None
+        for line in answer:
+            text = line.decode().rstrip("\n")
+            if text.startswith("event: "):
+                name = text[7:]
+            elif text.startswith("data: "):
+                yield name, json.loads(text[6:])
 
     def raw(self, text):
         """The status of a request as it is written."""
@@ -197,21 +211,6 @@ class OfADoneRun(Viewed):
         self.post("api/run/0/stop", expect=409)
         self.assert_lives()
 
-    def events(self, path="api/run/0/events"):
-        """(name, data) of each event, as they come."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
-        self.addCleanup(connection.close)
-        connection.request("GET", f"/{self.token}/{path}")
-        answer = connection.getresponse()
-        self.assertEqual(answer.headers["Content-Type"], "text/event-stream")
-        name = None
-        for line in answer:
-            text = line.decode().rstrip("\n")
-            if text.startswith("event: "):
-                name = text[7:]
-            elif text.startswith("data: "):
-                yield name, json.loads(text[6:])
-
     def test_old_runs_are_shown_from_their_field_files(self):
         shutil.rmtree(self.folder / "run/view")
         self.view("run")
@@ -284,10 +283,8 @@ class OfADoneRun(Viewed):
         self.view("sweep")
         self.assertEqual(self.json("api/sweeps")[0]["done"], 1)
         self.post("api/sweep/0/resume")
-        deadline = time.monotonic() + PATIENCE
-        while self.json("api/sweeps")[0]["done"] < 2 or self.json("api/sweeps")[0]["is_at_work"]:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
+        done = [{"name": "sweep", "members": 2, "done": 2, "is_at_work": False}]
+        self.wait_for(lambda: self.json("api/sweeps") == done)
 
     def test_a_report_comes_with_the_runs_that_it_shows(self):
         shutil.copytree(self.folder / "run", self.folder / "report/runs/finest")
@@ -298,9 +295,7 @@ class OfADoneRun(Viewed):
         self.assertEqual((state["mode"], state["report"]), ("report", report))
         self.assertEqual([run["name"] for run in state["runs"]], ["finest"])
         self.assertEqual(self.json("api/run/0/info")["state"], "done")
-        self.call("view", "report", "--export", "report.html")
-        text = (self.folder / "report.html").read_text()
-        data = json.loads(re.search(r'id="tailwater-data">(.*?)</script>', text, re.DOTALL)[1])
+        _, data = self.exported("report")
         self.assertEqual((data["state"]["report"], len(data["runs"])), (report, 1))
         self.assertIn("shown alone", self.call("view", "report", "run", expect=2).stderr)
         alone = [{"shown": None}]
@@ -320,8 +315,6 @@ class OfADoneRun(Viewed):
 
 
 class OfALiveRun(Viewed):
-    events = OfADoneRun.events
-
     def test_events_tell_of_frames_tables_and_the_end(self):
         process = self.start_endless_run()
         self.view("run")
@@ -365,20 +358,14 @@ class OfALiveRun(Viewed):
         self.server.send_signal(signal.SIGTERM)
         self.assertEqual(self.server.wait(timeout=PATIENCE), 0)
         count = len(list((self.folder / "run/view").glob("*.frame")))
-        self.wait_until(lambda: len(list((self.folder / "run/view").glob("*.frame"))) > count)
+        self.wait_for(lambda: len(list((self.folder / "run/view").glob("*.frame"))) > count)
         (self.folder / "run/STOP").touch()
-        self.wait_until(lambda: self.summary("run")["status"] == "interrupted")
+        self.wait_for(lambda: self.summary("run")["status"] == "interrupted")
 
     def wait_for_frame(self, events, index):
         for name, data in events:
             if name == "frame" and data["index"] == index:
                 return
-
-    def wait_until(self, condition):
-        deadline = time.monotonic() + PATIENCE
-        while not condition():
-            self.assertLess(time.monotonic(), deadline, "nothing has happened")
-            time.sleep(0.05)
 
 
 class OfACase(Viewed):
@@ -423,10 +410,7 @@ class OfACase(Viewed):
         run = self.post("api/start", json.dumps({"text": longer, "out": "small_run", "ranks": 1}))["run"]
         self.assertEqual(self.json(f"api/run/{run}/info")["state"], "running")
         self.post(f"api/run/{run}/stop")
-        deadline = time.monotonic() + PATIENCE
-        while self.json(f"api/run/{run}/info")["state"] != "stopped":
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
+        self.wait_for(lambda: self.json(f"api/run/{run}/info")["state"] == "stopped")
         self.assert_lives()
 
     def test_check_as_json(self):

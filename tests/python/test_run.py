@@ -3,6 +3,7 @@
 import os
 import signal
 import threading
+import time
 import unittest
 import unittest.mock
 import urllib.request
@@ -115,10 +116,11 @@ class Runs(PackageTest):
 
     def test_interrupt_ends_the_run_in_order(self):
         self.case["time.end"] = 1e6
+        fields = Path("out/fields").absolute()
 
         def stop():
-            while not list(Path(".").glob("out/fields/*.vtp")):
-                pass
+            while not list(fields.glob("*.vtp")):
+                time.sleep(0.02)
             os.kill(os.getpid(), signal.SIGINT)
 
         threading.Thread(target=stop, daemon=True).start()
