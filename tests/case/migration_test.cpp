@@ -7,6 +7,7 @@
 #include "case/removed_keys.h"
 #include "case/spec.h"
 #include "case_file.h"
+#include "io/temporary_folder.h"
 
 namespace tailwater {
 namespace {
@@ -90,13 +91,8 @@ TEST(Migration, KnowsThatPublishedSchemesHaveNoStudies) {
 }
 
 TEST(Migration, RefusesWhatItCannotChange) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      migrate_case(text, "old.toml");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [](const std::string& text) {
+    return message_of<InputError>([&] { migrate_case(text, "old.toml"); });
   };
   EXPECT_NE(message("case.format = 2\n").find("use a newer version"), std::string::npos);
   EXPECT_NE(message("a = 1\nscheme = { kernel = 3 }\n").find("old.toml:2: scheme.kernel stands in braces"),

@@ -116,7 +116,6 @@ shape = "box"
 min = [0, 0, 0]
 max = [1, 1, 1]
 open = ["+z"]
-[domain]
 )");
   const Json& triangles = scene["walls"][0]["triangles"];
   EXPECT_EQ(triangles["positions"].size(), 3 * 8U);
