@@ -17,7 +17,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from tailwater_validation import compare, zhou1999
+from tailwater_validation import compare, laboratory_picture, plots, zhou1999
+from tailwater_validation.run_folder import RunFolder
 
 SAMPLING = 0.001  # s
 ARRIVAL = 0.59  # s: before the window in which noise is scored
@@ -25,6 +26,7 @@ SAWTOOTH = 0.03  # of rho g H, over four samples: -1, -1/3, 1/3, 1 times this
 
 EFFECTIVE_CASE = """\
 [case]
+dimension = 2
 title = "Dam break of a 1.2 m x 0.6 m column, Zhou et al. (1999)"
 [particles]
 spacing = {spacing}
@@ -135,10 +137,14 @@ class CaseTest(unittest.TestCase):
         self.addCleanup(parent.cleanup)
         self.folder = Path(parent.name) / "run"
 
-    def assert_recognised_and_drawn(self, name, draw):
+    def assert_recognised_and_drawn(self, name):
         self.assertEqual(compare.recognise(self.folder), name)
-        draw(self.folder, self.folder / "picture.png")
-        self.assertEqual(matplotlib.image.imread(self.folder / "picture.png").shape[1], 11 * 160)
+        compare.draw(name, RunFolder(self.folder), self.folder / "picture.png")
+        pixels = matplotlib.image.imread(self.folder / "picture.png")
+        self.assertEqual(pixels.shape[1], plots.WIDTH * laboratory_picture.DPI)
+        # The computed curves' blue, #0072B2, is on the page.
+        blue = np.abs(pixels[:, :, :3] - np.array([0x00, 0x72, 0xB2]) / 255).max(axis=2) < 1e-6
+        self.assertGreater(np.count_nonzero(blue), 100)
 
 
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):

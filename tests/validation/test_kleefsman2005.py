@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import kleefsman2005, kleefsman2005_picture
+from tailwater_validation import kleefsman2005
 from tailwater_validation.curves import DataError, read_table
 
 CASE = kleefsman2005.DATA.parents[1] / "case.toml"
@@ -40,7 +40,7 @@ def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
         pressure = np.where(curve.time > kleefsman2005.NOT_BEFORE, factor * curve.value, 0)
         synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure})
     cells = np.stack(np.meshgrid(*(np.arange(0.05, length, 0.1) for length in (1.2, 1.0, 0.5))), -1).reshape(-1, 3)
-    synthetic_run.write_frames_3d(folder, [(time, cells + (2.0 - time, 0, 0)) for time in kleefsman2005_picture.MOMENTS])
+    synthetic_run.write_frames_3d(folder, [(time, cells + (2.0 - time, 0, 0)) for time in kleefsman2005.MOMENTS])
     return folder
 
 
@@ -115,7 +115,7 @@ class Scores(synthetic_run.CaseTest):
 
     def test_recognised_and_drawn(self):
         write_run(self.folder)
-        self.assert_recognised_and_drawn("kleefsman2005", kleefsman2005_picture.draw)
+        self.assert_recognised_and_drawn("kleefsman2005")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import synthetic_run
-from tailwater_validation import soares_frazao2002, soares_frazao2002_picture
+from tailwater_validation import soares_frazao2002
 from tailwater_validation.run_folder import RunFolder
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "soares_frazao2002" / "case.toml"
@@ -16,6 +16,7 @@ PLACES = {"gate": 2.39, "midway": 3.2, "toe": 4.0, "crest": 4.45, "end": 5.6}
 
 EFFECTIVE_CASE = """\
 [case]
+dimension = 2
 title = "{title}"
 [physics]
 density = 1000.0
@@ -103,7 +104,7 @@ class SoaresFrazao(synthetic_run.CaseTest):
             self.assertAlmostEqual(largest, 0.002)
 
     def test_recognised_and_drawn(self):
-        self.assert_recognised_and_drawn("soares_frazao2002", soares_frazao2002_picture.draw)
+        self.assert_recognised_and_drawn("soares_frazao2002")
 
     def test_the_case_is_the_one_that_is_scored(self):
         with open(CASE, "rb") as file:

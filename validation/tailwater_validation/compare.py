@@ -8,43 +8,25 @@ Exit codes: 0 done (whatever the verdicts are), 2 what was asked for is wrong, 4
 import argparse
 import json
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
-from . import (janosi2004, janosi2004_picture, kleefsman2005, kleefsman2005_picture, martin_moyce1952,
-               martin_moyce1952_picture, ozmen_cagatay2014, ozmen_cagatay2014_picture, picture, soares_frazao2002,
-               soares_frazao2002_picture, zhou1999)
+from . import (janosi2004, kleefsman2005, laboratory_picture, martin_moyce1952, ozmen_cagatay2014, soares_frazao2002,
+               zhou1999)
 from .curves import DataError
 from .metric import bar
 from .run_folder import RunFolder
 
-
-@dataclass(frozen=True)
-class Case:
-    """A case with laboratory data: `score` takes a run's folder and returns the result of `scoring`, `draw` takes the
-    folder and the image to write."""
-
-    title: str
-    score: Callable
-    draw: Callable
-
-
-CASES = {
-    "janosi2004": Case(janosi2004.TITLE, janosi2004.score, janosi2004_picture.draw),
-    "kleefsman2005": Case(kleefsman2005.TITLE, kleefsman2005.score, kleefsman2005_picture.draw),
-    "martin_moyce1952": Case(martin_moyce1952.TITLE, martin_moyce1952.score, martin_moyce1952_picture.draw),
-    "ozmen_cagatay2014": Case(ozmen_cagatay2014.TITLE, ozmen_cagatay2014.score, ozmen_cagatay2014_picture.draw),
-    "soares_frazao2002": Case(soares_frazao2002.TITLE, soares_frazao2002.score, soares_frazao2002_picture.draw),
-    "zhou1999": Case(zhou1999.TITLE, zhou1999.score, picture.draw_zhou1999),
-}
+# Cases with laboratory data, each a module: `score` takes a run's folder and returns the result of `scoring`, `draw`
+# takes the run and returns panels; the water is drawn at MOMENTS (s), or at `moments(run)`.
+CASES = {module.__name__.rpartition(".")[2]: module for module in
+         (janosi2004, kleefsman2005, martin_moyce1952, ozmen_cagatay2014, soares_frazao2002, zhou1999)}
 
 
 def recognise(run_folder):
     """Name of the case that the run was made of. Throws DataError if it is none of these."""
     title = RunFolder(run_folder).case.get("case", {}).get("title", "")
     for name, case in CASES.items():
-        if case.title == title:
+        if case.TITLE == title:
             return name
     raise DataError(f"{run_folder}: its title \"{title}\" is that of no case with laboratory data; name the case, one of "
                     f"{', '.join(sorted(CASES))}")
@@ -82,6 +64,13 @@ def table(result):
     return "\n".join([heading, cost_and_health(result["summary"]), "", *lines])
 
 
+def draw(name, run, image):
+    """Throws DataError."""
+    module = CASES[name]
+    moments = module.MOMENTS if hasattr(module, "MOMENTS") else module.moments(run)
+    laboratory_picture.draw(run, image, moments, module.draw(run))
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="tailwater_validation.compare",
                                      description="Compares a run with laboratory data.")
@@ -90,12 +79,11 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         name = options.case or recognise(options.run)
-        case = CASES[name]
         scores, image = options.run / "comparison.json", options.run / f"{name}.png"
-        result = case.score(options.run)
+        result = CASES[name].score(options.run)
         print(table(result))
         scores.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-        case.draw(options.run, image)
+        draw(name, RunFolder(options.run), image)
     except (DataError, OSError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 4

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import panels
 from .curves import DataError, read_table
 from .metric import Metric, measure
 from .profiles import profile_at, rms, vertical_differences
@@ -17,7 +18,7 @@ from .scoring import result
 TITLE = "Dam break over a wet bed, Janosi et al. (2004)"  # of the case file: how a run is recognised
 DATA = Path(__file__).resolve().parents[2] / "cases" / "janosi2004" / "data"
 DEPTH = 0.038  # m, of the water ahead
-INSTANTS = (0.156, 0.219, 0.281, 0.343, 0.406, 0.468, 0.531, 0.593)  # s
+INSTANTS = MOMENTS = (0.156, 0.219, 0.281, 0.343, 0.406, 0.468, 0.531, 0.593)  # s
 START = 0.40  # m: nearer to the gate its guides and what hangs on them are seen
 STEP = 0.001  # m, between the places that are compared
 
@@ -69,6 +70,18 @@ def score_instant(run, instant, shift):
         measure(Metric(f"rms highest {instant:g}", "  RMS of the highest water", "mm", "far water at 38 mm"),
                 value=lambda: rms(distances(run, instant, computed="highest_level"))),
     ]
+
+
+def draw(run):
+    def panel(instant):
+        profile = profile_at(run, "surface", instant)
+        shown = profile.x < 1.1
+        return panels.panel(f"Surface at t = {instant:g} s", "x (m)", "y (m)", (
+            panels.curve("laboratory, far water at 38 mm", *laboratory(instant), "measured"),
+            panels.curve("computed", profile.x[shown], profile.level[shown]),
+            panels.curve("highest water", profile.x[shown], profile.highest_level[shown], "aside")))
+
+    return [panel(instant) for instant in INSTANTS]
 
 
 def score(run_folder):

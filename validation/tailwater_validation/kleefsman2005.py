@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import panels
 from .curves import DataError, arrival_time, differences, read_curve
 from .metric import Metric, measure
 from .run_folder import RunFolder
@@ -17,6 +18,7 @@ TITLE = "Dam break against a box, Kleefsman et al. (2005)"  # of the case file: 
 DATA = Path(__file__).resolve().parents[2] / "cases" / "kleefsman2005" / "data" / "kleefsman2005.csv"
 DEPTH = 0.55  # m
 END = 6.0  # s
+MOMENTS = (0.5, 0.9, 2.0)  # s
 GRID = 0.01  # s, between the instants at which heights are compared
 
 GAUGES = ("H1", "H2", "H3", "H4")
@@ -132,6 +134,21 @@ def score_health(run):
         measure(Metric("outside", "most particles outside the walls", "particles", "0", 0, 0),
                 value=lambda: of_summary(run, "volume", "outside_the_walls_most")),
     ]
+
+
+def draw(run):
+    """Pressures around the impact, heights to the end; a spike of a few steps must not squeeze the curves."""
+    def beside(sensor, curves, title, unit, window, limits):
+        measured = laboratory(sensor).window(*window)
+        return panels.panel(title, "t (s)", unit, (panels.over_time("laboratory", measured, "measured"), *(
+            panels.over_time(label, curve.window(*window), kind) for label, curve, kind in curves)),
+            limits=limits or (-0.05 * measured.value.max(), 1.3 * measured.value.max()))
+
+    return [*(beside(sensor, [("computed", computed(run, sensor), "run")], f"{sensor}, z = {height:g} m", "pressure (Pa)",
+                     (0.3, 1.3), None) for sensor, height in SENSORS.items()),
+            *(beside(gauge, [("joined with the bed", computed(run, gauge), "run"),
+                             ("highest water", computed(run, gauge, "highest_m"), "aside")], gauge, "height (m)",
+                     (0, end_of(run)), (0, DEPTH)) for gauge in GAUGES)]
 
 
 def score(run_folder):

@@ -7,6 +7,7 @@ and n2 its height over a. The data are for n2 = 1 and 2; the run's parameters sa
 from dataclasses import dataclass
 from pathlib import Path
 
+from . import panels
 from .curves import DataError, passage_time, read_curve, rms_difference
 from .metric import Metric, measure
 from .run_folder import RunFolder
@@ -143,6 +144,25 @@ def score_series(n2):
                                       f"RMS of the table's front, T {start:.2g}..{end:.2g}", "a", series.label),
                                value=lambda: rms_difference(other, one, start, end, GRID)))
     return metrics
+
+
+def moments(run):
+    """s; of T = 0.8, 1.6 and 2.8."""
+    return [T * (width(run) / (n2_of(run) * GRAVITY)) ** 0.5 for T in (0.8, 1.6, 2.8)]
+
+
+def draw(run):
+    n2 = n2_of(run)
+    measured = [(series.label, laboratory_front(series)) for series in fronts(n2)]
+    end = 1.05 * max(curve.time[-1] for _, curve in measured)
+    tall = laboratory_height(n2)
+    return [panels.panel("Front", "T = t sqrt(n2 g/a)", "x/a", (
+                *(panels.over_time(f"laboratory, {label}", curve, "measured") for label, curve in measured),
+                panels.over_time("computed, foremost particle", front(run).window(0, end)),
+                panels.over_time("computed, foremost connected", front(run, "front_connected_m").window(0, end), "aside"))),
+            panels.panel("Height of the column at its back wall", "tau = t sqrt(g/a)", "h/(n2 a)", (
+                panels.over_time("laboratory", tall, "measured"),
+                panels.over_time("computed", height(run).window(0, 1.05 * tall.time[-1]))), limits=(0, 1.05))]
 
 
 def score(run_folder):

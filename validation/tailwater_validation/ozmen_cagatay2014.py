@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .curves import DataError, passage_time
+from . import panels
+from .curves import Curve, DataError, passage_time
 from .metric import Metric, measure
 from .profiles import profile_at
 from .run_folder import RunFolder
@@ -20,6 +21,7 @@ from .scoring import result
 TITLE = "Dam break over a hump with an open end, Ozmen-Cagatay et al. (2014)"  # of the case file: how a run is recognised
 DEPTH, GATE = 0.25, 4.65  # m: h0; x of the gate
 TIME_SCALE = (DEPTH / 9.81) ** 0.5  # s
+MOMENTS = tuple(T * TIME_SCALE for T in (8, 15.16, 23.05, 41.84))
 TOE, CREST, HUMP_END, HUMP_HEIGHT = 6.0, 8.0, 10.0, 0.3  # X, X, X, over h0
 
 DATA = Path(__file__).resolve().parents[2] / "cases" / "ozmen_cagatay2014" / "data"
@@ -63,7 +65,7 @@ def read_points(kind):
 def gauge_level(run, gauge, X):
     """Computed level over h0 at a gauge, over T."""
     depth = run.probe(gauge, "connected_m").scaled(1 / TIME_SCALE, 1 / DEPTH)
-    return type(depth)(depth.time, depth.value + bed(X))
+    return Curve(depth.time, depth.value + bed(X))
 
 
 def level(run, point):
@@ -108,6 +110,25 @@ def score_points(run, kind, points, targets):
         measure(Metric(f"level {point.name}", f"level, {point.gauge or 'profile'}, T = {point.T:g}, X = {point.X:g}", "h0",
                        f"measured {point.measured:.3f}, Farmani et al. {point.farmani:.3f}"),
                 value=partial(level, run, point)) for point in points]
+
+
+def draw(run):
+    def measured(x, point):
+        return (panels.curve("laboratory", [x], [point.measured], "measured"),
+                panels.curve("Farmani et al. (2020)", [x], [point.farmani], "measured"))
+
+    def of_profile(point):
+        profile = profile_at(run, "surface", point.T * TIME_SCALE)
+        X = (profile.x - GATE) / DEPTH
+        return panels.panel(f"Surface at T = {point.T:g}", "X", "level/h0", (
+            *measured(point.X, point), panels.curve("computed", X, profile.level / DEPTH),
+            panels.curve("bed", X, profile.bed / DEPTH, "aside")), limits=(0, 1.1))
+
+    def of_gauge(point):
+        return panels.panel(f"{point.gauge}, X = {point.X:g}", "T", "level/h0", (
+            *measured(point.T, point), panels.over_time("computed", gauge_level(run, point.gauge, point.X))), limits=(0, 1.1))
+
+    return [*map(of_profile, read_points("profile")), *map(of_gauge, read_points("gauge"))]
 
 
 def score(run_folder):

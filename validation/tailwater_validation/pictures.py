@@ -130,6 +130,18 @@ def draw_3d(run, chosen, folder, look_from):
         finish(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png")
 
 
+def draw_plane(axes, run, frame, view, speed):
+    """Particles coloured by their speed, if there is any, and walls; returns the particles."""
+    colours = {"facecolors": plots.SKY} if speed == 0 else {
+        "cmap": COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
+    dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
+    plots.draw_walls(axes, run)
+    view.apply(axes)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel(view.label_of_heights())
+    return dots
+
+
 def draw_2d(run, chosen, folder):
     frames = [read_frame(time, path) for _, time, path in chosen]
     speed = highest_speed(frames)
@@ -137,13 +149,7 @@ def draw_2d(run, chosen, folder):
     for (number, time, _), frame in zip(chosen, frames):
         figure = plots.new_figure(plots.WIDTH, (plots.WIDTH - 1.2) * view.ratio + 0.9)
         axes = figure.subplots()
-        colours = {"facecolors": plots.SKY} if speed == 0 else {
-            "cmap": COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
-        dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
-        plots.draw_walls(axes, run)
-        view.apply(axes)
-        axes.set_xlabel("x (m)")
-        axes.set_ylabel(view.label_of_heights())
+        dots = draw_plane(axes, run, frame, view, speed)
         finish(figure, axes, run, time, dots if speed > 0 else None, folder / f"picture_{number:05}.png")
 
 

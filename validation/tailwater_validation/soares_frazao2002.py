@@ -7,6 +7,7 @@ prints how far the surfaces of a run are from those of another one: the study of
 
 import sys
 
+from . import panels
 from .curves import passage_time
 from .metric import Metric, measure
 from .profiles import profile_at, rms, vertical_differences
@@ -16,7 +17,7 @@ from .scoring import result
 TITLE = "Dam break over a sill into still water, Soares-Frazao (2002)"  # of the case file: how a run is recognised
 DEPTH, POOL, SILL = 0.111, 0.02, 0.065  # m: of the reservoir, of the still water, height of the sill
 LENGTH, TOE, CREST, POOL_START = 5.6, 4.0, 4.45, 4.9  # m
-INSTANTS = (1.8, 3.0, 3.7, 8.4, 15.5)  # s, of the published profiles
+INSTANTS = MOMENTS = (1.8, 3.0, 3.7, 8.4, 15.5)  # s, of the published profiles
 
 ARRIVAL = 0.05 * DEPTH  # m: a depth above it is the front
 GAUGES = {"midway": 3.2, "toe": TOE, "crest": CREST}  # m, where the front is timed
@@ -73,6 +74,12 @@ def distances(run, reference):
         apart = vertical_differences((other.x, other.level), (one.x, one.level), run.spacing)
         rows.append((instant, rms(apart), float(abs(apart).max())))
     return rows
+
+
+def draw(run):
+    places = {"gate": 2.39, **GAUGES, "end": LENGTH}
+    return [panels.panel("Depths", "t (s)", "depth (m)", (panels.over_time(f"{name}, x = {x:g} m", run.probe(name, "connected_m"))
+                                                          for name, x in places.items()), limits=(0, 1.05 * DEPTH))]
 
 
 def score(run_folder):

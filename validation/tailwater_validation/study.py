@@ -28,8 +28,7 @@ class Plot:
 
 @dataclass(frozen=True)
 class Study:
-    """`about` says what is compared with what, `uncertainty` how well that is known. `sheets` are (caption, run, draw):
-    the picture that a case's own module draws of the folder of a run into a file. The water of `shown` is in the report,
+    """`about` says what is compared with what, `uncertainty` how well that is known. The water of `shown` is in the report,
     which points to it at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
     nothing, such as those of a flow that a body force drives around. `names` {run's name: label} tell runs apart in plots."""
 
@@ -40,7 +39,6 @@ class Study:
     uncertainty: str
     checks: tuple
     plots: tuple = ()
-    sheets: tuple = ()
     shown: Run | None = None
     moments: tuple = ()
     time_scale: float | None = None

@@ -1,24 +1,20 @@
 """`tailwater validate`: runs the papers' cases and the exact solutions, scores them, writes a report.
 
 OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and verdict, OUT/report.json the
-same with plots and pictures, which `tailwater view OUT` shows; OUT/report.html is that page as one file.
+same with plots, which `tailwater view OUT` shows; OUT/report.html is that page as one file.
 
 Usage: python -m tailwater_validation.validate --program FILE [CASE...] [--level quick|paper|fine] [--out DIR]
 Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
 interrupted.
 """
 
-import base64
 import datetime
-import io
 import json
 import math
 import os
 import platform
 import subprocess
 import sys
-
-from matplotlib import rc_context
 
 from . import command, panels
 from .curves import DataError
@@ -105,33 +101,22 @@ def finished_of(runs, out):
     return found
 
 
-def picture(draw, folder):
-    """The picture that `draw` makes of a run's folder, as the address of an image. Throws DataError."""
-    buffer = io.BytesIO()
-    with rc_context({"savefig.format": "webp"}):
-        draw(folder, buffer)
-    return "data:image/webp;base64," + base64.b64encode(buffer.getvalue()).decode()
-
-
 def figure(caption, runs, out, draw):
-    """What `draw` makes of those of the runs that reached their end, or why there is nothing."""
+    """The panels that `draw` makes of those of the runs that reached their end, or why there is nothing."""
     left = finished_of(runs, out)
     try:
-        return {"caption": caption, **(draw(*left) if left else {"missing": "no run reached its end"})}
+        return {"caption": caption, **({"panels": draw(*left)} if left else {"missing": "no run reached its end"})}
     except DataError as error:
         return {"caption": caption, "missing": str(error)}
 
 
 def figures(study, out):
-    """Of a study: its cases' own pictures, its plots, histories."""
-    found = [figure(caption, (run,), out, lambda run, draw=draw: {"picture": picture(draw, run.path)})
-             for caption, run, draw in study.sheets]
-    found += [figure(plot.caption, plot.runs, out, lambda *left, draw=plot.draw: {"panels": draw(*left)})
-              for plot in study.plots]
+    """Of a study: its plots, histories."""
+    found = [figure(plot.caption, plot.runs, out, plot.draw) for plot in study.plots]
     cases = [run for run in study.runs if not isinstance(run, TestRun)]
     if cases and study.has_histories:
-        found.append(figure("Energy and volume over time.", cases, out, lambda *left: {
-            "panels": panels.histories(left[:panels.MOST_RUNS], study.names)}))
+        found.append(figure("Energy and volume over time.", cases, out,
+                            lambda *left: panels.histories(left[:panels.MOST_RUNS], study.names)))
     return found
 
 

@@ -7,6 +7,7 @@ their distance from each other is scored too: it is the least uncertainty that t
 from functools import partial
 from pathlib import Path
 
+from . import panels
 from .curves import DataError, arrival_time, first_peak, noise, read_curve
 from .metric import Metric, measure
 from .run_folder import RunFolder
@@ -18,6 +19,7 @@ TANK = 3.22
 GRAVITY = 9.81
 DENSITY = 1000.0
 TIME_SCALE = (H / GRAVITY) ** 0.5
+MOMENTS = tuple(T * TIME_SCALE for T in (1.6, 3.0, 5.0, 6.6))  # s: collapse, run-up, fall, overturning on the water ahead
 PRESSURE_SCALE = DENSITY * GRAVITY * H
 
 DATA = Path(__file__).resolve().parents[2] / "cases" / "zhou1999" / "data"
@@ -140,6 +142,32 @@ def score_digitisations():
         for gauge, unit, window in (("P2", "rho g H", PRESSURE_WINDOW), *(("H1", "H", w) for w in DEPTH_TARGETS),
                                     *(("H2", "H", w) for w in DEPTH_TARGETS))
     ]
+
+
+def beside_laboratory(quantity, computed, end=8):
+    """Two readings of the laboratory's curve to T = `end`, with the computed ones [(label, curve)]."""
+    for digitisation in DIGITISATIONS:
+        yield panels.over_time(f"laboratory, read by {digitisation}", laboratory(quantity, digitisation).window(0, end),
+                               "measured")
+    for label, curve in computed:
+        yield panels.over_time(label, curve)
+
+
+def draw_pressure(*runs, names=None):
+    return [panels.panel(f"Pressure on the right wall, {title}", "T", "p/(rho g H)", beside_laboratory(
+        "P2", zip(panels.labels(runs, names), (pressure(run, probe) for run in runs))), limits=(-0.05, 1.25))
+            for probe, title in ((READ_AT, "z = 0.12 m"), ("P2", "mean over z = 0.115..0.205 m"))]
+
+
+def draw_depths(*runs, names=None):
+    return [panels.panel(f"Depth {gauge}, x = {place} m", "T", "h/H", (
+        *beside_laboratory(gauge, zip(panels.labels(runs, names), (depth(run, gauge) for run in runs))),
+        panels.over_time("highest water, the last run", depth(runs[-1], gauge, "highest_m"), "aside")), limits=(0, 1.6))
+            for gauge, place in (("H2", 2.228), ("H1", 2.725))]
+
+
+def draw(run):
+    return [*draw_pressure(run), *draw_depths(run)]
 
 
 def score(run_folder):

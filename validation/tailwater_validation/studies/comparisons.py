@@ -3,13 +3,13 @@
 from dataclasses import replace
 from functools import partial
 
-from .. import janosi2004, soares_frazao2002
+from .. import janosi2004, soares_frazao2002, zhou1999
 from ..checks import Check
 from ..metric import Metric
 from ..reading import energy_at, scored, summary, zhou
 from ..study import COMPARISON, Plot, Study
 from .laboratory import case_run, surface_distance
-from .zhou import FREE_SLIP, draw_depths, draw_pressure, mean_of_readings, zhou_run
+from .zhou import FREE_SLIP, mean_of_readings, zhou_run
 
 
 def milliseconds(run):
@@ -63,8 +63,8 @@ def comparison(name, title, about, variants, quantities, more_plots=(), claims=(
 
 
 def zhou_comparison(name, title, about, variants, claims=()):
-    return comparison(name, title, about, variants, ZHOU, (("Pressure on the wall.", draw_pressure),
-                                                           ("Water levels.", draw_depths)), claims)
+    return comparison(name, title, about, variants, ZHOU, (("Pressure on the wall.", zhou1999.draw_pressure),
+                                                           ("Water levels.", zhou1999.draw_depths)), claims)
 
 
 def integrators(plan):

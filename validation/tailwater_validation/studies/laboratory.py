@@ -3,9 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from .. import (janosi2004, janosi2004_picture, kleefsman2005, kleefsman2005_picture, martin_moyce1952,
-                martin_moyce1952_picture, ozmen_cagatay2014, ozmen_cagatay2014_picture, panels, soares_frazao2002,
-                soares_frazao2002_picture)
+from .. import janosi2004, kleefsman2005, martin_moyce1952, ozmen_cagatay2014, panels, soares_frazao2002
 from ..checks import Check
 from ..curves import DataError
 from ..metric import Metric
@@ -38,21 +36,21 @@ def everything(_):
     return True
 
 
-def laboratory_study(name, title, module, draw, about, uncertainty, runs, converging, ylabel, paper=(), keep=everything,
+def laboratory_study(name, title, module, about, uncertainty, runs, converging, ylabel, paper=(), keep=everything,
                      more_checks=(), more_plots=(), **more):
-    """A study of the scores of the last of `runs`, with the case's own picture of it."""
+    """A study of the scores of the last of `runs`, with its curves beside the laboratory's."""
     plots_of = (Plot("Differences from the laboratory by spacing; they end at the uncertainty of the data.", runs,
                      partial(draw_convergence, module, converging, ylabel)),) if converging else ()
     return Study(name, title, LABORATORY, about, f"{uncertainty} {ALWAYS}",
-                 (ModuleChecks(name, module.score, runs[-1:], keep, paper), *more_checks), (*plots_of, *more_plots),
-                 sheets=((f"Computed ({runs[-1].name}) and measured.", runs[-1], draw),), **({"shown": runs[-1]} | more))
+                 (ModuleChecks(name, module.score, runs[-1:], keep, paper), *more_checks), (Plot(f"Computed ({runs[-1].name}) and measured.", runs[-1:], module.draw), *plots_of, *more_plots),
+                 **({"shown": runs[-1]} | more))
 
 
 def martin_moyce(plan):
     name = "martin_moyce1952"
     runs = tuple(case_run(plan, name, "a", count, 0.5) for count in plan.at((15, 30), (30, 60, 96), (60, 96, 160)))
     return laboratory_study(
-        name, "Collapse of a square column: Martin & Moyce (1952)", martin_moyce1952, martin_moyce1952_picture.draw,
+        name, "Collapse of a square column: Martin & Moyce (1952)", martin_moyce1952,
         "A column 57 mm wide and as high collapses and runs over a dry, smooth bed. Front x/a over T = t sqrt(g/a) and height of "
         "the column at its back wall. Farzin et al. compute it with 3898 and 9320 particles (a/60 and a/96) on a frictionless bed "
         "but give no numbers.",
@@ -66,7 +64,7 @@ def janosi(plan):
     name = "janosi2004"
     runs = tuple(case_run(plan, name, "d", count, 50) for count in plan.at((4, 7), (7, 13), (13, 21)))
     return laboratory_study(
-        name, "Bore on a wet bed behind a rising gate: Janosi et al. (2004)", janosi2004, janosi2004_picture.draw,
+        name, "Bore on a wet bed behind a rising gate: Janosi et al. (2004)", janosi2004,
         "A lock 0.38 m long and 0.15 m deep opens onto water 38 mm deep; the gate is a moving wall that rises at 1.5 m/s and does work "
         "on the water. Surfaces "
         "at eight instants. Farzin et al. compute it with 11 905 particles and compare four of them.",
@@ -88,7 +86,6 @@ def ozmen_cagatay(plan):
     two_step = case_run(replace(plan, scheme="farmani2020"), name, "h0", plan.at(13, 18, 27), 18)
     return laboratory_study(
         name, "Dam break over a hump with an open end: Ozmen-Cagatay, Kocaman & Guzel (2014)", ozmen_cagatay2014,
-        ozmen_cagatay2014_picture.draw,
         "A reservoir 0.25 m deep empties over a dry floor and a triangular hump 0.075 m high; part is reflected, the rest leaves "
         "through the open end. Heights at eight places and instants of profiles and at six gauges. Farmani et al. compute it with "
         "5976 particles, dx = 0.014 m (h0/18).",
@@ -100,7 +97,7 @@ def ozmen_cagatay(plan):
         errors, (Check(Metric(f"{name}.water", "water of the start that is neither inside nor counted as out", "particles",
                               "the outlet's balance is exact", 0, 0), runs[-1:], water_error),
                  ModuleChecks(f"{name}.farmani2020", ozmen_cagatay2014.score, (two_step,), errors, farmani, ", scheme B"),),
-        moments=tuple(T * ozmen_cagatay2014.TIME_SCALE for T in (8, 15.16, 23.05, 41.84)),
+        moments=ozmen_cagatay2014.MOMENTS,
         time_scale=ozmen_cagatay2014.TIME_SCALE)
 
 
@@ -126,7 +123,7 @@ def soares_frazao(plan):
                             partial(surface_distance, k))
                       for k, instant in enumerate(soares_frazao2002.INSTANTS) for run in coarser)
     return laboratory_study(
-        name, "Dam break over a sill into still water: Soares-Frazao (2002)", soares_frazao2002, soares_frazao2002_picture.draw,
+        name, "Dam break over a sill into still water: Soares-Frazao (2002)", soares_frazao2002,
         "A reservoir 0.111 m deep empties over a sill 0.065 m high into still water before a closed end. Farmani et al. show surfaces "
         "at five instants and state a worst error of 12.3 % without giving a measured number: arrivals, reflections and "
         "surfaces are shown.",
@@ -134,7 +131,7 @@ def soares_frazao(plan):
         "compared with those of the finest; most of the distance comes from where the breaking faces are.", runs, (), "",
         more_checks=distances,
         more_plots=(Plot("Surfaces by spacing: distance from those of the finest run.", runs, draw_surface_distances),),
-        moments=soares_frazao2002.INSTANTS[:4])
+        moments=soares_frazao2002.MOMENTS[:4])
 
 
 def box_run(plan, count, end):
@@ -148,10 +145,10 @@ def kleefsman(plan):
     name = "kleefsman2005"
     counts, end = plan.at((11,), (11, 15), (15, 30)), plan.at(1.0, kleefsman2005.END, kleefsman2005.END)
     return laboratory_study(
-        name, "Dam break against a box in 3D: Kleefsman et al. (2005), SPHERIC 2", kleefsman2005, kleefsman2005_picture.draw,
+        name, "Dam break against a box in 3D: Kleefsman et al. (2005), SPHERIC 2", kleefsman2005,
         "Water 0.55 m deep, 1.228 m long and 1 m wide runs against a box 0.161 m high in a tank 3.22 m long. Heights of the water "
         "at four places and pressures on the box's face. The benchmark's own spacing is H/30, 108 000 particles.",
         "Sensors drift by 50 Pa before the impact; a door that a weight pulls up lets the water go.",
         tuple(box_run(plan, count, end) for count in counts),
         tuple((gauge, f"mean error {gauge}") for gauge in kleefsman2005.GAUGES), "mean error of heights (% of H)",
-        keep=lambda score: not score.endswith("highest"), shown=None)  # its own picture shows it in perspective
+        keep=lambda score: not score.endswith("highest"), shown=None)  # in 3D, too large for a report of one file

@@ -96,31 +96,6 @@ def soundness_checks(run):
     ]
 
 
-END = 8  # T
-
-
-def beside_laboratory(quantity, computed):
-    """Two readings of the laboratory's curve with the computed ones [(label, curve)]."""
-    for digitisation in zhou1999.DIGITISATIONS:
-        yield panels.over_time(f"laboratory, read by {digitisation}", zhou1999.laboratory(quantity, digitisation).window(0, END),
-                               "measured")
-    for label, curve in computed:
-        yield panels.over_time(label, curve)
-
-
-def draw_pressure(*runs, names=None):
-    return [panels.panel(f"Pressure on the right wall, {title}", "T", "p/(rho g H)", beside_laboratory(
-        "P2", zip(panels.labels(runs, names), (zhou1999.pressure(run, probe) for run in runs))), limits=(-0.05, 1.25))
-            for probe, title in ((zhou1999.READ_AT, "z = 0.12 m"), ("P2", "mean over z = 0.115..0.205 m"))]
-
-
-def draw_depths(*runs, names=None):
-    return [panels.panel(f"Depth {gauge}, x = {place} m", "T", "h/H", (
-        *beside_laboratory(gauge, zip(panels.labels(runs, names), (zhou1999.depth(run, gauge) for run in runs))),
-        panels.over_time("highest water, the last run", zhou1999.depth(runs[-1], gauge, "highest_m"), "aside")), limits=(0, 1.6))
-            for gauge, place in (("H2", 2.228), ("H1", 2.725))]
-
-
 def draw_convergence(*runs):
     series = {"depth H2, T = 0..6 (H)": partial(mean_of_readings, "rms H2 T 0..6"),
               "depth H1, T = 0..6 (H)": partial(mean_of_readings, "rms H1 T 0..6"),
@@ -157,8 +132,8 @@ def study(plan):
         "and the highest water are given beside it. No error bars were published.",
         tuple(checks),
         (Plot("Pressure on the wall. Points: two readings of the laboratory's curve, whose time is known to "
-              f"T = {zhou1999.TIME_UNCERTAINTY}.", runs, draw_pressure),
-         Plot("Water levels. Points: two readings of the laboratory's curves.", runs, draw_depths),
+              f"T = {zhou1999.TIME_UNCERTAINTY}.", runs, zhou1999.draw_pressure),
+         Plot("Water levels. Points: two readings of the laboratory's curves.", runs, zhou1999.draw_depths),
          Plot("Differences from the laboratory by spacing. They end at the uncertainty of the data, not at zero.", runs,
               draw_convergence)),
         shown=finest, moments=tuple(T * time for time in (1.0, 1.6, 2.4, 4.0, 5.6, 6.6)), time_scale=T)
