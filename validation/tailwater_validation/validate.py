@@ -74,7 +74,7 @@ def collect(chosen, program, options):
     cost = {run["name"]: run.get("cpu_s", 0.0) for record in records for run in record["runs"]}
     return {
         "version": program.version, "commit": program.commit, "level": options.level, "scheme": options.scheme,
-        "ranks": program.ranks, "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "settings": list(options.settings), "ranks": program.ranks, "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "machine": {"name": platform.node(), "processor": processor(), "cores": os.cpu_count()},
         "cpu_s": sum(cost.values()),
         "verdicts": {verdict: verdicts.count(verdict) for verdict in ("met", "missed", "shown")},
