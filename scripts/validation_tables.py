@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
-from tailwater_validation.metric import bar  # noqa: E402
+from tailwater_validation.metric import bar, shown  # noqa: E402
 
 KEPT = ROOT / "docs" / "validation.json"
 END = "<!-- validation: end -->"
@@ -44,7 +44,7 @@ def row(metric):
     verdict = {"met": "met", "missed": "**missed**", "shown": ""}[metric["verdict"]]
     paper = "" if metric["paper"] is None else number(metric["paper"])
     what = metric["what"] + (f", {metric['variant']}" if metric["variant"] else "")
-    return f"| {what} | {number(metric['value'])}{unit} | {target} | {verdict} | {paper} | {others(metric)} |"
+    return f"| {what} | {shown(metric)}{unit} | {target} | {verdict} | {paper} | {others(metric)} |"
 
 
 def origin(result):

@@ -52,9 +52,10 @@ class Study:
     """What a study has found. `rows` is a list of dicts with the columns of `table()`; `spacings` [m] are those that
     were run, the finest first; `runs`, `starts` and `step` are the runs."""
 
-    def __init__(self, runs, starts=(), step=None):
+    def __init__(self, runs, starts=(), step=None, quantities=quantities_of):
         """`runs` at three spacings or more; `starts` at one of them; `step`: the run of that spacing with half of its
-        time step. Throws DataError if a run has not ended."""
+        time step. `quantities(run)` returns {(probe, quantity): (value, unit)}, by default what the run tells of its
+        probes. Throws DataError if a run has not ended."""
         for run in [*runs, *starts, *([step] if step else [])]:
             if run.summary.get("status") != "done":
                 raise DataError(f"{run.path}: has not ended; remedy: run the study again, it goes on with what is not "
@@ -66,12 +67,12 @@ class Study:
         self._base = next((run for run in self.runs if others and math.isclose(run.spacing, others[0].spacing)), None)
         if others and self._base is None:
             raise DataError(f"{others[0].path}: no run of the study has its spacing, {others[0].spacing:g} m")
-        self.rows = self._rows()
+        self.rows = self._rows(quantities)
 
-    def _rows(self):
-        of_runs = [quantities_of(run) for run in self.runs]
-        of_starts = [quantities_of(run) for run in ([self._base, *self.starts] if self.starts else [])]
-        of_step = [quantities_of(run) for run in ([self._base, self.step] if self.step else [])]
+    def _rows(self, quantities):
+        of_runs = [quantities(run) for run in self.runs]
+        of_starts = [quantities(run) for run in ([self._base, *self.starts] if self.starts else [])]
+        of_step = [quantities(run) for run in ([self._base, self.step] if self.step else [])]
         rows = []
         for key, (_, unit) in of_runs[0].items():
             if not all(key in found for found in [*of_runs, *of_starts, *of_step]):
@@ -164,13 +165,14 @@ def done(members, what):
 
 
 def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, step: bool = True, jobs: int = 1,
-          ranks: int = 1, progress: bool = False) -> Study:
+          ranks: int = 1, progress: bool = False, quantities=quantities_of) -> Study:
     """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
     NAME_study; called again it goes on with what is not done.
 
     `spacings`: three or more, in m. Without them they are four, from twice the case's own down to that; with a `budget`
     in seconds of computing time (of one process), down to what fits it. `starts` runs with other random displacements
     of the particles at the start, and one with half of the time step if `step`, are of the second coarsest spacing.
+    `quantities(run)` are numbers of your own, as {(name, quantity): (value, unit)}, in place of what probes have found.
     Throws InputError before anything is run; DataError if a run fails."""
     out = Path(out or f"{case.file.stem}_study")
     runner = {"jobs": jobs, "ranks": ranks, "progress": progress}
@@ -204,6 +206,6 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     if step:
         courant = base.case["scheme"]["courant"] / 2
         half = done(sweep(at_base, {"scheme.courant": [courant]}, out=out / "step", **runner), "step=False")[0]
-    found = Study(runs, others, half)
+    found = Study(runs, others, half, quantities)
     found.write(out)
     return found

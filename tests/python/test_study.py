@@ -43,6 +43,13 @@ class Studies(PackageTest):
         self.assertEqual([run.path.joinpath("summary.json").stat().st_mtime_ns for run in again.runs], before)
         self.assertEqual(repr(again), repr(found))
 
+    def test_numbers_of_your_own(self):
+        found = tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=0, step=False,
+                         quantities=lambda run: {("mine", "spacing"): (run.spacing, "m")})
+        self.assertEqual([(row["probe"], row["quantity"], row["value"], row["unit"]) for row in found.rows],
+                         [("mine", "spacing", 0.1, "m")])
+        self.assertAlmostEqual(found.rows[0]["limit"], 0, 6)
+
     def test_run_that_fails_is_named(self):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.DataError, "particles.spacing=0.*max_iterations"):

@@ -13,7 +13,7 @@ from fake_program import ProgramTest
 from tailwater_validation import panels, plots, runs, study, validate, zhou1999
 from tailwater_validation.checks import Check
 from tailwater_validation.curves import DataError
-from tailwater_validation.metric import Metric
+from tailwater_validation.metric import Metric, shown
 from tailwater_validation.particles import detached
 from tailwater_validation.study import LEVELS, Plan
 from tailwater_validation.studies import operators, studies
@@ -241,6 +241,9 @@ class Checks(unittest.TestCase):
             metric = check.score(None)
         self.assertAlmostEqual(metric.order, 1.7, places=9)
         self.assertAlmostEqual(metric.value, 3 * 0.1**1.7, places=12)
+        # Of three values nothing confirms the order, so three times the error is what it may be off.
+        self.assertAlmostEqual(metric.uncertainty, 3 * metric.value, places=6)
+        self.assertRegex(shown(validate.metric_record(check, metric)), r"^0\.0599 ± 0\.18$")
         self.assertEqual(metric.verdict, "met")
 
     def test_all_numbers_of_a_module_come_with_its_name(self):

@@ -10,7 +10,7 @@ class Metric:
     """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences
     from laboratory curves also have the value at the best shift in time of the measured curve, and that shift. `paper` is
     what the case's paper reports for its own code, `peers` what other codes give: (name, lowest, highest). An error that
-    was taken at several spacings has its observed `order`."""
+    was taken at several spacings has its observed `order`, of three or more also an `uncertainty`, either way."""
 
     name: str
     what: str
@@ -23,6 +23,7 @@ class Metric:
     shift: float | None = None
     shift_unit: str = "T"
     order: float | None = None
+    uncertainty: float | None = None
     note: str = ""
     paper: float | None = None
     peers: tuple | None = None
@@ -36,6 +37,13 @@ class Metric:
         above = self.low is None or self.value >= self.low
         below = self.high is None or self.value <= self.high
         return "met" if above and below else "missed"
+
+
+def shown(metric):
+    """The value of a metric's record, with its uncertainty if there is one."""
+    if metric["value"] is None:
+        return "-"
+    return f"{metric['value']:.3g}" + (f" ± {metric['uncertainty']:.2g}" if metric.get("uncertainty") is not None else "")
 
 
 def bar(low, high):

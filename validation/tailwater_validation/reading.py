@@ -19,8 +19,13 @@ def scores(score, path):
     return {metric["name"]: metric for metric in score(path)["metrics"]}
 
 
+def signed(flow, name, run):
+    """An error against theory: too large is above 0."""
+    return flow_numbers(flow, run.path)[name]
+
+
 def exact(flow, name, run):
-    return abs(flow_numbers(flow, run.path)[name])
+    return abs(signed(flow, name, run))
 
 
 def scored(score, name, run, field="value"):

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from tailwater.uncertainty import extrapolate
+
 from .checks import Check, runs_of
 from .curves import DataError
 from .metric import Metric, measure
@@ -95,16 +97,23 @@ class CurveCheck(Check):
 @dataclass(frozen=True)
 class OrderCheck(Check):
     """An error on the last of the runs, and its observed order over all of them if there are several; `compute` takes
-    one run."""
+    one run. Of three runs or more also its uncertainty (docs/theory/uncertainty.md), from what `interval_of` reads of
+    each run: the error with its sign."""
+
+    interval_of: Callable | None = None
 
     def score(self, out):
-        *_, last = self.runs
+        def of_all(read):
+            return {run.spacing: read(run) for run in (finished(run, out) for run in self.runs)}
 
-        def observed():
-            return order({run.spacing: self.compute(run) for run in (finished(run, out) for run in self.runs)})
+        def uncertainty():
+            errors = of_all(self.interval_of or self.compute)
+            return extrapolate(list(errors), list(errors.values())).uncertainty
 
-        more = {"order": observed} if len(self.runs) > 1 else {}
-        return measure(self.metric, value=lambda: self.compute(finished(last, out)), **more)
+        more = {"order": lambda: order(of_all(self.compute))} if len(self.runs) > 1 else {}
+        if len(self.runs) > 2:
+            more["uncertainty"] = uncertainty
+        return measure(self.metric, value=lambda: self.compute(finished(self.runs[-1], out)), **more)
 
 
 @dataclass(frozen=True)

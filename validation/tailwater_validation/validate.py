@@ -18,7 +18,7 @@ import sys
 
 from . import command, panels
 from .curves import DataError
-from .metric import bar
+from .metric import bar, shown
 from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
@@ -35,7 +35,7 @@ def metric_record(check, metric):
             "high": metric.high, "paper": metric.paper,
             "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
             "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": finite(metric.shifted_value),
-            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "note": metric.note,
+            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "uncertainty": finite(metric.uncertainty), "note": metric.note,
             "variant": check.variant, "runs": [run.name for run in check.runs]}
 
 
@@ -145,8 +145,7 @@ def export(program, out):
 
 def overview(result):
     """The numbers that have a target, for the terminal."""
-    rows = [(study["name"], metric["what"], "-" if metric["value"] is None else f"{metric['value']:.3g}",
-             metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"])
+    rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"])
             for study in result["studies"] for metric in study["metrics"] if metric["verdict"] != "shown"]
     widths = [max((len(row[k]) for row in rows), default=0) for k in range(6)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]

@@ -6,13 +6,14 @@ import numpy as np
 
 from .. import exact_flows, panels
 from ..metric import Metric
-from ..reading import exact
+from ..reading import exact, signed
 from ..study import EXACT, OrderCheck, Plot, Study
 
 
 def error_checks(name, flow, runs, quantities):
     """Of each quantity (key, words, unit, bar) the error on the last run, and its observed order."""
-    return tuple(OrderCheck(Metric(f"{name}.{key}", words, unit, "exact solution", high=high), runs, partial(exact, flow, key))
+    return tuple(OrderCheck(Metric(f"{name}.{key}", words, unit, "exact solution", high=high), runs, partial(exact, flow, key),
+                            interval_of=partial(signed, flow, key))
                  for key, words, unit, high in quantities)
 
 

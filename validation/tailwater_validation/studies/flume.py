@@ -5,7 +5,7 @@ from functools import partial
 from .. import panels
 from ..checks import Check
 from ..metric import Metric
-from ..reading import exact
+from ..reading import exact, signed
 from ..study import EXACT, LABORATORY, OrderCheck, Plot, Study
 
 
@@ -22,9 +22,8 @@ def flume_study(plan, name, title, about, uncertainty, gauge, rows, seconds, qua
     chosen = plan.at(quick, paper, paper)
     runs = tuple(plan.run(f"{name}_{length}{n}", f"flume/{name.replace('-', '_')}.toml",
                           (f"particles.spacing={length}/{n}",), seconds * (n / quick[0]) ** 3.1) for n in chosen)
-    one_or_all = OrderCheck if len(runs) > 1 else Check
-    checks = tuple(one_or_all(Metric(f"{name}.{key}", words, unit, against, high=high), runs, partial(exact, name, key))
-                   for key, words, unit, against, high in quantities)
+    checks = tuple(OrderCheck(Metric(f"{name}.{key}", words, unit, against, high=high), runs, partial(exact, name, key),
+                              interval_of=partial(signed, name, key)) for key, words, unit, against, high in quantities)
     return Study(name, title, kind, about, uncertainty, checks,
                  (Plot("Depth at the gauge over time; numbers are means of the second half.", runs, partial(draw_gauge, gauge)),),
                  shown=runs[-1], moments=(8.0,))
