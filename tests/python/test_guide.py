@@ -26,11 +26,17 @@ def run_blocks(name, least):
 
 class Guide(PackageTest):
     def test_search_finds_a_weir_of_the_level(self):
-        names, told = run_blocks("optimise.md", 1)
-        levels = [float(line.split()[-2]) for line in told.getvalue().splitlines()[:-1]]
+        names, told = run_blocks("optimise.md", 2)
+        lines = told.getvalue().splitlines()
+        levels = [float(line.split()[-2]) for line in lines if " level " in line]
         self.assertLess(abs(levels[-1] - names["wanted"]), 0.002)
         self.assertLess(abs(names["height"] - 0.213), 0.003)
         self.assertLess(len(levels), 8)
+        # And a damper: more of it leaves less of a swing.
+        shares = sorted((float(line.split()[0]), float(line.split()[3])) for line in lines if "of a swing" in line)
+        self.assertEqual([share for _, share in shares], sorted((share for _, share in shares), reverse=True))
+        self.assertLess(min(abs(share - names["wanted_share"]) for _, share in shares), 0.01)
+        self.assertLess(abs(names["damping"] - 510), 25)
 
     def test_runs(self):
         names, told = run_blocks("python.md", 6)
