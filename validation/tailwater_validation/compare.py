@@ -15,6 +15,7 @@ from . import (janosi2004, kleefsman2005, laboratory_picture, martin_moyce1952, 
 from .curves import DataError
 from .metric import bar
 from .run_folder import RunFolder
+from .text_table import text_table
 
 # Cases with laboratory data, each a module: `score` takes a run's folder and returns the result of `scoring`, `draw`
 # takes the run and returns panels; the water is drawn at MOMENTS (s), or at `moments(run)`.
@@ -49,19 +50,15 @@ def cost_and_health(summary):
 
 def table(result):
     """The scores as lines of text."""
-    rows = [("quantity", "value", "unit", "target", "", "compared with", "best shift of it")]
+    header, rows = ("quantity", "value", "unit", "target", "", "best shift", "compared with"), []
     for metric in result["metrics"]:
         value = "-" if metric["value"] is None else f"{metric['value']:.3f}"
         target = bar(metric["low"], metric["high"])
         shift = "" if metric["shift"] is None else f"{metric['shifted_value']:.3f} at {metric['shift']:+.3f} {metric['shift_unit']}"
-        rows.append((metric["what"], value, metric["unit"], target, metric["verdict"],
-                     metric["note"] or metric["against"], shift))
-    # The last two columns are long where the other is empty, so the width of the sixth is that of its short cells.
-    widths = [max(len(row[k]) for row in rows if k < 5 or row[6]) for k in range(6)]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, [*widths, 0])).rstrip() for row in rows]
-    lines.insert(1, "-" * max(map(len, lines)))
+        rows.append((metric["what"], value, metric["unit"], target, metric["verdict"], shift,
+                     metric["note"] or metric["against"]))
     heading = f"{result['case']}, dx = {result['spacing_m']:g} m, {result['integrator']}: {result['run']}"
-    return "\n".join([heading, cost_and_health(result["summary"]), "", *lines])
+    return "\n".join([heading, cost_and_health(result["summary"]), "", text_table(header, rows)])
 
 
 def draw(name, run, image):

@@ -11,7 +11,9 @@ import shlex
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +21,6 @@ from .curves import DataError
 from .run_folder import RunFolder
 
 INTERRUPTED = 130
-POLL = 0.1  # s
 # A run that takes this many times what it was estimated at, and so much longer at least, is stopped.
 PATIENCE = 10
 LEAST_PATIENCE = 600  # s
@@ -145,91 +146,70 @@ def message_of(folder, errors):
     return " ".join((told or errors).split())
 
 
-class Progress:
-    """Lines on standard error: what has ended, and when the rest should."""
-
-    def __init__(self, runs, jobs):
-        self.total, self.jobs = len(runs), jobs
-        self.estimated_left = sum(run.seconds for run in runs)
-        self.done, self.estimated, self.taken = 0, 0.0, 0.0
-
-    def ended(self, run, seconds, how):
-        self.done += 1
-        self.estimated += run.seconds
-        self.taken += seconds
-        self.estimated_left -= run.seconds
-        left = max(0.0, self.estimated_left) * self.taken / self.estimated / self.jobs
-        print(f"[{self.done}/{self.total}] {run.name}: {how} in {seconds:.0f} s; ETA {duration(left)}",
-              file=sys.stderr, flush=True)
-
-
 def duration(seconds):
     """"40 s", "12 min" or "3.5 h"."""
     return (f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min" if seconds < 6000
             else f"{seconds / 3600:.1f} h")
 
 
-class Child:
-    """One run under way."""
+def end_of(process, run):
+    """Why it was stopped: a run that takes far longer than estimated ends in order."""
+    patience = max(LEAST_PATIENCE, PATIENCE * run.seconds)
+    try:
+        process.wait(patience)
+        return ""
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        return f"stopped after {patience:.0f} s, estimated at {run.seconds:.0f} s"
 
-    def __init__(self, run, program, out):
-        self.run, self.folder = run, out / "runs" / run.name
-        command = run.command(program, self.folder)
-        self.made = {"recipe": run.recipe(program), "command": shlex.join(command)}
-        self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "made.json").unlink(missing_ok=True)
-        self.messages = open(self.folder / "messages.txt", "w+", encoding="utf-8")
-        # A session of its own: Ctrl-C reaches it through `stop` only, once.
-        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL,
-                                        stderr=self.messages, start_new_session=True)
-        self.start = time.monotonic()
-        self.stopped = ""
 
-    @property
-    def seconds(self):
-        return time.monotonic() - self.start
-
-    def stop(self, reason):
-        """Asks the run to end in order."""
-        self.stopped = reason
-        self.process.send_signal(signal.SIGINT)
-
-    def has_ended(self):
-        if self.seconds > max(LEAST_PATIENCE, PATIENCE * self.run.seconds) and not self.stopped:
-            self.stop(f"stopped after {self.seconds:.0f} s, estimated at {self.run.seconds:.0f} s")
-        return self.process.poll() is not None
-
-    def close(self):
-        """Writes made.json; returns how the run ended, in words."""
-        self.messages.seek(0)
-        errors = self.messages.read()
-        self.messages.close()
-        code = self.process.returncode
-        message = "" if code == 0 else self.stopped or message_of(self.folder, errors) or f"exit code {code}"
-        text = json.dumps(self.made | {"exit_code": code, "message": message}, indent=2)
-        (self.folder / "made.json").write_text(text + "\n", encoding="utf-8")
-        return "done" if code == 0 else f"failed ({message})"
+def make_one(run, program, out, under_way, stopping):
+    """Writes made.json; returns the seconds it took and how it ended, in words. The process is in `under_way` meanwhile."""
+    folder, start = out / "runs" / run.name, time.monotonic()
+    made = folder / "made.json"
+    folder.mkdir(parents=True, exist_ok=True)
+    made.unlink(missing_ok=True)
+    command = run.command(program, folder)
+    with open(folder / "messages.txt", "w+", encoding="utf-8") as messages:
+        # A session of its own: Ctrl-C reaches it through `make` only, once.
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=messages, start_new_session=True)
+        under_way.add(process)
+        if stopping.is_set():
+            process.send_signal(signal.SIGINT)
+        stopped = end_of(process, run)
+        under_way.remove(process)
+        if stopping.is_set():
+            return 0.0, "interrupted"  # and to be made again
+        messages.seek(0)
+        code = process.returncode
+        message = "" if code == 0 else stopped or message_of(folder, messages.read()) or f"exit code {code}"
+    text = json.dumps({"recipe": run.recipe(program), "command": shlex.join(command), "exit_code": code, "message": message},
+                      indent=2)
+    made.write_text(text + "\n", encoding="utf-8")
+    return time.monotonic() - start, "done" if code == 0 else f"failed ({message})"
 
 
 def make(runs, program, out, jobs):
-    """Makes the runs that are not there yet, `jobs` at a time. A run that fails is left as it is. On KeyboardInterrupt
-    the runs under way are stopped, to be made again next time, and it is raised again."""
+    """Makes the runs that are not there yet, `jobs` at a time, and tells on standard error what has ended and when the
+    rest should. A run that fails is left as it is. On KeyboardInterrupt the runs under way are stopped, to be made again
+    next time, and it is raised again."""
     waiting = [run for run in runs if outcome(out / "runs" / run.name).get("recipe") != run.recipe(program)]
     if len(waiting) < len(runs):
         print(f"{len(runs) - len(waiting)} of {len(runs)} runs are there already", file=sys.stderr)
-    progress, children = Progress(waiting, jobs), []
-    try:
-        while waiting or children:
-            while waiting and len(children) < jobs:
-                children.append(Child(waiting.pop(0), program, out))
-            time.sleep(POLL)
-            for child in [child for child in children if child.has_ended()]:
-                children.remove(child)
-                progress.ended(child.run, child.seconds, child.close())
-    except KeyboardInterrupt:
-        for child in children:
-            child.stop("interrupted")
-        for child in children:
-            child.process.wait()
-            child.messages.close()
-        raise
+    left, estimated, taken = sum(run.seconds for run in waiting), 0.0, 0.0
+    under_way, stopping = set(), threading.Event()
+    with ThreadPoolExecutor(jobs) as pool:
+        jobs_of = {pool.submit(make_one, run, program, out, under_way, stopping): run for run in waiting}
+        try:
+            for number, job in enumerate(as_completed(jobs_of), 1):
+                run, (seconds, how) = jobs_of[job], job.result()
+                left, estimated, taken = left - run.seconds, estimated + run.seconds, taken + seconds
+                print(f"[{number}/{len(waiting)}] {run.name}: {how} in {seconds:.0f} s; "
+                      f"ETA {duration(max(0.0, left) * taken / estimated / jobs)}", file=sys.stderr, flush=True)
+        except KeyboardInterrupt:
+            stopping.set()
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in list(under_way):
+                process.send_signal(signal.SIGINT)
+            raise

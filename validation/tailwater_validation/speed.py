@@ -8,6 +8,7 @@ Exit codes: 0 all was measured, whatever the verdicts are; 2 bad input, 3 a run 
 cannot be read or written, 130 interrupted.
 """
 
+import contextlib
 import datetime
 import os
 import signal
@@ -21,6 +22,7 @@ from .curves import DataError
 from .metric import Metric
 from .runs import INTERRUPTED
 from .speed_runs import WATERS, ZHOU, Runner, box_of_rows, exponent, least, step_cost
+from .text_table import text_table
 
 PARTS = ("rooms", "cases", "growth", "deep", "ranks", "profile")  # the last only if it is asked for
 PROFILED_STEPS = 40
@@ -64,28 +66,30 @@ class Bench:
     def add(self, name, what, unit, value, high=None, low=None, note=""):
         self.metrics.append(Metric(name, what, unit, "", low, high, value, note=note))
 
-    def fail(self, name, what, error):
-        self.say(f"failed: {what}: {error}")
-        self.add(name, what, "", None, note=str(error))
+    @contextlib.contextmanager
+    def measuring(self, name, what):
+        """Tells what is measured; a failure is a number without a value, and what was to follow in the block is left out."""
+        self.say(what)
+        try:
+            yield
+        except DataError as error:
+            self.say(f"failed: {what}: {error}")
+            self.add(name, what, "", None, note=str(error))
 
     def measure(self, part, options, commit):
         if part != "rooms":
             getattr(self, part)()
             return
-        try:
+        with self.measuring("rooms", "rooms"):
             for metrics in speed_rooms.measure(rooms_program(options.program), self.level, commit, options.settings,
                                                self.say):
                 self.metrics += metrics
-        except DataError as error:
-            self.fail("rooms", "rooms", error)
 
     def whole_run(self, name, what, case, settings, high):
-        self.say(what)
-        try:
-            run = self.runner.run(case, settings)
-        except DataError as error:
-            self.fail(name, what, error)
-            return
+        with self.measuring(name, what):
+            self.add_whole_run(name, what, self.runner.run(case, settings), high)
+
+    def add_whole_run(self, name, what, run, high):
         fluid, cost, steps = run["particles"]["fluid"], run["cost"], run["steps"]["count"]
         self.add(name, what, "CPU s per simulated s", cost["cpu_s_per_simulated_s"], high)
         self.add(f"{name}.step", what, "us per fluid particle and step", 1e6 * cost["cpu_s"] / steps / fluid)
@@ -117,24 +121,18 @@ class Bench:
             costs = []
             for particles in sizes:
                 name, what = f"step.{dimension}D.{particles:g}", f"{dimension}D dam break, {particles:g} particles"
-                self.say(what)
-                try:
+                with self.measuring(name, what):
                     cost = self.step(WATERS[dimension], particles)
-                except DataError as error:
-                    self.fail(name, what, error)
-                    continue
-                costs.append(cost)
-                self.add(name, what, "us per fluid particle and step", 1e6 * cost.cpu_per_particle)
-                self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
-                self.add(f"{name}.memory", what, "bytes per fluid particle, program included", cost.memory / cost.fluid)
+                    costs.append(cost)
+                    self.add(name, what, "us per fluid particle and step", 1e6 * cost.cpu_per_particle)
+                    self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
+                    self.add(f"{name}.memory", what, "bytes per fluid particle, program included", cost.memory / cost.fluid)
             if len(costs) > 1:
                 fluid = [cost.fluid for cost in costs]
                 what = f"{dimension}D, {fluid[0]} to {fluid[-1]} particles"
-                try:
+                with self.measuring(f"step.{dimension}D.exponent", f"{what}, CPU time of a step"):
                     self.add(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", "exponent",
                              exponent(fluid, [cost.cpu for cost in costs]), EXPONENT_BAR)
-                except DataError as error:
-                    self.fail(f"step.{dimension}D.exponent", f"{what}, CPU time of a step", error)
                 self.add(f"step.{dimension}D.memory", f"{what}, peak memory without the program",
                          "bytes per fluid particle", (costs[-1].memory - costs[0].memory) / (fluid[-1] - fluid[0]),
                          MEMORY_BARS[dimension])
@@ -143,43 +141,31 @@ class Bench:
         """Equally many particles, of water of several depths: the pressure solve feels the depth."""
         for rows in self.level.deep:
             name, what = f"deep.{rows}", f"3D dam break, {rows} rows deep"
-            self.say(what)
-            try:
-                water = box_of_rows(rows)
-                cost = self.step(water, 6e4)
+            with self.measuring(name, what):
+                cost = self.step(box_of_rows(rows), 6e4)
                 self.add(name, what, "us per fluid particle and step", 1e6 * cost.cpu_per_particle, DEEP_BARS[rows])
                 self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
-            except DataError as error:
-                self.fail(name, what, error)
 
     def ranks(self):
         """One rank and two in turn."""
         for dimension, particles in self.level.ranks.items():
             name, what = f"ranks.{dimension}D.{particles:g}", f"{dimension}D, {particles:g} particles, two ranks"
-            self.say(what)
-            try:
+            with self.measuring(name, what):
                 pairs = [[step_cost(self.runner, WATERS[dimension], particles, self.level.steps, ranks)
                           for ranks in (1, 2)] for _ in range(self.level.repeats)]
-            except DataError as error:
-                self.fail(name, what, error)
-                continue
-            one, two = (least(costs, "wall") for costs in zip(*pairs))
-            self.add(name, f"{what}: clock time of one rank's step over theirs", "ratio", one.wall / two.wall,
-                     low=SPEED_UP_BAR)
-            self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
-
+                one, two = (least(costs, "wall") for costs in zip(*pairs))
+                self.add(name, f"{what}: clock time of one rank's step over theirs", "ratio", one.wall / two.wall,
+                         low=SPEED_UP_BAR)
+                self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
 
     def profile(self):
         """Of the first steps, start of the run included."""
         for dimension, sizes in self.level.rooms.items():
             name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
-            self.say(what)
-            water = WATERS[dimension]
-            run = self.runner.command(water.case, water.first_steps(sizes[0], PROFILED_STEPS))
-            try:
+            with self.measuring(name, what):
+                water = WATERS[dimension]
+                run = self.runner.command(water.case, water.first_steps(sizes[0], PROFILED_STEPS))
                 self.metrics += speed_profile.measure(self.runner, dimension, run)
-            except DataError as error:
-                self.fail(name, what, error)
 
 
 def rooms_program(program):
@@ -271,7 +257,7 @@ def main(arguments=None):
         return command.complain(f"{error.filename}: {error.strerror}", 4)
     except KeyboardInterrupt:
         return INTERRUPTED
-    print(speed_report.table(speed_report.COLUMNS, speed_report.rows(result)))
+    print(text_table(speed_report.COLUMNS, speed_report.rows(result)))
     print(f"\n{speed_report.heading(result)}\nwritten: {options.out}/speed.json, speed.csv, speed.md")
     if earlier:
         print(f"\n{speed_report.comparison(earlier[0], result)}")

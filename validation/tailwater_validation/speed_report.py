@@ -5,6 +5,7 @@ import json
 
 from .curves import DataError
 from .metric import Metric, bar
+from .text_table import markdown_table, text_table
 
 COLUMNS = ("what", "value", "unit", "bar", "verdict", "note")
 
@@ -29,19 +30,6 @@ def heading(result):
     return (f"tailwater {result['version']} (commit {result['commit']}), {result['compiler']}, {machine['processor']}, "
             f"{machine['cores']} cores, level {result['level']}{settings}, {result['date']}, "
             f"load {result['load_before']:.1f} before{', interrupted' if result['interrupted'] else ''}")
-
-
-def table(header, lines):
-    """For the terminal."""
-    lines = [header, *lines]
-    widths = [max(len(row[k]) for row in lines) for k in range(len(header) - 1)]
-    text = ["  ".join(cell.ljust(width) for cell, width in zip(row, [*widths, 0])).rstrip() for row in lines]
-    return "\n".join([text[0], "-" * len(text[0]), *text[1:]])
-
-
-def markdown_table(header, lines):
-    text = ["| " + " | ".join(header) + " |", "| --- " * len(header) + "|"]
-    return "\n".join(text + ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in lines])
 
 
 def markdown(result):
@@ -85,5 +73,5 @@ def comparison(old, new):
     others = [f"{what}: {one} and {other}" for what, one, other in (
         ("machine", old["machine"], new["machine"]), ("compiler", old["compiler"], new["compiler"]),
         ("options", old["options"], new["options"]), ("settings", old["settings"], new["settings"])) if one != other]
-    text = table(("what", f"{old['commit']}", f"{new['commit']}", "ratio", "unit"), lines)
+    text = text_table(("what", f"{old['commit']}", f"{new['commit']}", "ratio", "unit"), lines)
     return text + "".join(f"\nnot the same {other}" for other in others)

@@ -6,6 +6,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from .curves import DataError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -128,6 +130,4 @@ def exponent(sizes, costs):
         raise DataError("an exponent needs two sizes")
     if min(costs) <= 0:  # differences of times of short runs on a busy machine
         raise DataError("a cost is not positive: the machine is too busy, or the runs are too short")
-    x, y = [math.log(size) for size in sizes], [math.log(cost) for cost in costs]
-    x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
-    return (sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / sum((a - x_mean) ** 2 for a in x))
+    return float(np.polyfit(np.log(sizes), np.log(costs), 1)[0])

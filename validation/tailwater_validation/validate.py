@@ -22,6 +22,7 @@ from .metric import bar, shown
 from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
+from .text_table import text_table
 from .whole_file import write_whole
 
 
@@ -147,9 +148,8 @@ def overview(result):
     """The numbers that have a target, for the terminal."""
     rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"])
             for study in result["studies"] for metric in study["metrics"] if metric["verdict"] != "shown"]
-    widths = [max((len(row[k]) for row in rows), default=0) for k in range(6)]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
-    return "\n".join([*lines, "", ", ".join(f"{count} {verdict}" for verdict, count in result["verdicts"].items())])
+    table = text_table(("study", "what", "value", "unit", "target", "verdict"), rows)
+    return "\n".join([table, "", ", ".join(f"{count} {verdict}" for verdict, count in result["verdicts"].items())])
 
 
 def score(chosen, program, options):
