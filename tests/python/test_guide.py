@@ -1,23 +1,29 @@
-"""The guides of scripts run as they stand, block after block, and their words about the runs are true."""
+"""The guides of scripts run as they stand, as notebooks, cell after cell, and their words about the runs are true."""
 
 import contextlib
 import io
-import re
+import json
+import subprocess
 import unittest
 from pathlib import Path
 
 import numpy as np
 from small import PackageTest
 
-GUIDES = Path(__file__).resolve().parents[2] / "docs" / "guide"
+ROOT = Path(__file__).resolve().parents[2]
+GUIDES = ROOT / "docs" / "guide"
 
 
-def run_blocks(name, least):
-    """(the names that they leave, what they print)"""
+def run_notebook(name, least, coarser=()):
+    """(the names that its cells leave, what they print); `coarser` (old, new) changes their text."""
     names = {}
     told = io.StringIO()
-    blocks = re.findall(r"^```python\n(.*?)^```", (GUIDES / name).read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    assert len(blocks) >= least, f"{name} has {len(blocks)} blocks"
+    subprocess.run([ROOT / "scripts/notebook.py", GUIDES / name, "guide.ipynb"], check=True)
+    cells = json.loads(Path("guide.ipynb").read_text(encoding="utf-8"))["cells"]
+    blocks = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
+    if coarser:
+        blocks = [block.replace(*coarser) for block in blocks]
+    assert len(blocks) == (GUIDES / name).read_text(encoding="utf-8").count("```python\n") >= least, f"{name}: {len(blocks)} cells"
     with contextlib.redirect_stdout(told):
         for block in blocks:
             exec(compile(block, str(GUIDES / name), "exec"), names)
@@ -26,7 +32,7 @@ def run_blocks(name, least):
 
 class Guide(PackageTest):
     def test_search_finds_a_weir_of_the_level(self):
-        names, told = run_blocks("optimise.md", 2)
+        names, told = run_notebook("optimise.md", 2)
         lines = told.getvalue().splitlines()
         levels = [float(line.split()[-2]) for line in lines if " level " in line]
         self.assertLess(abs(levels[-1] - names["wanted"]), 0.002)
@@ -38,8 +44,14 @@ class Guide(PackageTest):
         self.assertLess(min(abs(share - names["wanted_share"]) for _, share in shares), 0.01)
         self.assertLess(abs(names["damping"] - 510), 25)
 
+    def test_study_of_a_weir(self):
+        quick = ('template("weir")', 'template("weir").update({"particles.spacing": "P/6", "time.end": 3.0})')
+        names, told = run_notebook("weir.md", 1, quick)
+        self.assertRegex(told.getvalue(), r"^head \d\d mm, within \d+ mm\n")
+        self.assertTrue(0.07 < names["head"] < 0.1, names["head"])
+
     def test_runs(self):
-        names, told = run_blocks("python.md", 6)
+        names, told = run_notebook("python.md", 6)
         self.assertEqual(names["case"]["physics.density"], 1000)
         self.assertEqual(names["upstream"].attrs["units"]["connected_m"], "m")
         self.assertEqual(len(names["level"]), 4)
