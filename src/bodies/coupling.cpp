@@ -10,6 +10,7 @@
 #include "bodies/contacts.h"
 #include "bodies/moorings.h"
 #include "bodies/verbs.h"
+#include "pressure/full_water.h"
 #include "pressure/solve_rows.h"
 #include "pressure/verbs.h"
 
@@ -34,9 +35,11 @@ constexpr double least_share_of_mass = 0.5;
 }  // namespace
 
 template <int Dim>
-BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive)
+BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double fullness, double dt,
+                                WallDrive<Dim>& drive)
     : flow_(flow),
       start_(start),
+      fullness_(fullness),
       dt_(dt),
       drive_(drive),
       forces_(flow, flow.state.time),
@@ -91,6 +94,7 @@ template <int Dim>
 Eigen::VectorXd BodyCoupling<Dim>::residual() {
   // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
   const std::vector<double> solved = flow_.state.particles.pressure;
+  lift_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
   finish_pressure(flow_, drive_);
   const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
   flow_.state.particles.pressure = solved;

@@ -24,7 +24,8 @@ namespace tailwater {
 template <int Dim>
 class BodyCoupling {
  public:
-  BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, WallDrive<Dim>& drive);
+  /// `fullness` is that of the equation (pressure/full_water.h).
+  BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double fullness, double dt, WallDrive<Dim>& drive);
 
   /// Solves the pressure equation to `tolerance`, and corrects the motion once. `drive` follows.
   SolveReport solve_roughly(double tolerance);
@@ -59,6 +60,7 @@ class BodyCoupling {
 
   Flow<Dim>& flow_;
   const StepStart<Dim>& start_;
+  double fullness_;
   double dt_;
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;

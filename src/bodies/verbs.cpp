@@ -32,7 +32,7 @@ template <int Dim>
 PressureReport solve_with_bodies(Flow<Dim>& flow, const StepStart<Dim>& start, const PosedEquation& equation, double dt,
                                  WallDrive<Dim>& drive) {
   if (!can_move(flow)) return solve(flow, equation, drive);
-  BodyCoupling<Dim> coupling(flow, start, dt, drive);
+  BodyCoupling<Dim> coupling(flow, start, equation.fullness, dt, drive);
   const PressureReport report = solve(flow, equation, drive,
                                       RowSolver{[&](double tolerance) { return coupling.solve_roughly(tolerance); },
                                                 [&](double tolerance) { return coupling.solve(tolerance); }});

@@ -140,6 +140,25 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   }
 }
 
+// A box as heavy as the water it displaces, in a closed tank that is full. From the first step on it feels the pressure
+// that the water has, which is lifted until none of it pulls: with the one before that the walls above it would push
+// with nothing, and it would begin to sink with a tenth of gravity.
+TEST(FloatingBody, HoversInATankThatIsFull) {
+  constexpr double dx = 0.025;
+  CaseSpec spec = tank_case<2>(dx, 0.6, 0.4);
+  spec.walls[0].max[1] = 0.4;
+  spec.walls[0].open = {};
+  add_box(spec, {0.2, 0.1}, {0.4, 0.3}, 1000.0);
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  for (int n = 0; n < 20; ++n) {
+    step(flow);
+    const BodyState<2>& body = flow.state.motion.bodies.each[0];
+    ASSERT_LT(body.acceleration.head<2>().norm(), 0.01 * g) << "step " << n;
+    ASSERT_LT(body.linear_velocity().norm(), 1e-3) << "step " << n;
+  }
+}
+
 // A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
 // it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
 // pressure needs a few steps to be there (softness, robust/rows.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
