@@ -1,4 +1,4 @@
-"""The field files of a run, read with VTK."""
+"""The field files of a run."""
 
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import DataError
+from .vtp import read_points
 
 __all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "to_frame"]
 
@@ -61,11 +62,11 @@ def to_frame(time: float, data) -> Frame:
 
 
 def read_frame(time: float, path) -> Frame:
-    """Throws DataError if VTK cannot read the file, or if there are no particles in it."""
-    data = read_polydata(path)
-    if data.GetNumberOfPoints() == 0:
+    """Throws DataError if the file is not one of a run, or if there are no particles in it."""
+    position, fields = read_points(path)
+    if len(position) == 0:
         raise DataError(f"{path}: holds no particles")
-    return to_frame(time, data)
+    return Frame(time, position, fields)
 
 
 def nearest_frames(run_folder, times) -> list:

@@ -13,6 +13,7 @@ import numpy as np
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import tables
+from tailwater.fields import list_frames, read_frame, read_polydata, to_frame
 from tailwater.program import call
 
 
@@ -42,6 +43,27 @@ class Runs(PackageTest):
         self.assertLess(abs(run.at(0.0).position[:, :2].mean(axis=0) - [0.5, 0.25]).max(), 1e-6)
         with self.assertRaisesRegex(KeyError, "there are pressure"):
             last["speed"]
+
+    def test_fields_are_those_that_vtk_reads(self):
+        found = []
+        for folder, ranks in (("one", 1), ("two", 2)):
+            for time, path in list_frames(self.case.run(folder, ranks=ranks).path):
+                ours, theirs = read_frame(time, path), to_frame(time, read_polydata(path))
+                self.assertEqual(list(ours.fields), list(theirs.fields))
+                for name, values in ours.fields.items():
+                    self.assertTrue(np.array_equal(values, theirs[name]), name)
+                    self.assertEqual(values.dtype, theirs[name].dtype, name)
+                found.append(np.array_equal(ours.position, theirs.position))
+        self.assertGreater(len(found), 2)
+        self.assertTrue(all(found))
+
+    def test_broken_fields_are_named(self):
+        path = self.case.run("out").path / "fields" / "fields_00000.vtp"
+        whole = path.read_bytes()
+        for part in (b"", whole[:200], whole[:-2000], whole.replace(b"<Points>", b"<Paints>")):
+            path.write_bytes(part)
+            with self.assertRaisesRegex(tw.DataError, "fields_00000.vtp"):
+                read_frame(0.0, path)
 
     def test_summary_and_steps(self):
         run = self.case.run("out")

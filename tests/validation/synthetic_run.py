@@ -77,6 +77,7 @@ def write_frame(path, position, **fields):
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
     writer.SetInputData(data)
+    writer.EncodeAppendedDataOff()
     writer.Write()
 
 

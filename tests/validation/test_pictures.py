@@ -2,6 +2,9 @@
 
 import contextlib
 import io
+import shutil
+import subprocess
+import sys
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -11,7 +14,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import synthetic_run
-from tailwater_validation import pictures, scene, start_picture, surface
+from tailwater_validation import pictures, pictures_3d, scene, start_picture, surface
 from tailwater_validation.curves import DataError
 from tailwater.fields import Frame, list_frames, read_polydata
 from tailwater_validation.run_folder import RunFolder
@@ -121,6 +124,15 @@ class Pictures(PicturesTest):
         self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00000.png"])
         self.assertFalse((folder / "fields/surface.pvd").exists())
 
+    def test_only_pictures_in_3d_need_vtk(self):
+        flat = shutil.move(self.run_of(2), Path(self.folder).parent / f"{Path(self.folder).name}-flat")
+        self.addCleanup(shutil.rmtree, flat)
+        program = ("import sys; sys.modules['vtkmodules'] = None; from tailwater_validation import pictures, validate; "
+                   "sys.exit(pictures.main(['--program', 'tailwater', sys.argv[1]]))")
+        for folder, code in ((flat, 0), (self.run_of(3), 2)):
+            ended = subprocess.run([sys.executable, "-B", "-c", program, folder], capture_output=True, text=True, check=False)
+            self.assertEqual((ended.returncode, "install python3-vtk9" in ended.stderr), (code, code == 2), ended.stderr)
+
     def test_what_cannot_be_drawn_is_told(self):
         code, _, err = self.command(Path(self.folder) / "nothing")
         self.assertEqual((code, "is not the folder of a run" in err), (2, True), err)
@@ -143,18 +155,18 @@ class Bounds(unittest.TestCase):
             return (self.x - 1, self.x + 1, -1, 1, -1, 1)
 
     def test_hold_walls_that_move_at_all_times_shown(self):
-        found = pictures.bounds_of([], [self.Walls(0.0), self.Walls(-2.5), None, self.Walls(7.0), self.Walls()])
+        found = pictures_3d.bounds_of([], [self.Walls(0.0), self.Walls(-2.5), None, self.Walls(7.0), self.Walls()])
         self.assertEqual(found, (-3.5, 8, -1, 1, -1, 1))
 
     def test_hold_the_water_where_there_are_no_walls(self):
         frames = [Frame(0.0, np.array([[0.0, 1.0, 2.0]]), {}), Frame(1.0, np.array([[5.0, 0.0, 2.5]]), {})]
-        self.assertEqual(pictures.bounds_of(frames, [None, self.Walls()]), (0, 5, 0, 1, 2, 2.5))
+        self.assertEqual(pictures_3d.bounds_of(frames, [None, self.Walls()]), (0, 5, 0, 1, 2, 2.5))
 
 
 class Scene(PicturesTest):
     def test_shows_water_faces_that_look_here_and_marks_on_top(self):
         folder = self.run_of(3, frames=1)
-        walls = pictures.walls_at(RunFolder(folder), 0.0)
+        walls = pictures_3d.walls_at(RunFolder(folder), 0.0)
         water = surface.water_surface(Frame(0.0, block(6, 5, 4) + (0.5, 0.5, 0), {}), DX)
         bounds = (0, 4, 0, 4, 0, 1)
 

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 
 from tailwater.fields import nearest_frames
 
-from . import pictures, plots, scene
-from .surface import water_surface
+from . import pictures, plots
 
 COLUMNS = 2
 PANEL = 2.6  # inches high
@@ -55,15 +54,18 @@ def grid_of(figure, count, margin):
 def draw_water(figure, run, frames, speed):
     """Coloured up to a speed (m/s)."""
     if run.dimension == 3:
-        window = scene.Scene(pictures.bounds_of(frames, [pictures.walls_at(run, 0.0)]), width=560)
+        from . import pictures_3d, scene, surface  # VTK, which pictures in 2D do without
+
+        window = scene.Scene(pictures_3d.bounds_of(frames, [pictures_3d.walls_at(run, 0.0)]), width=560)
         colours = matplotlib.colormaps[pictures.COLOURS] if speed > 0 else None
     else:
         view = plots.View(run, frames, crop=True)
     for axes, frame in zip(grid_of(figure, len(frames), 0.7), frames):
         axes.set_title(f"$t$ = {frame.time:.3g} s", loc="left")
         if run.dimension == 3:
-            axes.imshow(window.draw(water_surface(frame, run.spacing, ("velocity",)), pictures.walls_at(run, frame.time),
-                                    colours=colours, field="velocity", limits=(0, speed)))
+            water = surface.water_surface(frame, run.spacing, ("velocity",))
+            axes.imshow(window.draw(water, pictures_3d.walls_at(run, frame.time), colours=colours, field="velocity",
+                                    limits=(0, speed)))
             axes.set_axis_off()
         else:
             pictures.draw_plane(axes, run, frame, view, speed)

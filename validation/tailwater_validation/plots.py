@@ -14,6 +14,7 @@ BLUE, ORANGE, SKY, BLACK, GREY = "#0072B2", "#D55E00", "#56B4E9", "#000000", "#7
 STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
 WIDTH = 11.5
+LOOK_FROM = (1.0, -1.6, 0.9)  # towards the middle of the walls, in 3D
 MOST_STRETCHED = 2  # exaggeration of heights up to which particles are drawn as discs
 FLATTEST = 0.11  # height over width of a particle picture, below which its heights are exaggerated
 SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the rest is spray

@@ -18,11 +18,11 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkCoordinate, vtkLightKit, v
                                          vtkWindowToImageFilter)
 
 from .curves import DataError
+from .plots import LOOK_FROM
 
 WATER, WALL, EDGE, MARK = (0.22, 0.52, 0.80), (0.86, 0.84, 0.80), (0.35, 0.35, 0.35), (0.84, 0.10, 0.10)
 SHARP = 30  # degrees; an edge between faces that turn more than this is drawn
 FINER = 2  # pixels drawn for each one shown, along each side: smooth edges on any renderer
-FROM = (1.0, -1.6, 0.9)  # where the pictures look from
 MARGIN = 0.02  # of the picture, around what it shows
 MARK_SIZE = 0.012  # radius of a mark over the diagonal of the scene
 
@@ -100,7 +100,7 @@ def wall_actors(walls):
 class Scene:
     """One window for a series of pictures that look from the same place at the same part of space."""
 
-    def __init__(self, bounds, look_from=FROM, up=(0, 0, 1), width=1100):
+    def __init__(self, bounds, look_from=LOOK_FROM, up=(0, 0, 1), width=1100):
         """`bounds` are xmin, xmax, ymin, ymax, zmin, zmax in m."""
         start_display()
         self.bounds, self.width = bounds, width

@@ -10,7 +10,8 @@ from tailwater.fields import read_polydata, to_frame
 
 from . import plots, scene
 from .curves import DataError
-from .pictures import DPI, bounds_of, plain, show_image
+from .pictures import DPI, plain
+from .pictures_3d import bounds_of, show_image
 from .surface import water_surface
 from .whole_file import write_whole
 

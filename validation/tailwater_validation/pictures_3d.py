@@ -1,0 +1,83 @@
+"""Pictures in perspective of runs in 3D, and the surface of their water as meshes, by VTK."""
+
+import matplotlib
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from tailwater.fields import list_frames, read_frame, read_polydata
+
+from . import plots, scene
+from .pictures import COLOURS, DPI, finish, highest_speed
+from .surface import water_surface
+from .whole_file import write_whole
+
+
+def write_polydata(path, data):
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    writer.EncodeAppendedDataOff()  # raw bytes and short indices: a quarter less
+    writer.SetIdTypeToInt32()
+
+    def write(part):
+        writer.SetFileName(str(part))
+        if not writer.Write():
+            raise OSError(f"{path}: cannot be written")
+
+    write_whole(path, write)
+
+
+def write_surfaces(run, frames):
+    """A mesh for each field file that has none, and the list of all."""
+    folder = run.path / "fields"
+    entries = []
+    for number, (time, fields) in enumerate(frames):
+        path = folder / f"surface_{number:05}.vtp"
+        if not path.is_file() or path.stat().st_mtime < fields.stat().st_mtime:
+            write_polydata(path, water_surface(read_frame(time, fields), run.spacing))
+        entries.append(f'    <DataSet timestep="{time!r}" file="{path.name}"/>\n')
+    text = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n  <Collection>\n' + "".join(entries)
+            + "  </Collection>\n</VTKFile>\n")
+    write_whole(folder / "surface.pvd", lambda part: part.write_text(text, encoding="utf-8"))
+
+
+def walls_at(run, time):
+    """The faces of all walls at a time (s); none if the run wrote none."""
+    series = [entry for entry in list_frames(run.path, "walls") if entry[0] <= time + 1e-9]
+    return read_polydata(series[-1][1]) if series else None
+
+
+def bounds_of(frames, walls):
+    """Of what the pictures show: the walls wherever they are at the times of the frames, and without any the water."""
+    boxes = [faces.GetBounds() for faces in walls if faces is not None and faces.GetNumberOfPoints()]
+    if boxes:
+        boxes = np.array(boxes)
+        return tuple(np.stack([boxes[:, 0::2].min(0), boxes[:, 1::2].max(0)], axis=1).ravel())
+    low = np.min([frame.position.min(0) for frame in frames], axis=0)
+    high = np.max([frame.position.max(0) for frame in frames], axis=0)
+    return tuple(np.stack([low, high], axis=1).ravel())
+
+
+def show_image(image, title, mappable=None):
+    """A figure that shows an image pixel by pixel, with room for its title and a colour bar; and its axes."""
+    rows, columns, _ = image.shape
+    figure = plots.new_figure(columns / DPI + (1.0 if mappable is not None else 0.2), rows / DPI + 0.6)
+    axes = figure.subplots()
+    axes.imshow(image, interpolation="none")
+    axes.set_axis_off()
+    axes.set_title(title, loc="left", fontsize=10)
+    return figure, axes
+
+
+def draw(run, chosen, folder, look_from):
+    frames = [read_frame(time, path) for _, time, path in chosen]
+    speed = highest_speed(frames)
+    mappable = ScalarMappable(Normalize(0, speed), COLOURS) if speed > 0 else None
+    window = scene.Scene(bounds_of(frames, [walls_at(run, time) for _, time, _ in chosen]), look_from)
+    for (number, time, _), frame in zip(chosen, frames):
+        water = read_polydata(run.path / "fields" / f"surface_{number:05}.vtp")
+        image = window.draw(water, walls_at(run, time), colours=mappable and matplotlib.colormaps[COLOURS],
+                            field="velocity", limits=(0, speed))
+        figure, axes = show_image(image, "", mappable)
+        finish(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png")
