@@ -3,6 +3,7 @@
 A study runs a case at several spacings, one of them also from other starts and with half of the time step, and tells
 for each result of each probe its value with an interval (`uncertainty`, docs/theory/uncertainty.md)."""
 
+import csv
 import json
 import math
 from pathlib import Path
@@ -42,6 +43,13 @@ def quantities_of(run) -> dict:
                 quantity = f"{score['column']}, {name} from {Path(score['file']).name}"
                 found[score["probe"], quantity] = score[name], score["unit"]
     return found
+
+
+def cell(value) -> str:
+    """Of a CSV file; empty where there is no value."""
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:.9g}"
+    return "" if value is None else value
 
 
 def number(value) -> str:
@@ -115,7 +123,10 @@ class Study:
     def write(self, folder):
         """study.csv, study.json and study.txt."""
         folder = Path(folder)
-        self.table().to_csv(folder / "study.csv", float_format="%.9g")
+        with (folder / "study.csv").open("w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(COLUMNS)
+            table.writerows([cell(row[name]) for name in COLUMNS] for row in self.rows)
         rows = [{name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
                 for row in self.rows]
         told = {"spacings_m": self.spacings, "runs": [str(run.path) for run in self.runs],
