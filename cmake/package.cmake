@@ -20,8 +20,8 @@ incompressible smoothed particle hydrodynamics. A case is one text file; a run
 leaves tables, particle fields for ParaView and a summary.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tailwater)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-pil")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-vtk9, xvfb")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-pil")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-vtk9, xvfb, python3-h5py")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview, tailwater-doc")
 
 # The compiled module, and what scripts need: what is plain Python of the package is in the program's, which draws and

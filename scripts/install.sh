@@ -16,7 +16,7 @@ web=(chromium)  # for the tests of the page; what builds it is Node, below
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 package=(dpkg-dev lintian debootstrap)  # scripts/package.sh
 site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
-tests=(libgtest-dev clang-format clang-tidy python3-jsonschema python3-rasterio python3-scipy "${pictures[@]}" "${site[@]}")
+tests=(libgtest-dev clang-format clang-tidy python3-jsonschema python3-rasterio python3-h5py python3-scipy "${pictures[@]}" "${site[@]}")
 
 # The page is built by the Node that is there, else by Debian's. Debian's npm does not install beside a newer Node, which
 # brings its own.

@@ -10,7 +10,10 @@ from pathlib import Path
 from . import tables
 from .errors import DataError, RunWarning
 from .fields import Frame, list_frames, nearest_frames
+from .netcdf import EPOCH, write_netcdf
+from .paraview import write_paraview
 from .view import View
+from .vtkhdf import write_vtkhdf
 
 __all__ = ["Probes", "Run"]
 
@@ -118,6 +121,19 @@ class Run:
         """The run in a page of the browser, or of a notebook."""
         return View(self.path)
 
+    def to_netcdf(self, path, start=EPOCH):
+        """The probes over time as a NetCDF file (CF-1.8, featureType timeSeries). `start` is a datetime, or a text as in
+        "2026-03-01T12:00": when the run's time is 0. Throws DataError if no probe read numbers over time."""
+        write_netcdf(self, Path(path), start)
+
+    def to_vtkhdf(self, path):
+        """The water with all its fields and times as one VTKHDF file, for ParaView 5.12 or newer; by h5py. Throws DataError."""
+        write_vtkhdf(self, Path(path))
+
+    def to_paraview(self, path):
+        """A Python state for ParaView that shows the run, its water coloured by pressure. Throws DataError."""
+        write_paraview(self, Path(path))
+
     @property
     def spacing(self) -> float:
         """m"""
@@ -142,6 +158,12 @@ class Run:
         """The named numbers of the case."""
         return self.case.get("parameters", {})
 
+    @property
+    def walls(self):
+        """2D: chains of points (m) of the walls that stay where they are drawn, closed ones with their first point again at
+        the end."""
+        return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
+
     def __repr__(self):
         summary = self.summary
         reached = f", t = {summary['time_s']['reached']:.4g} s" if summary else ""
@@ -151,3 +173,15 @@ class Run:
 def warn_of(run: Run):
     for line in run.summary.get("warnings", []):
         warnings.warn(line, RunWarning, stacklevel=4)
+
+
+def is_moving(wall):
+    return any(wall.get("displacement", ())) or wall.get("rotation", 0) != 0 or wall.get("motion", "") != ""
+
+
+def wall_chain(wall):
+    if wall["shape"] == "box":
+        (left, low), (right, high) = wall["min"], wall["max"]
+        return [(left, low), (right, low), (right, high), (left, high), (left, low)]
+    points = [tuple(point) for point in wall["points"]]
+    return points + points[:1] if wall["shape"] == "polygon" else points

@@ -6,7 +6,7 @@ import numpy as np
 
 from .errors import DataError
 
-__all__ = ["frame", "read_table", "unit_of"]
+__all__ = ["frame", "read_table", "unit_of", "without_unit"]
 
 # Endings of names that are units, the longest first, so that "m3_per_s" is not taken for "s".
 UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3": "kg/m^3", "N_m_per_m": "N m/m",
@@ -15,9 +15,18 @@ UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3
 ENDINGS = sorted(UNITS, key=len, reverse=True)
 
 
+def ending_of(name: str) -> str:
+    return next((ending for ending in ENDINGS if name.endswith("_" + ending)), "")
+
+
 def unit_of(name: str) -> str:
     """Of a column by its name: "m" of "highest_m", "" of a number without a unit."""
-    return next((UNITS[ending] for ending in ENDINGS if name.endswith("_" + ending)), "")
+    return UNITS.get(ending_of(name), "")
+
+
+def without_unit(name: str) -> str:
+    """"highest" of "highest_m"."""
+    return name.removesuffix("_" + ending_of(name)) if ending_of(name) else name
 
 
 def read_table(path) -> dict:

@@ -20,7 +20,7 @@ constexpr std::array<PythonCommand, 2> benches{{
     {"speed", "CPU time and memory of cases, steps and rooms, and how they grow", "tailwater_validation.speed", ""},
 }};
 
-constexpr std::array<PythonCommand, 5> commands{{
+constexpr std::array<PythonCommand, 6> commands{{
     {"validate", "Run the papers' cases and the exact solutions, and write a report of the scores",
      "tailwater_validation.validate", ""},
     {"study", "Run a case at several spacings, and say how well its numbers are known", "tailwater.study_command", ""},
@@ -30,6 +30,8 @@ constexpr std::array<PythonCommand, 5> commands{{
      "Example: tailwater bed terrain.tif --to bed.stl --box 512000 5401000 512400 5401200 --step 0.5"},
     {"pictures", "Draw pictures of a run, and in 3D the water's surface as meshes", "tailwater_validation.pictures",
      "Example: tailwater pictures my_run --count 12 --from 1 -1 0.5"},
+    {"export", "Write a run as VTKHDF and NetCDF, and a state that shows it in ParaView", "tailwater.export_command",
+     "Example: tailwater export my_run --vtkhdf water.vtkhdf --netcdf gauges.nc --paraview state.py"},
 }};
 
 void add(CLI::App& app, const PythonCommand& python) {

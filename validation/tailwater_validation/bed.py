@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.whole_file import write_whole
+
 from .command import PlainParser, complain, number
 from .curves import DataError
-from .whole_file import write_whole
 
 LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands
 

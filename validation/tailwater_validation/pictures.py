@@ -12,12 +12,12 @@ import matplotlib
 import numpy as np
 
 from tailwater.fields import list_frames, read_frame
+from tailwater.whole_file import write_whole
 
 from . import plots
 from .command import PlainParser, complain, number
 from .curves import DataError
 from .run_folder import RunFolder
-from .whole_file import write_whole
 
 COUNT = 6
 DPI = 100

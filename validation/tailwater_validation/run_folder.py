@@ -1,4 +1,4 @@
-"""A run as those who score it look at it: its probes as curves, and its walls."""
+"""A run as those who score it look at it: its probes as curves."""
 
 from tailwater.errors import DataError
 from tailwater.run import Run
@@ -41,21 +41,3 @@ class RunFolder(Run):
     def integrator(self):
         """"two-step" for the scheme that knows no other."""
         return self.case["scheme"].get("integrator", "two-step")
-
-    @property
-    def walls(self):
-        """Chains of wall points (m) of the walls that stay where they are drawn (2D), closed ones with their first point
-        again at the end."""
-        return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
-
-
-def is_moving(wall):
-    return any(wall.get("displacement", ())) or wall.get("rotation", 0) != 0 or wall.get("motion", "") != ""
-
-
-def wall_chain(wall):
-    if wall["shape"] == "box":
-        (left, low), (right, high) = wall["min"], wall["max"]
-        return [(left, low), (right, low), (right, high), (left, high), (left, low)]
-    points = [tuple(point) for point in wall["points"]]
-    return points + points[:1] if wall["shape"] == "polygon" else points

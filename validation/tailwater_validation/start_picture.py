@@ -7,13 +7,13 @@ from pathlib import Path
 import matplotlib
 
 from tailwater.fields import read_polydata, to_frame
+from tailwater.whole_file import write_whole
 
 from . import plots, scene
 from .curves import DataError
 from .pictures import DPI, plain
 from .pictures_3d import bounds_of, show_image
 from .surface import water_surface
-from .whole_file import write_whole
 
 
 def point(text):

@@ -16,6 +16,8 @@ import platform
 import subprocess
 import sys
 
+from tailwater.whole_file import write_whole
+
 from . import command, panels
 from .curves import DataError
 from .metric import bar, shown
@@ -23,7 +25,6 @@ from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
 from .text_table import text_table
-from .whole_file import write_whole
 
 
 def finite(value):

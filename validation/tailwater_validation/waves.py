@@ -13,10 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.whole_file import write_whole
+
 from .command import PlainParser, complain, number
 from .curves import DataError
 from .run_folder import RunFolder
-from .whole_file import write_whole
 
 # Frequencies between these multiples of the peak's count as waves in a separation of waves and reflected waves.
 BAND = (0.5, 1.8)

@@ -1,0 +1,72 @@
+"""`tailwater export`: a run in the formats of others.
+
+Exit codes: 0 done, 2 bad input, 4 a file cannot be written."""
+
+import argparse
+import datetime
+import os
+import sys
+from pathlib import Path
+
+from .errors import DataError
+from .netcdf import EPOCH
+from .run import Run
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        print(f"error: {message}; see: tailwater export --help", file=sys.stderr)
+        sys.exit(2)
+
+
+def moment(text):
+    try:
+        return datetime.datetime.fromisoformat(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'"{text}" is no time; write it as in 2026-03-01T12:00') from None
+
+
+def parser():
+    command = Parser(prog="tailwater export", allow_abbrev=False)
+    command.description = "Write a run in the formats of others. What is there already is replaced."
+    command.epilog = "Example: tailwater export my_run --vtkhdf water.vtkhdf --netcdf gauges.nc --paraview state.py"
+    command.add_argument("--program", help=argparse.SUPPRESS)
+    command.add_argument("run", metavar="DIR", help="folder of a run, which may go on")
+    command.add_argument("--vtkhdf", type=Path, metavar="FILE", help="the water with all its fields and times as one VTKHDF "
+                         "file, for ParaView 5.12 or newer (needs python3-h5py)")
+    command.add_argument("--netcdf", type=Path, metavar="FILE", help="the probes over time as NetCDF (CF-1.8)")
+    command.add_argument("--paraview", type=Path, metavar="FILE", help="a Python state that shows the run in ParaView, "
+                         "water coloured by pressure; it reads the field files")
+    command.add_argument("--start", type=moment, default=EPOCH, metavar="TIME", help="date and time of the run's time 0 in "
+                         f"the NetCDF file, as in 2026-03-01T12:00 ({EPOCH:%Y-%m-%d})")
+    return command
+
+
+def main(arguments=None):
+    command = parser()
+    options = command.parse_args(arguments)
+    if not (options.vtkhdf or options.netcdf or options.paraview):
+        command.error("give one of --vtkhdf FILE, --netcdf FILE and --paraview FILE")
+    if options.program:
+        os.environ["TAILWATER"] = options.program
+    try:
+        run = Run(options.run)
+        if options.netcdf:
+            run.to_netcdf(options.netcdf, start=options.start)
+        if options.paraview:
+            run.to_paraview(options.paraview)
+        if options.vtkhdf:
+            run.to_vtkhdf(options.vtkhdf)
+    except DataError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 4
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+"""The probes of a run as a NetCDF file after the conventions CF-1.8, for xarray, MATLAB and the like.
+
+Each probe that reads numbers over time is a station (CF: featureType timeSeries), each column of the tables a variable
+over station and time, with the name that it has in the table. Where a probe has no such column there is NaN. If all
+read at the same times there is one axis of time, else each station has its own (CF, H.2.1 and H.2.2)."""
+
+import datetime
+
+import numpy as np
+
+from . import tables
+from .errors import DataError
+from .program import version
+from .whole_file import write_whole
+
+__all__ = ["EPOCH", "write_netcdf"]
+
+EPOCH = datetime.datetime(1970, 1, 1)
+UNITS = {"": "1", "deg": "degree", "bytes": "byte"}  # where UDUNITS has another word
+AXES = "XYZ"
+NOTHING = np.float64(np.nan)  # of the type of the variables
+
+
+def series_of(run) -> dict:
+    """Tables by probe, of those with one line for each time. Throws DataError where there is none."""
+    found = {}
+    for probe in run.case.get("probe", []):
+        path = run.path / "probes" / f"{probe['name']}.csv"
+        if not path.is_file():
+            continue
+        table = tables.read_table(path)
+        if "time_s" in table and (np.diff(table["time_s"]) > 0).all():
+            found[probe["name"]] = table
+    if not found:
+        raise DataError(f"{run.path}: no probe of the run has read numbers over time")
+    return found
+
+
+def place_of(probe, dimension) -> np.ndarray:
+    """Where a probe is, in m; of a line its middle, of what has no place NaN."""
+    if "at" in probe:
+        place = probe["at"]
+    elif "from" in probe and "to" in probe:
+        place = np.mean([probe["from"], probe["to"]], axis=0)
+    else:
+        place = ()
+    return np.pad(np.asarray(place, float), (0, dimension - len(place)), constant_values=NOTHING)
+
+
+def describe(node, **attributes):
+    """Of a file or a variable; texts in UTF-8."""
+    for key, value in attributes.items():
+        setattr(node, key, value.encode() if isinstance(value, str) else value)
+
+
+class Writer:
+    """What all variables of a file share."""
+
+    def __init__(self, file):
+        self.file = file
+
+    def variable(self, name, dimensions, values, **attributes):
+        made = self.file.createVariable(name, "c" if values.dtype.kind == "S" else "d", dimensions)
+        describe(made, **attributes)
+        made[:] = values
+
+    def texts(self, name, words, **attributes):
+        """One for each station."""
+        encoded = np.array([word.encode() for word in words])
+        length = f"{name}_length"
+        self.file.createDimension(length, encoded.dtype.itemsize)
+        self.variable(name, ("station", length), encoded.view("S1").reshape(len(words), -1), **attributes)
+
+
+def write_stations(writer, run, names):
+    """Their names, kinds and places. Returns the names of the variables."""
+    probes = {probe["name"]: probe for probe in run.case["probe"]}
+    writer.file.createDimension("station", len(names))
+    writer.texts("station_name", names, cf_role="timeseries_id", long_name="name of the probe")
+    writer.texts("station_type", [probes[name]["type"] for name in names], long_name="what the probe measures")
+    places = np.array([place_of(probes[name], run.dimension) for name in names])
+    for axis in range(run.dimension):
+        upward = {"axis": "Z", "positive": "up"} if axis == run.dimension - 1 else {"axis": AXES[axis]}
+        writer.variable(AXES[axis].lower(), ("station",), places[:, axis], units="m",
+                        long_name=f"{AXES[axis].lower()} of the probe, of a line its middle", **upward)
+    return " ".join(["station_name", "station_type", *AXES[:run.dimension].lower()])
+
+
+def write_series(file, run, series, start):
+    writer = Writer(file)
+    stations = write_stations(writer, run, list(series))
+    times = [table["time_s"] for table in series.values()]
+    length = max(map(len, times))
+    is_shared = all(np.array_equal(times[0], time) for time in times)
+    axis = "time" if is_shared else "observation"
+    file.createDimension(axis, length)
+
+    def padded(values):
+        return np.pad(values, (0, length - len(values)), constant_values=NOTHING)
+
+    writer.variable("time", ("time",) if is_shared else ("station", axis),
+                    times[0] if is_shared else np.array([padded(time) for time in times]),
+                    units=f"seconds since {start:%Y-%m-%d %H:%M:%S}", calendar="standard", standard_name="time", axis="T",
+                    long_name="time since the start of the run", **({} if is_shared else {"_FillValue": NOTHING}))
+    for name in dict.fromkeys(name for table in series.values() for name in table if name != "time_s"):
+        unit = tables.unit_of(name)
+        values = np.array([padded(table[name]) if name in table else np.full(length, NOTHING) for table in series.values()])
+        writer.variable(name, ("station", axis), values, units=UNITS.get(unit, unit), _FillValue=NOTHING,
+                        long_name=tables.without_unit(name).replace("_", " "), coordinates=stations if is_shared else f"time {stations}")
+
+
+def source_of(run) -> str:
+    """The program that made a run that has ended; else the one that is here."""
+    summary = run.summary
+    return f"tailwater {summary['version']} (commit {summary['commit']})" if summary else version()
+
+
+def write_netcdf(run, path, start):
+    """`start` is a datetime, or a text of one (ISO 8601, without a zone): when the run's time is 0. Throws DataError,
+    ValueError if `start` is no time, OSError."""
+    from scipy.io import netcdf_file  # slow to import
+
+    if isinstance(start, str):
+        start = datetime.datetime.fromisoformat(start)
+    if start.tzinfo is not None:
+        start = start.astimezone(datetime.timezone.utc).replace(tzinfo=None)
+    series = series_of(run)
+
+    def write(part):
+        with netcdf_file(part, "w", version=2) as file:
+            now = datetime.datetime.now(datetime.timezone.utc)
+            describe(file, Conventions="CF-1.8", featureType="timeSeries", title=run.case["case"]["title"],
+                     source=source_of(run),
+                     history=f"{now:%Y-%m-%dT%H:%M:%SZ} tailwater export of {run.path}")
+            write_series(file, run, series, start)
+
+    write_whole(path, write)
