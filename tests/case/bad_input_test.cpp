@@ -10,7 +10,7 @@
 #include "case_file.h"
 
 namespace tailwater {
-namespace {
+namespace bad_input_test {
 
 struct BadInput {
   std::string name;
@@ -623,5 +623,5 @@ TEST(BadInput, ReportsAllProblemsInTheOrderOfTheFile) {
   }
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace tailwater

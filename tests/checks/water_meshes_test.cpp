@@ -16,7 +16,7 @@
 #include "sampling/fluid_particles.h"
 
 namespace tailwater {
-namespace {
+namespace water_meshes_test {
 
 using namespace testing_cases;
 
@@ -155,5 +155,5 @@ TEST(WaterMesh, ThatCannotBeIsRefused) {
   expect_refused(tank_with(mesh_water(folder, crossed)), {"fluid 'fluid1' crosses itself at", "unite the bodies"});
 }
 
-}  // namespace
+}  // namespace water_meshes_test
 }  // namespace tailwater

@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(FreeSurfaceTest, Dimensions);
 template <int Dim>
 struct Marks {
   Marks(const Particles<Dim>& particles, PeriodicDomain<Dim> domain)
-      : set(particles, make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx, std::move(domain)),
+      : set(particles, make_kernel<Dim>(KernelName::wendland_c2, 3.0 * layer_dx), layer_dx, std::move(domain)),
         is_surface(set.size()),
         interior(set.size()) {
     KernelSumsOfSet<Dim> sums(set);
@@ -34,7 +34,7 @@ struct Marks {
 
 TYPED_TEST(FreeSurfaceTest, MarksTheOutermostRowsAndNothingElse) {
   constexpr int Dim = TypeParam::value;
-  const Marks<Dim> marks(fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+  const Marks<Dim> marks(fluid_at<Dim>(layer<Dim>(), layer_dx), along_the_layer<Dim>());
   for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
     const int row = row_of(marks.set.position(i)[1]);
     EXPECT_EQ(marks.is_surface[i] != 0, row == 0 || row == rows - 1) << "row " << row;
@@ -43,7 +43,7 @@ TYPED_TEST(FreeSurfaceTest, MarksTheOutermostRowsAndNothingElse) {
 
 TYPED_TEST(FreeSurfaceTest, TheInteriorBeginsBelowTwoRows) {
   constexpr int Dim = TypeParam::value;
-  const Marks<Dim> marks(fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+  const Marks<Dim> marks(fluid_at<Dim>(layer<Dim>(), layer_dx), along_the_layer<Dim>());
   for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
     const int row = row_of(marks.set.position(i)[1]);
     const int depth = std::min(row, rows - 1 - row);
@@ -54,7 +54,7 @@ TYPED_TEST(FreeSurfaceTest, TheInteriorBeginsBelowTwoRows) {
 
 TYPED_TEST(FreeSurfaceTest, WallsAreNeverMarkedAndCoverTheSurface) {
   constexpr int Dim = TypeParam::value;
-  Particles<Dim> particles = fluid_at<Dim>(layer<Dim>(), dx);
+  Particles<Dim> particles = fluid_at<Dim>(layer<Dim>(), layer_dx);
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (row_of(particles.position[i][1]) < 3) particles.kind[i] = ParticleKind::wall;
   }
@@ -67,8 +67,8 @@ TYPED_TEST(FreeSurfaceTest, WallsAreNeverMarkedAndCoverTheSurface) {
 
 TYPED_TEST(FreeSurfaceTest, SprayIsSurface) {
   constexpr int Dim = TypeParam::value;
-  const std::vector<Vec<Dim>> spray{Vec<Dim>::Zero(), dx * Vec<Dim>::UnitX(), Vec<Dim>::Constant(5.0)};
-  const Marks<Dim> marks(fluid_at<Dim>(spray, dx), {});
+  const std::vector<Vec<Dim>> spray{Vec<Dim>::Zero(), layer_dx * Vec<Dim>::UnitX(), Vec<Dim>::Constant(5.0)};
+  const Marks<Dim> marks(fluid_at<Dim>(spray, layer_dx), {});
   for (std::size_t i = 0; i < spray.size(); ++i) {
     EXPECT_TRUE(marks.is_surface[i]);
     EXPECT_EQ(marks.interior[i], 0.0);

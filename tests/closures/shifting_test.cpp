@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "closures/fluid_pairs.h"
@@ -10,12 +9,11 @@
 #include "published/shifting.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace shifting_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 constexpr double dt = 0.01;
 /// Not 3 dx: lattice neighbours on the very rim would count or not by rounding, and (F28) has no kernel to fade them.
@@ -167,5 +165,5 @@ TYPED_TEST(ShiftingTest, NothingForWallsLoneParticlesAndWaterAtRest) {
   }
 }
 
-}  // namespace
+}  // namespace shifting_test
 }  // namespace tailwater

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,12 +11,11 @@
 #include "operators/laplacian_morris.h"
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace viscosity_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 
 template <class D>
@@ -201,5 +199,5 @@ TYPED_TEST(ViscosityTest, LeavesAUniformVelocityAlone) {
   for (const Vec<Dim>& a : acceleration) EXPECT_EQ(a, Vec<Dim>(Vec<Dim>::Zero()));
 }
 
-}  // namespace
+}  // namespace viscosity_test
 }  // namespace tailwater

@@ -9,7 +9,7 @@
 #include "geometry/cases.h"
 
 namespace tailwater {
-namespace {
+namespace boundary_test {
 
 using namespace testing_cases;
 
@@ -216,5 +216,5 @@ TEST(FiledFaces, GiveTheNearestOfAllIn3D) {
   expect_the_same_nearest<3>(spec, {-0.4, -0.4, -0.4}, {1.7, 0.9, 1.0});
 }
 
-}  // namespace
+}  // namespace boundary_test
 }  // namespace tailwater

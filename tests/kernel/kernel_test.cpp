@@ -8,16 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "support/dimensions.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr std::array all_kernels{KernelName::wendland_c2, KernelName::cubic_spline, KernelName::farzin};
 constexpr std::array radii{0.03, 1.0, 7.0};
 

@@ -6,18 +6,17 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <span>
 #include <vector>
 
 #include "linear/bicgstab.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
 
 constexpr double omega = ssor_factor;
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A matrix of 0 to `most` entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
 /// couples images: ghosts of this rank's first rows.

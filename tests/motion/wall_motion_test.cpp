@@ -5,13 +5,12 @@
 
 #include "geometry/cases.h"
 #include "motion/wall_motion.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
 
 using namespace testing_cases;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A plate that turns by a right angle in 1 s about its foot and moves to the right by t^2, in a channel.
 CaseSpec flap_case() {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -13,12 +12,11 @@
 #include "neighbours/pair_lanes.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double radius = 0.3;
 constexpr double skin = 0.04;
 constexpr double spacing = 0.1;

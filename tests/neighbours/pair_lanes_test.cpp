@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "neighbours/find_pairs.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr std::size_t count = 23;
 
 /// Sixteen numbers of a particle.

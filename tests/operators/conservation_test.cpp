@@ -1,7 +1,6 @@
 // What holds pair by pair, on any set.
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "operators/divergence.h"
@@ -9,12 +8,11 @@
 #include "operators/laplacian_morris.h"
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace conservation_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 
 template <class D>
@@ -105,5 +103,5 @@ TYPED_TEST(ConservationTest, MorrisWeightsAreSymmetricAndNeverNegative) {
   }
 }
 
-}  // namespace
+}  // namespace conservation_test
 }  // namespace tailwater

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "operators/concentration.h"
@@ -13,13 +12,12 @@
 #include "operators/lattice.h"
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
+#include "support/rounding.h"
 #include "support/tensors.h"
 
 namespace tailwater {
-namespace {
+namespace exactness_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.05;
 constexpr double radius = 3.0 * dx;
 constexpr std::array all_kernels{KernelName::wendland_c2, KernelName::cubic_spline, KernelName::farzin};
@@ -264,5 +262,5 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
   }
 }
 
-}  // namespace
+}  // namespace exactness_test
 }  // namespace tailwater

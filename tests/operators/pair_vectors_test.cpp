@@ -3,19 +3,17 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace pair_vectors_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 constexpr double radius = 3.0 * dx;
 
@@ -268,5 +266,5 @@ TYPED_TEST(PairVectorsTest, StretchingOfASurfaceIsNoCompressionOnceTheyReachIt) 
   EXPECT_LT(std::abs(surface[2]), 0.2 * kernel[1]);  // of the sweeps, which reach inside
 }
 
-}  // namespace
+}  // namespace pair_vectors_test
 }  // namespace tailwater

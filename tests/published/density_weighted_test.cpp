@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "operators/concentration.h"
@@ -14,12 +13,11 @@
 #include "support/dimensions.h"
 #include "support/pair_vectors.h"
 #include "support/particle_set.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace density_weighted_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.1;
 constexpr double radius = 2.4 * dx;  // h = 1.2 dx
 
@@ -138,5 +136,5 @@ TYPED_TEST(DensityWeightedTest, LatticeHasFullDensityAndGivesLinearFieldsNoLapla
   EXPECT_GT(tested, 0);
 }
 
-}  // namespace
+}  // namespace density_weighted_test
 }  // namespace tailwater

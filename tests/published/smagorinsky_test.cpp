@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "support/dimensions.h"
 #include "support/particle_set.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace smagorinsky_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double dx = 0.1;
 constexpr double c_s = 0.1;
 
@@ -94,5 +93,5 @@ TYPED_TEST(SmagorinskyTest, DivergenceConservesMomentum) {
   EXPECT_GT(acceleration[set.size() / 2].norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace smagorinsky_test
 }  // namespace tailwater

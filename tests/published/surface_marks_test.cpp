@@ -22,21 +22,21 @@ template <int Dim>
 struct Marks {
   Marks(Test test, const Particles<Dim>& particles, PeriodicDomain<Dim> domain)
       : set(particles,
-            test == Test::density ? make_kernel<Dim>(KernelName::cubic_spline, 2.4 * dx)
-                                  : make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx),
-            dx, std::move(domain)),
+            test == Test::density ? make_kernel<Dim>(KernelName::cubic_spline, 2.4 * layer_dx)
+                                  : make_kernel<Dim>(KernelName::wendland_c2, 3.0 * layer_dx),
+            layer_dx, std::move(domain)),
         is_surface(set.size()),
         interior(set.size()) {
     const KernelSumsOfSet<Dim> sums(set);
     if (test == Test::cone) {
       const ConsistentOperators<Dim> operators(set);
-      mark_by_cone<Dim>({set.pairs(), sums.concentration, sums.gradient, operators.tensors, dx}, set.particles,
+      mark_by_cone<Dim>({set.pairs(), sums.concentration, sums.gradient, operators.tensors, layer_dx}, set.particles,
                         is_surface);
     } else {
       mark_by_density<Dim>(set.pairs(), set.particles, sums.concentration, is_surface);
     }
     set.neighbourhood.halo().exchange(is_surface);
-    find_interior_by_marks<Dim>(set.pairs(), set.particles, dx, is_surface, interior);
+    find_interior_by_marks<Dim>(set.pairs(), set.particles, layer_dx, is_surface, interior);
   }
 
   ParticleSet<Dim> set;
@@ -47,7 +47,7 @@ struct Marks {
 TYPED_TEST(SurfaceMarksTest, MarkTheOutermostRowsAndNothingElse) {
   constexpr int Dim = TypeParam::value;
   for (const Test test : {Test::cone, Test::density}) {  // on a disordered set density marks whatever is loose
-    const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+    const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), layer_dx), along_the_layer<Dim>());
     for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
       const int row = row_of(marks.set.position(i)[1]);
       EXPECT_EQ(marks.is_surface[i] != 0, row == 0 || row == rows - 1) << static_cast<int>(test) << ", row " << row;
@@ -57,18 +57,18 @@ TYPED_TEST(SurfaceMarksTest, MarkTheOutermostRowsAndNothingElse) {
 
 TYPED_TEST(SurfaceMarksTest, TheInteriorBeginsBelowTwoRows) {
   constexpr int Dim = TypeParam::value;
-  const Marks<Dim> marks(Test::cone, fluid_at<Dim>(layer<Dim>(), dx), along_the_layer<Dim>());
+  const Marks<Dim> marks(Test::cone, fluid_at<Dim>(layer<Dim>(), layer_dx), along_the_layer<Dim>());
   for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
     const int row = row_of(marks.set.position(i)[1]);
     const int depth = std::min(row, rows - 1 - row);
-    if (depth == 2) continue;  // exactly 2 dx away: rounding decides
+    if (depth == 2) continue;  // exactly 2 layer_dx away: rounding decides
     EXPECT_EQ(marks.interior[i], depth < 2 ? 0.0 : 1.0) << "depth " << depth;
   }
 }
 
 TYPED_TEST(SurfaceMarksTest, WallsAreNeverMarkedAndCoverTheSurface) {
   constexpr int Dim = TypeParam::value;
-  Particles<Dim> particles = fluid_at<Dim>(layer<Dim>(), dx);
+  Particles<Dim> particles = fluid_at<Dim>(layer<Dim>(), layer_dx);
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (row_of(particles.position[i][1]) < 3) particles.kind[i] = ParticleKind::wall;
   }
@@ -83,15 +83,15 @@ TYPED_TEST(SurfaceMarksTest, AClumpAsDenseAsWaterIsSurface) {
   constexpr int Dim = TypeParam::value;
   // Seven particles almost in one place: W_0 w/C_0 is 0.32 in 2D and 0.18 in 3D.
   std::vector<Vec<Dim>> clump;
-  for (int k = 0; k < 7; ++k) clump.push_back(0.01 * k * dx * Vec<Dim>::UnitX());
-  const Marks<Dim> marks(Test::density, fluid_at<Dim>(clump, dx), {});
+  for (int k = 0; k < 7; ++k) clump.push_back(0.01 * k * layer_dx * Vec<Dim>::UnitX());
+  const Marks<Dim> marks(Test::density, fluid_at<Dim>(clump, layer_dx), {});
   for (std::size_t i = 0; i < clump.size(); ++i) EXPECT_TRUE(marks.is_surface[i]);
 }
 
 TYPED_TEST(SurfaceMarksTest, SprayIsSurface) {
   constexpr int Dim = TypeParam::value;
-  const std::vector<Vec<Dim>> spray{Vec<Dim>::Zero(), dx * Vec<Dim>::UnitX(), Vec<Dim>::Constant(5.0)};
-  const Marks<Dim> marks(Test::cone, fluid_at<Dim>(spray, dx), {});
+  const std::vector<Vec<Dim>> spray{Vec<Dim>::Zero(), layer_dx * Vec<Dim>::UnitX(), Vec<Dim>::Constant(5.0)};
+  const Marks<Dim> marks(Test::cone, fluid_at<Dim>(spray, layer_dx), {});
   for (std::size_t i = 0; i < spray.size(); ++i) {
     EXPECT_TRUE(marks.is_surface[i]);
     EXPECT_EQ(marks.interior[i], 0.0);

@@ -8,7 +8,7 @@
 #include "support/tensors.h"
 
 namespace tailwater {
-namespace {
+namespace viscosity_test {
 
 constexpr double dx = 0.1;
 
@@ -52,5 +52,5 @@ TYPED_TEST(PublishedViscosityTest, ConsistentFormIsExactForQuadraticVelocities) 
   EXPECT_GT(tested, 0u);
 }
 
-}  // namespace
+}  // namespace viscosity_test
 }  // namespace tailwater

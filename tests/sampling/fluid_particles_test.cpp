@@ -11,7 +11,7 @@
 #include "support/circle.h"
 
 namespace tailwater {
-namespace {
+namespace fluid_particles_test {
 
 using namespace testing_cases;
 
@@ -260,5 +260,5 @@ TEST(FluidLattice, BadBlocksAreNamed) {
   EXPECT_THROW(fluid_of(spec), InputError);
 }
 
-}  // namespace
+}  // namespace fluid_particles_test
 }  // namespace tailwater

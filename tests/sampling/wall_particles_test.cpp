@@ -12,7 +12,7 @@
 #include "support/circle.h"
 
 namespace tailwater {
-namespace {
+namespace wall_particles_test {
 
 using namespace testing_cases;
 
@@ -349,5 +349,5 @@ TEST(SharesOfSpace, HaveAllParticlesOfBoxesThatTouchIn3D) {
   }
 }
 
-}  // namespace
+}  // namespace wall_particles_test
 }  // namespace tailwater

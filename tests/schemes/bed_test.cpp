@@ -7,7 +7,7 @@
 #include "schemes/cases.h"
 
 namespace tailwater {
-namespace {
+namespace bed_test {
 
 constexpr double dx = 0.02;
 constexpr double crest = 0.08;
@@ -103,5 +103,5 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
 
 INSTANTIATE_TEST_SUITE_P(Slopes, Hump, testing::Values(0.15, 1.0, std::numbers::sqrt3));
 
-}  // namespace
+}  // namespace bed_test
 }  // namespace tailwater

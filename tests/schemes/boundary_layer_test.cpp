@@ -8,7 +8,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
-namespace {
+namespace boundary_layer_test {
 
 constexpr double dx = 0.01;
 
@@ -142,5 +142,5 @@ TEST(BoundaryLayer, GrowsAsTheBalanceOfMomentumAsks) {
   EXPECT_LT(growth, 1.2 * von_karman * 0.072);
 }
 
-}  // namespace
+}  // namespace boundary_layer_test
 }  // namespace tailwater

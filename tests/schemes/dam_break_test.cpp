@@ -7,7 +7,7 @@
 #include "schemes/cases.h"
 
 namespace tailwater {
-namespace {
+namespace dam_break_test {
 
 constexpr double dx = 0.04;
 const double end = 3.0 * std::sqrt(0.6 / g);
@@ -128,5 +128,5 @@ INSTANTIATE_TEST_SUITE_P(Integrators, DamBreak,
                                          Way{"two_step", Integrator::explicit_projection, SchemeName::farmani2020}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace dam_break_test
 }  // namespace tailwater

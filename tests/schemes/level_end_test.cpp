@@ -11,7 +11,7 @@
 #include "schemes/open_ends.h"
 
 namespace tailwater {
-namespace {
+namespace level_end_test {
 
 constexpr double dx = end_spacing;
 
@@ -273,5 +273,5 @@ TEST(OpenEnd, ThePublishedFormulationsHaveThem) {
   }
 }
 
-}  // namespace
+}  // namespace level_end_test
 }  // namespace tailwater

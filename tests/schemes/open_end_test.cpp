@@ -12,7 +12,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
-namespace {
+namespace open_end_test {
 
 constexpr double dx = end_spacing;
 
@@ -369,5 +369,5 @@ TEST(OpenEnd, AReservoirFloodsADryChannel) {
   EXPECT_LT(arrived.volume, 0.5 * 0.4 * 2.0 * critical + dx * 0.4) << "no water is faster than its front";
 }
 
-}  // namespace
+}  // namespace open_end_test
 }  // namespace tailwater

@@ -8,7 +8,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
-namespace {
+namespace outflow_test {
 
 constexpr double dx = 0.1;
 
@@ -67,5 +67,5 @@ TYPED_TEST(OutflowTest, WithoutGravityNothingFalls) {
   EXPECT_EQ(flow.state.fallen.particles, 0);
 }
 
-}  // namespace
+}  // namespace outflow_test
 }  // namespace tailwater

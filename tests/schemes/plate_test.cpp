@@ -10,7 +10,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
-namespace {
+namespace plate_test {
 
 constexpr double dx = 0.05;
 constexpr double width = 0.8;
@@ -201,5 +201,5 @@ TEST(MeshPlateAtRest, HoldsWaterApartWhenItBulges) {
   EXPECT_GT(before, count_fluid(flow) / 2);
 }
 
-}  // namespace
+}  // namespace plate_test
 }  // namespace tailwater

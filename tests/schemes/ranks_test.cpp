@@ -11,18 +11,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace ranks_test {
 
 constexpr double tau = 1e-11;
 constexpr double granted = 100.0;
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 constexpr double dx = 0.05;
 constexpr int steps = 12;  // particles are shared out twice
 
@@ -367,5 +366,5 @@ TYPED_TEST(RanksTest, BodyFloats) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
-}  // namespace
+}  // namespace ranks_test
 }  // namespace tailwater

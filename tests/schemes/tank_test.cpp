@@ -12,7 +12,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
-namespace {
+namespace tank_test {
 
 constexpr double dx = 0.05;
 
@@ -143,5 +143,5 @@ TYPED_TEST(TankTest, FullOfWaterStaysAtRest) {
   }
 }
 
-}  // namespace
+}  // namespace tank_test
 }  // namespace tailwater

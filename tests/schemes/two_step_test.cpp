@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "operators/divergence.h"
@@ -10,12 +9,10 @@
 #include "schemes/cases.h"
 #include "schemes/two_step.h"
 #include "support/dimensions.h"
+#include "support/rounding.h"
 
 namespace tailwater {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
 
 void make_published(SchemeTable& scheme) {
   scheme.name = SchemeName::farmani2020;

@@ -9,7 +9,7 @@
 #include "schemes/cases.h"
 
 namespace tailwater {
-namespace {
+namespace vortex_test {
 
 constexpr double k = 2.0 * std::numbers::pi;
 constexpr double nu = 0.01;
@@ -60,5 +60,5 @@ TEST(TaylorGreen, KineticEnergyDecaysAtTheViscousRate) {
   }
 }
 
-}  // namespace
+}  // namespace vortex_test
 }  // namespace tailwater

@@ -11,7 +11,7 @@
 
 namespace tailwater {
 
-inline constexpr double dx = 0.1;
+inline constexpr double layer_dx = 0.1;
 inline constexpr int rows = 12;
 inline constexpr int columns = 8;
 
@@ -19,7 +19,7 @@ template <int Dim>
 PeriodicDomain<Dim> along_the_layer() {
   PeriodicDomain<Dim> domain;
   for (int d = 0; d < Dim; ++d) {
-    if (d != 1) domain[d] = std::pair{0.0, columns * dx};
+    if (d != 1) domain[d] = std::pair{0.0, columns * layer_dx};
   }
   return domain;
 }
@@ -29,16 +29,16 @@ std::vector<Vec<Dim>> layer() {
   std::array<int, Dim> count;
   count.fill(columns);
   count[1] = rows;
-  return lattice_points<Dim>(Vec<Dim>::Constant(0.5 * dx), count, dx);
+  return lattice_points<Dim>(Vec<Dim>::Constant(0.5 * layer_dx), count, layer_dx);
 }
 
-inline int row_of(double y) { return static_cast<int>(std::floor(y / dx)); }
+inline int row_of(double y) { return static_cast<int>(std::floor(y / layer_dx)); }
 
 /// The kernel's sums of a set.
 template <int Dim>
 struct KernelSumsOfSet {
   explicit KernelSumsOfSet(const ParticleSet<Dim>& set) : W_0(kernel_value(set.neighbourhood.kernel(), 0.0)) {
-    const double C_0 = lattice_sums<Dim>(set.neighbourhood.kernel(), dx).concentration;
+    const double C_0 = lattice_sums<Dim>(set.neighbourhood.kernel(), layer_dx).concentration;
     concentration.resize(set.size());
     gradient.resize(set.size());
     for (std::size_t i = 0; i < set.pairs().owned(); ++i) {

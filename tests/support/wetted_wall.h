@@ -11,14 +11,15 @@
 
 namespace tailwater {
 
-inline constexpr double dx = 0.1;
+inline constexpr double wetted_dx = 0.1;
 
-/// A cube of fluid above the plane y = 0 and two layers of wall particles under it (a third would be 3 dx away), plus
-/// one wall particle far from everything, last, which is dry. All of them block what `blocked` projects on.
+/// A cube of fluid above the plane y = 0 and two layers of wall particles under it (a third would be 3 dx away),
+/// plus one wall particle far from everything, last, which is dry. All of them block what `blocked` projects on.
 template <int Dim>
 struct WettedWall {
   WettedWall(const Mat<Dim>& blocked, double friction, std::unique_ptr<const WallModel<Dim>> chosen)
-      : set(particles(), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), dx), model(std::move(chosen)) {
+      : set(particles(), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * wetted_dx), wetted_dx),
+        model(std::move(chosen)) {
     here.resize(set.size(), false);
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (set.particles.is_fluid(i)) continue;
@@ -39,15 +40,15 @@ struct WettedWall {
   static Particles<Dim> particles() {
     std::array<int, Dim> count;
     count.fill(7);
-    Vec<Dim> low = Vec<Dim>::Constant(0.5 * dx);
-    std::vector<Vec<Dim>> points = lattice_points<Dim>(low, count, dx);
+    Vec<Dim> low = Vec<Dim>::Constant(0.5 * wetted_dx);
+    std::vector<Vec<Dim>> points = lattice_points<Dim>(low, count, wetted_dx);
     const std::size_t fluid_count = points.size();
     count[1] = 2;
-    low[1] = -1.5 * dx;
-    const auto wall = lattice_points<Dim>(low, count, dx);
+    low[1] = -1.5 * wetted_dx;
+    const auto wall = lattice_points<Dim>(low, count, wetted_dx);
     points.insert(points.end(), wall.begin(), wall.end());
     points.push_back(Vec<Dim>::Constant(-9.0));
-    Particles<Dim> all = fluid_at<Dim>(points, dx);
+    Particles<Dim> all = fluid_at<Dim>(points, wetted_dx);
     for (std::size_t i = fluid_count; i < all.owned; ++i) {
       all.kind[i] = ParticleKind::wall;
       all.wall_row[i] = static_cast<std::int32_t>(i - fluid_count);
@@ -84,8 +85,10 @@ struct WettedWall {
 
 template <int Dim>
 FrictionLaw friction_law(double viscosity) {
-  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx);
-  return {.viscosity = viscosity, .spacing = dx, .exchange_length = 1.0 / lattice_sums<Dim>(kernel, dx).across_plane};
+  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 3.0 * wetted_dx);
+  return {.viscosity = viscosity,
+          .spacing = wetted_dx,
+          .exchange_length = 1.0 / lattice_sums<Dim>(kernel, wetted_dx).across_plane};
 }
 
 template <int Dim>

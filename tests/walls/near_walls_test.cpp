@@ -11,7 +11,7 @@
 #include "support/particle_set.h"
 
 namespace tailwater {
-namespace {
+namespace near_walls_test {
 
 constexpr double dx = 0.1;
 constexpr double reach = 4.0 * dx;
@@ -126,5 +126,5 @@ TYPED_TEST(NearWallsTest, AreRestoredFromTheParticles) {
   EXPECT_TRUE(restored.update(walls, all, true).empty());
 }
 
-}  // namespace
+}  // namespace near_walls_test
 }  // namespace tailwater

@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "support/particle_set.h"
+#include "support/rounding.h"
 
 namespace tailwater {
-namespace {
+namespace wall_contact_test {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double dx = 0.1;
 
 /// Floor y = 0 and a wall x = 0 meet in the origin; the fluid is in the first quadrant. Fluid at `positions`, then one
@@ -129,5 +128,5 @@ TEST(WallContact, OverlapIsTheShareOfABallBehindTheWall) {
   EXPECT_EQ(overlap[5], 0.0);  // a wall
 }
 
-}  // namespace
+}  // namespace wall_contact_test
 }  // namespace tailwater

@@ -10,14 +10,12 @@
 
 #include "closures/viscosity.h"
 #include "support/dimensions.h"
+#include "support/rounding.h"
 #include "support/wetted_wall.h"
 #include "walls/dummies.h"
 
 namespace tailwater {
-namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double single_eps = std::numeric_limits<float>::epsilon();
+namespace wall_model_test {
 
 template <class D>
 class WallTest : public testing::Test {};
@@ -41,7 +39,7 @@ TYPED_TEST(WallTest, AWallThatMovesWithTheWaterLeavesItAlone) {
   const auto acceleration = wall.friction_acceleration(friction_law<Dim>(1.0), velocity);
   for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
     EXPECT_LT((velocity[i] - u).norm(), 4.0 * single_eps);
-    EXPECT_LT(acceleration[i].norm(), 40.0 * single_eps / (dx * dx));
+    EXPECT_LT(acceleration[i].norm(), 40.0 * single_eps / (wetted_dx * wetted_dx));
   }
   // A piston faster than the water: the image is as much faster again.
   for (Vec<Dim>& V : wall.V) V = u + Vec<Dim>::UnitY();
@@ -97,18 +95,18 @@ TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
     const auto free = friction_acceleration<Dim>(0.0, uniform, law);
     const auto partial = friction_acceleration<Dim>(0.3, uniform, law);
     const auto no_slip = friction_acceleration<Dim>(1.0, uniform, law);
-    const double scale = 0.1 * tangential.norm() / (dx * dx);
+    const double scale = 0.1 * tangential.norm() / (wetted_dx * wetted_dx);
     for (std::size_t i = 0; i < wall.set.size(); ++i) {
       EXPECT_EQ(free[i], Vec<Dim>(Vec<Dim>::Zero()));
       if (!wall.set.particles.is_fluid(i)) continue;
       EXPECT_LT((partial[i] - 0.3 * no_slip[i]).norm(), 400.0 * eps * scale);
       EXPECT_EQ(no_slip[i][1], 0.0);
-      if (wall.set.position(i)[1] < dx) {
+      if (wall.set.position(i)[1] < wetted_dx) {
         // Against the flow, and along it only.
         EXPECT_LT(no_slip[i].dot(tangential), 0.0);
         EXPECT_NEAR(no_slip[i].dot(tangential), -no_slip[i].norm() * tangential.norm(), 400.0 * eps * scale);
       }
-      if (wall.set.position(i)[1] > 3.0 * dx) {
+      if (wall.set.position(i)[1] > 3.0 * wetted_dx) {
         EXPECT_EQ(no_slip[i], Vec<Dim>(Vec<Dim>::Zero()));
       }
     }
@@ -118,12 +116,12 @@ TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
 /// The stress over rho [m^2/s^2] on the middle of the wall: what the column above it loses per time and area.
 template <int Dim>
 double stress_in_the_middle(const WettedWall<Dim>& wall, const std::vector<Vec<Dim>>& acceleration) {
-  const Vec<Dim> middle = Vec<Dim>::Constant(3.5 * dx);
+  const Vec<Dim> middle = Vec<Dim>::Constant(3.5 * wetted_dx);
   double sum = 0.0;
   for (std::size_t i = 0; i < wall.set.size(); ++i) {
     Vec<Dim> away = wall.set.position(i) - middle;
     away[1] = 0.0;
-    if (away.norm() < 0.1 * dx) sum -= acceleration[i][0] * dx;
+    if (away.norm() < 0.1 * wetted_dx) sum -= acceleration[i][0] * wetted_dx;
   }
   return sum;
 }
@@ -212,5 +210,5 @@ TEST(SideWalls, StressIsTheMeanOfTheLogarithmicLawOverHalfTheWidth) {
   EXPECT_EQ((ViscosityLaw{.molecular = nu}.side_wall_rate(3.0)), 0.0);
 }
 
-}  // namespace
+}  // namespace wall_model_test
 }  // namespace tailwater
