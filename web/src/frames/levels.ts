@@ -11,7 +11,7 @@ export interface Levels {
 }
 
 /** The least and the largest number of each coordinate. */
-function extremes(frame: Omit<Frame, "ids">): [number[], number[]] {
+export function extremes(frame: Omit<Frame, "ids">): [number[], number[]] {
   const first = frame.boxMin.map(() => 65535);
   const last = frame.boxMin.map(() => 0);
   for (let i = 0; i < frame.data.length; i += stride) {

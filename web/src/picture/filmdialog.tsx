@@ -31,6 +31,8 @@ export function FilmDialog({ app }: { app: App }) {
     }
     setShare(-1);
   };
+  const { canvas, effort } = app.view ?? {};
+  const size = canvas && effort && [canvas.width, canvas.height].map((n) => Math.floor(n / effort.sharpness));
   const field = (word: string, value: number, set: (x: number) => void) => (
     <label class="row">
       {word}
@@ -50,7 +52,7 @@ export function FilmDialog({ app }: { app: App }) {
           {field("From, s", from, setFrom)}
           {field("To, s", to, setTo)}
           <p class="hint">
-            {number((to - from) / plan.speed, 3)} s of film at the speed of the player, {pictures(plan)} pictures, {app.view?.canvas.width} × {app.view?.canvas.height}.
+            {number((to - from) / plan.speed, 3)} s of film at the speed of the player, {pictures(plan)} pictures{size && `, ${size[0]} × ${size[1]}`}.
           </p>
           {share >= 0 ? (
             <div class="progress" role="progressbar" aria-valuenow={Math.round(100 * share)} aria-label="Recording"><div style={{ width: `${100 * share}%` }} /></div>

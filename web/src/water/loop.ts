@@ -1,6 +1,6 @@
 // When the picture is drawn: once for each picture of the screen in which something has changed, and not at all else.
 import type { App } from "../app.ts";
-import { Pace } from "./pace.ts";
+import { Pace, type Effort } from "./pace.ts";
 import type { Painter } from "./painter.ts";
 import type { WaterView } from "./view.ts";
 
@@ -8,15 +8,18 @@ import type { WaterView } from "./view.ts";
 const patience = 500;
 const settling = 300;
 
+/** In a film: all that there is. */
+const whole: Effort = { sharpness: 1, apart: 0 };
+
 export class Loop {
   private dirty = true;
   private moving = false; // the camera, by a hand
   private later = 0;
   private handle = 0;
-  private movedAt = 0;
-  private drawnAt = 0;
+  private movedAt = performance.now(); // the first picture must be quick, too
+  private drawnAt = performance.now();
   private before = performance.now();
-  private pace = new Pace();
+  private pace: Pace;
   private stops: (() => void)[];
 
   constructor(
@@ -24,6 +27,7 @@ export class Loop {
     private view: WaterView,
     private painter: Painter,
   ) {
+    this.pace = new Pace(view.isSoftware);
     app.touch = this.touch;
     this.stops = [app.look.on(this.touch), app.data.on(this.news), app.player.on(this.touch)];
     this.handle = requestAnimationFrame(this.tick);
@@ -56,9 +60,9 @@ export class Loop {
     if (now - this.movedAt > settling && this.pace.rest()) this.dirty = true;
     if (!this.dirty) return;
     this.dirty = false;
-    if (now - this.movedAt < settling && now - this.drawnAt < 1500) this.pace.moved(now - this.drawnAt);
+    if (now - this.movedAt < settling) this.pace.moved(Math.min(now - this.drawnAt, 1500));
     this.drawnAt = now;
-    this.view.oneIn = this.app.recording ? 1 : this.pace.oneIn;
+    this.view.effort = this.app.recording ? whole : this.pace.effort;
     this.painter.draw();
   };
 

@@ -4,6 +4,8 @@ import { profileLines } from "../gauges/profiles.ts";
 import { colours } from "../theme.ts";
 import { length, niceBelow } from "../units.ts";
 import type { Labels } from "./labels.ts";
+import type { Choice } from "./particles.ts";
+import type { Stage } from "./stage.ts";
 import type { Staging } from "./staging.ts";
 import type { WaterView } from "./view.ts";
 
@@ -39,18 +41,29 @@ export class Painter {
 
   /** Whether the frames of the moment itself were there. */
   private show({ run, stage }: Staging["shown"][number]): boolean {
-    const { app, view, staging } = this;
+    const { app, staging } = this;
     const look = app.look.now;
     const at = run.frames.at(app.player.time);
     stage.particles.points.visible = at !== null;
     stage.select(look.probe);
     stage.walls.mark(look.marked);
     if (!at) return false;
-    stage.show(at, view.oneIn);
+    stage.show(at, this.choice(stage));
     const limits = staging.colour(run, stage, at, look);
     if (run === staging.shown[0]!.run) app.setLimits(limits);
     stage.overlay(look.profiles ? profileLines(run, app.player.time) : []);
     return at.exact;
+  }
+
+  /** Of the particles those that are drawn: never finer than the picture's pixels, unless all are; null: all. */
+  private choice(stage: Stage): Choice | null {
+    const { effort, pixel } = this.view;
+    const { section, size } = this.app.look.now;
+    const { spacing, dimension } = stage.scene;
+    if (effort.apart === 0) return null;
+    const width = Math.max(effort.apart > 1 ? effort.apart * spacing : 0, pixel > spacing ? pixel : 0);
+    const outside = dimension === 3 && !section && size >= 1; // smaller ones can be seen through
+    return width > 0 || outside ? { width, outside } : null;
   }
 
   private measure(): void {

@@ -4,22 +4,34 @@ import {
   BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, NearestFilter, Points, RawShaderMaterial, RedFormat, RGBAFormat,
   UnsignedByteType, Vector2, Vector3, Vector4, LinearFilter,
 } from "three";
+import { choose } from "../frames/choice.ts";
 import { follow } from "../frames/pair.ts";
 import { stride, type Frame } from "../frames/format.ts";
 import { levelsOf } from "../frames/levels.ts";
 import { table, type ColourMap } from "../colours.ts";
 import { fragment, vertex } from "./particles.glsl.ts";
 
+/** Of the particles one in each cell of a width, m (0: all); in 3D of those only that may be seen from outside. */
+export interface Choice {
+  width: number;
+  outside: boolean;
+}
+
+/** Particles that stand for a cell are so much larger than it: they lie anywhere in theirs. */
+const overlap = 1.25;
+
 export type Quantity = "scalar0" | "scalar1" | "depth" | "own" | "plain";
 
 export class ParticleMark {
   readonly points: Points<BufferGeometry, RawShaderMaterial>;
   readonly material: RawShaderMaterial;
-  private shown: { a: Frame; b: Frame; oneIn: number } | null = null;
+  private shown: { a: Frame; b: Frame } | null = null;
+  private chosen: { frame: Frame; choice: Choice } | null = null;
+  private index = new BufferAttribute(new Uint32Array(0), 1);
   private capacity = 0;
   private levelsOf: Frame | null = null;
 
-  constructor(private dim: 2 | 3, private spacing: number, private up: { axis: number; sign: 1 | -1 }) {
+  constructor(dim: 2 | 3, private spacing: number, private up: { axis: number; sign: 1 | -1 }) {
     const map = new DataTexture(table("water") as Uint8Array<ArrayBuffer>, 256, 1, RGBAFormat, UnsignedByteType);
     map.magFilter = map.minFilter = LinearFilter;
     map.needsUpdate = true;
@@ -57,23 +69,47 @@ export class ParticleMark {
     texture.needsUpdate = true;
   }
 
-  /** Shows the moment `share` of the way from frame `a` to frame `b`; of the particles one in `oneIn`, as much larger. */
-  show(a: Frame, b: Frame, share: number, oneIn: number): void {
+  /** Shows the moment `share` of the way from frame `a` to frame `b`; of the particles those of a choice, or all. */
+  show(a: Frame, b: Frame, share: number, choice: Choice | null): void {
     this.set("share", share);
-    if (this.shown?.a === a && this.shown.b === b && this.shown.oneIn === oneIn) return;
-    const count = Math.ceil(a.count / oneIn);
-    const geometry = this.room(count);
-    this.set("larger", oneIn ** (1 / this.dim));
-    if (this.shown && this.shown.b === a && this.shown.a.ids === a.ids && this.shown.oneIn === oneIn) {
+    this.load(a, b);
+    this.choose(a, choice);
+  }
+
+  /** Draws a choice from frame `a`; fewer ones as much larger. */
+  private choose(a: Frame, choice: Choice | null): void {
+    const geometry = this.points.geometry;
+    this.set("larger", Math.max(1, (overlap * (choice?.width ?? 0)) / this.spacing));
+    if (!choice) {
+      geometry.setIndex(null);
+      geometry.setDrawRange(0, a.count);
+      this.chosen = null;
+      return;
+    }
+    const { width, outside } = choice;
+    if (this.chosen?.frame === a && this.chosen.choice.width === width && this.chosen.choice.outside === outside) return;
+    const places = choose(a, this.spacing, width, outside);
+    (this.index.array as Uint32Array).set(places);
+    this.index.clearUpdateRanges();
+    this.index.addUpdateRange(0, places.length);
+    this.index.needsUpdate = true;
+    geometry.setIndex(this.index);
+    geometry.setDrawRange(0, places.length);
+    this.chosen = { frame: a, choice };
+  }
+
+  private load(a: Frame, b: Frame): void {
+    if (this.shown?.a === a && this.shown.b === b) return;
+    const geometry = this.room(a.count);
+    if (this.shown && this.shown.b === a && this.shown.a.ids === a.ids) {
       const first = geometry.getAttribute("a");
       geometry.setAttribute("a", geometry.getAttribute("b")); // what was next is here already
       geometry.setAttribute("b", first);
     } else {
-      this.upload("a", thinned(a.data, oneIn));
+      this.upload("a", a.data);
     }
-    this.upload("b", thinned(follow(a, b), oneIn));
-    geometry.setDrawRange(0, count);
-    this.shown = { a, b, oneIn };
+    this.upload("b", follow(a, b));
+    this.shown = { a, b };
     const u = this.material.uniforms;
     const box = (frame: Frame, min: string, size: string, range: string) => {
       const at = (list: number[], d: number) => list[d] ?? 0;
@@ -95,19 +131,20 @@ export class ParticleMark {
   /** A value of each particle's own, 0 to 1, in the order of the frame that is shown. */
   own(values: Float32Array): void {
     const attribute = this.points.geometry.getAttribute("own") as BufferAttribute;
-    const oneIn = this.shown?.oneIn ?? 1;
-    for (let i = 0, j = 0; i < values.length && j < this.capacity; i += oneIn, ++j) (attribute.array as Float32Array)[j] = values[i]!;
+    (attribute.array as Float32Array).set(values);
     attribute.needsUpdate = true;
   }
 
   private room(count: number): BufferGeometry {
     if (count > this.capacity) {
       this.capacity = Math.ceil(1.2 * count) + 64;
+      this.points.geometry.setIndex(this.index); // goes with it
       this.points.geometry.dispose();
+      this.index = new BufferAttribute(new Uint32Array(this.capacity), 1);
       const geometry = (this.points.geometry = new BufferGeometry());
       for (const name of ["a", "b"]) geometry.setAttribute(name, new BufferAttribute(new Uint16Array(this.capacity * stride), stride, true));
       geometry.setAttribute("own", new BufferAttribute(new Float32Array(this.capacity), 1));
-      this.shown = null;
+      this.shown = this.chosen = null;
     }
     return this.points.geometry;
   }
@@ -139,12 +176,4 @@ export class ParticleMark {
     this.material.dispose();
     for (const name of ["map", "levels"]) (this.material.uniforms[name]!.value as DataTexture | null)?.dispose();
   }
-}
-
-/** Every `oneIn`th particle of a block. */
-function thinned(data: Uint16Array, oneIn: number): Uint16Array {
-  if (oneIn === 1) return data;
-  const out = new Uint16Array(Math.ceil(data.length / stride / oneIn) * stride);
-  for (let i = 0, j = 0; i < data.length; i += stride * oneIn, j += stride) for (let c = 0; c < stride; ++c) out[j + c] = data[i + c]!;
-  return out;
 }

@@ -4,7 +4,7 @@ import type { OpenEnd, Probe, Scene } from "../contract.ts";
 import type { Frame } from "../frames/format.ts";
 import { upward } from "./eye.ts";
 import { LineMark } from "./lines.ts";
-import { ParticleMark } from "./particles.ts";
+import { ParticleMark, type Choice } from "./particles.ts";
 import { SurfaceMark } from "./surface.ts";
 import { WallMarks, type WallColours } from "./walls.ts";
 
@@ -67,8 +67,9 @@ export class Stage {
     for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.picture(width, height);
   }
 
-  show(at: { a: Frame; b: Frame; share: number }, oneIn: number): void {
-    this.particles.show(at.a, at.b, at.share, oneIn);
+  /** `choice`: which of the particles are drawn. */
+  show(at: { a: Frame; b: Frame; share: number }, choice: Choice | null): void {
+    this.particles.show(at.a, at.b, at.share, choice);
     this.walls.move(at.a.poses, at.b.poses, at.share);
   }
 

@@ -14,7 +14,7 @@ export class Staging {
   private key = "";
   private lookKey = "";
   private spreads = new WeakMap<Subject, { by: Map<string, [number, number]>; seen: WeakMap<Frame, Set<string>> }>();
-  private ownOf = new WeakMap<Stage, { frame: Frame; oneIn: number }>();
+  private ownOf = new WeakMap<Stage, Frame>();
 
   constructor(private view: WaterView) {}
 
@@ -50,10 +50,10 @@ export class Staging {
   colour(run: Subject, stage: Stage, at: { a: Frame }, look: Look): [number, number] {
     const limits = this.limits(run, stage, at.a, look);
     stage.particles.set("limits", new Vector2(...limits));
-    if (look.colouring === "origin" && (this.ownOf.get(stage)?.frame !== at.a || this.ownOf.get(stage)?.oneIn !== this.view.oneIn)) {
+    if (look.colouring === "origin" && this.ownOf.get(stage) !== at.a) {
       const first = run.frames.frame(0) ?? at.a;
       stage.particles.own(origins(first, at.a, stage.up.axis === 0 ? 1 : 0, run.scene.inlets.length > 0));
-      this.ownOf.set(stage, { frame: at.a, oneIn: this.view.oneIn });
+      this.ownOf.set(stage, at.a);
     }
     return limits;
   }

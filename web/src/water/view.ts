@@ -2,6 +2,7 @@
 import { Color, Vector4, WebGLRenderer } from "three";
 import { bestColumns } from "./columns.ts";
 import { Eye } from "./eye.ts";
+import type { Effort } from "./pace.ts";
 import type { Stage } from "./stage.ts";
 
 export interface Cell {
@@ -13,23 +14,34 @@ export interface Cell {
   height: number;
 }
 
+/** By the name of what draws: browsers give such a context to whoever refuses it with failIfMajorPerformanceCaveat, too. */
+function drawnBySoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) return false;
+  const names = probe.getExtension("WEBGL_debug_renderer_info");
+  const name = String(probe.getParameter(names?.UNMASKED_RENDERER_WEBGL ?? probe.RENDERER));
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 export class WaterView {
   readonly renderer: WebGLRenderer;
   eye: Eye | null = null;
   cells: Cell[] = [];
   /** The moment that is shown, s. */
   time = 0;
-  /** Of the particles one in so many is drawn: while something moves that would otherwise be slow. */
-  oneIn = 1;
+  /** The browser draws without a graphics card. */
+  readonly isSoftware = drawnBySoftware();
   /** The camera has not been moved: it may follow the size of the window. */
   untouched = true;
   private stages: Stage[] = [];
   private over = false;
   private size = { width: 1, height: 1, ratio: 1 };
+  private present: Effort = { sharpness: 1, apart: 0 };
   private background = new Color("#fff");
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
   }
@@ -51,10 +63,35 @@ export class WaterView {
 
   resize(width: number, height: number, ratio: number): void {
     this.size = { width: Math.max(1, width), height: Math.max(1, height), ratio };
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(this.size.width, this.size.height, false);
+    this.sharpen();
     this.arrange();
     if (this.untouched) this.fit();
+  }
+
+  get effort(): Effort {
+    return this.present;
+  }
+
+  set effort(effort: Effort) {
+    const before = this.present;
+    this.present = effort;
+    if (effort.sharpness !== before.sharpness) this.sharpen();
+  }
+
+  /** Pixels of the picture per pixel of the page. */
+  private get ratio(): number {
+    return this.size.ratio * this.present.sharpness;
+  }
+
+  private sharpen(): void {
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(this.size.width, this.size.height, false);
+  }
+
+  /** How wide a pixel of the picture is, m; of a perspective 0. */
+  get pixel(): number {
+    const cell = this.cells[0];
+    return cell && this.eye?.dim === 2 ? this.eye.span / (cell.height * this.ratio) : 0;
   }
 
   get aspect(): number {
@@ -94,8 +131,8 @@ export class WaterView {
   }
 
   draw(): void {
-    const { renderer, eye } = this;
-    const { width, height, ratio } = this.size;
+    const { renderer, eye, ratio } = this;
+    const { width, height } = this.size;
     renderer.setScissorTest(false);
     renderer.setViewport(0, 0, width, height);
     renderer.setClearColor(this.background);
