@@ -12,7 +12,8 @@ from .errors import DataError
 __all__ = ["read_points"]
 
 TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt64": "<u8", "UInt32": "<u4"}
-START = re.compile(rb'<AppendedData encoding="raw">\s*_')
+START = re.compile(rb'<AppendedData (?:encoding="raw")?>\s*_')
+RAW = re.compile(rb'encoding(?: CDATA |=)"raw"')  # in the tag, or before it for all
 
 
 class File:
@@ -23,8 +24,10 @@ class File:
         head = b""
         while (start := START.search(head)) is None:
             if not (more := file.read(65536)):
-                raise DataError(f"{file.name}: is not a VTK file with raw appended arrays, as runs write them")
+                break
             head += more
+        if start is None or not RAW.search(head[:start.end()]):
+            raise DataError(f"{file.name}: is not a VTK file with raw appended arrays, as runs write them")
         self._begin = start.end()
         self.xml = ElementTree.fromstring(head[:start.start()] + b"</VTKFile>")
         self._head = TYPES[self.xml.get("header_type", "UInt32")]

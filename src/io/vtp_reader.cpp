@@ -113,11 +113,12 @@ void for_each_element(std::string_view xml, std::string_view name, const Body& b
 }
 
 VtpFile parsed(std::string_view bytes) {
-  constexpr std::string_view mark = "<AppendedData encoding=\"raw\">\n_";
-  const std::size_t end = bytes.find(mark);
-  if (end == bytes.npos) refuse("it is not a file of this program, or not whole");
+  const std::size_t end = bytes.find("<AppendedData");
+  constexpr std::string_view mark = ">\n_";
+  const std::size_t begin = bytes.find(mark, end);
+  if (end == bytes.npos || begin == bytes.npos) refuse("it is not a file of this program, or not whole");
   const std::string_view xml = bytes.substr(0, end);
-  const Appended appended(bytes.substr(end + mark.size()), xml.find(" compressor=") != xml.npos);
+  const Appended appended(bytes.substr(begin + mark.size()), xml.find(" compressor=") != xml.npos);
   VtpFile file;
   for_each_element(xml.substr(0, xml.find("<Piece ")), "DataArray", [&](std::string_view element) {
     const std::string_view rest = element.substr(element.find('>') + 1);

@@ -110,10 +110,15 @@ void append_array_xml(std::string& xml, const EncodedPiece::Array& array, std::s
       array.type, array.name, array.components, piece_offset + array.offset);
 }
 
+/// That the appended bytes are raw stands in the document's type and not in their tag, which has one blank only. VTK
+/// gives expat the tag, then the end of a document of 14 bytes; an expat of 2024 or newer, which Debian 12 has too,
+/// looks at the tag again when twice as much is there, and with `encoding="raw"` in it VTK goes on to take raw bytes
+/// for XML.
 void append_head_xml(std::string& xml, double time, int compression) {
   fmt::format_to(
       std::back_inserter(xml),
       "<?xml version=\"1.0\"?>\n"
+      "<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA \"raw\">]>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
       "  <PolyData>\n"
       "    <FieldData>\n"
@@ -180,7 +185,7 @@ void write_vtp(const std::filesystem::path& path, double time, const EncodedPiec
   const auto offset = static_cast<std::size_t>(ranks.sum_before(static_cast<std::int64_t>(bytes.size())));
   if (is_shown) append_piece_xml(piece_xml, piece, offset);
   for (const std::string& part : ranks.gather(piece_xml)) xml += part;
-  if (ranks.is_root()) xml += "  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+  if (ranks.is_root()) xml += "  </PolyData>\n  <AppendedData >\n_";
   const bool is_last = ranks.rank() == ranks.size() - 1;
   const std::array<std::string_view, 3> parts{xml, bytes, is_last ? "\n  </AppendedData>\n</VTKFile>\n" : ""};
   write_file(path, parts, ranks);
