@@ -20,7 +20,7 @@ constexpr std::array<PythonCommand, 2> benches{{
     {"speed", "CPU time and memory of cases, steps and rooms, and how they grow", "tailwater_validation.speed", ""},
 }};
 
-constexpr std::array<PythonCommand, 6> commands{{
+constexpr std::array<PythonCommand, 7> commands{{
     {"validate", "Run the papers' cases and the exact solutions, and write a report of the scores",
      "tailwater_validation.validate", ""},
     {"study", "Run a case at several spacings, and say how well its numbers are known", "tailwater.study_command", ""},
@@ -28,6 +28,8 @@ constexpr std::array<PythonCommand, 6> commands{{
      "Example: tailwater waves my_run g1 g2 g3 --from 20"},
     {"bed", "Make the mesh of a wall from a surveyed terrain, GeoTIFF or XYZ", "tailwater_validation.bed",
      "Example: tailwater bed terrain.tif --to bed.stl --box 512000 5401000 512400 5401200 --step 0.5"},
+    {"paddle", "Make the motion of a wave maker's plate from a recorded surface or a spectrum",
+     "tailwater_validation.paddle", "Example: tailwater paddle gauge.csv --to paddle.csv --depth 0.4 --distance 5"},
     {"pictures", "Draw pictures of a run, and in 3D the water's surface as meshes", "tailwater_validation.pictures",
      "Example: tailwater pictures my_run --count 12 --from 1 -1 0.5"},
     {"export", "Write a run as VTKHDF and NetCDF, and a state that shows it in ParaView", "tailwater.export_command",

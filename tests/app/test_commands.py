@@ -15,6 +15,25 @@ TEMPLATES = {"dam-break": 0.1, "tank": 0.1, "channel": 0.1, "weir": 0.03, "broad
              "floating-box": 0.03, "backwater": 0.05, "circulation": 0.05, "run-up": 0.025}
 
 
+FLUME = """\
+[particles]
+spacing = 0.05
+[[fluid]]
+name = "water"
+min = [0, 0]
+max = [3, 0.4]
+[[wall]]
+name = "paddle"
+points = [[0, 0.7], [0, 0]]
+motion = "paddle.csv"
+[[wall]]
+name = "flume"
+points = [[-0.5, 0], [3, 0], [3, 0.7]]
+[time]
+end = 20
+"""
+
+
 class CommandLine(ProgramTest):
     def test_without_arguments_shows_the_help_as_a_complaint(self):
         result = self.call(expect=2, errors_only=False)
@@ -78,6 +97,19 @@ class CommandLine(ProgramTest):
     def test_waves_is_the_python_package_beside_the_sources(self):
         self.assertIn("tailwater waves", self.call("waves", "--help").stdout)
         self.assertIn("is not the folder of a run", self.call("waves", "nowhere", expect=2).stderr)
+
+    def test_motion_that_paddle_makes_is_one_for_a_wall(self):
+        (self.folder / "waves.csv").write_text("f [Hz], S [cm^2/Hz]\n0.5, 0\n0.6, 10\n1, 0\n")
+        self.assertIn("Hm0", self.call("paddle", "waves.csv", "--to", "paddle.csv", "--depth", "0.4", "--duration", "30").stdout)
+        (self.folder / "flume.toml").write_text(FLUME)
+        self.assertIn("particles", self.call("check", "flume.toml").stdout)
+
+    def test_export_writes_what_its_options_name(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        self.call("export", "run", "--netcdf", "gauges.nc", "--paraview", "state.py")
+        self.assertEqual((self.folder / "gauges.nc").read_bytes()[:4], b"CDF\x02")
+        self.assertIn(str(self.folder / "run" / "fields"), (self.folder / "state.py").read_text())
+        self.assertIn("give one of", self.call("export", "run", expect=2).stderr)
 
     def test_bench_is_the_python_package_beside_the_sources(self):
         self.assertIn("tailwater bench robustness", self.call("bench", "robustness", "--help").stdout)

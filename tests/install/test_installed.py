@@ -60,6 +60,8 @@ class Installed(unittest.TestCase):
             self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
         self.tailwater("waves", "--help")
         self.assertIn("GeoTIFF", self.tailwater("bed", "--help"))
+        self.assertIn("spectrum", self.tailwater("paddle", "--help"))
+        self.tailwater("export", "out", "--netcdf", "gauges.nc", "--paraview", "state.py")
 
     def test_version_is_one(self):
         version = self.tailwater("--version").split()[1]

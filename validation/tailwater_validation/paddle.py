@@ -1,0 +1,221 @@
+"""`tailwater paddle`: how a wave maker's plate must move for waves that were recorded, or that a spectrum has.
+
+Writes the motion of a wall (`[[wall]] motion`, docs/theory/moving_walls.md), by linear theory (docs/theory/waves.md). A
+motion of a plate that was itself recorded needs none of this: it is such a file already.
+
+Exit codes: 0 done; 2 bad input, 4 a file cannot be written.
+"""
+
+import csv
+import math
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from tailwater.whole_file import write_whole
+
+from .command import PlainParser, number
+from .curves import DataError
+from .waves import wave_numbers
+
+UNITS = {"t": {"s": 1, "ms": 1e-3, "min": 60}, "f": {"Hz": 1, "1/s": 1},
+         "eta": {"m": 1, "cm": 1e-2, "mm": 1e-3},
+         "S": {"m^2/Hz": 1, "m^2 s": 1, "cm^2/Hz": 1e-4, "cm^2 s": 1e-4, "mm^2/Hz": 1e-6, "mm^2 s": 1e-6}}
+BAND = (0.3, 3.0)  # of the peak's frequency, outside of which nothing is made
+LINES_PER_PERIOD = 20  # of the shortest wave made: the spline between them is then exact to 0.02 %
+GRAVITY = 9.81  # m/s^2
+LARGEST_LOSS = 0.5  # share of the energy that may lie outside of the band
+BREAKING = 0.78  # height over depth
+
+
+def read_columns(path):
+    """{name: values in SI} of a CSV file with a line of names and units, as in "t [s], eta [mm]". Throws DataError."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DataError(f"{path}: cannot be read: {error}") from None
+    lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.partition("#")[0].strip()]
+    if not lines:
+        raise DataError(f"{path}: is empty")
+    scales = {}
+    for heading in next(csv.reader([lines[0][1]])):
+        found = re.fullmatch(r"\s*(\w+)\s*(?:\[(.+)\])?\s*", heading)
+        name, unit = (found[1], found[2]) if found else (heading.strip(), None)
+        if name not in UNITS or (unit or next(iter(UNITS[name]))) not in UNITS[name]:
+            raise DataError(f"{path}:{lines[0][0]}: unknown column \"{heading.strip()}\"; a surface has \"t [s], eta [m]\", a "
+                            "spectrum \"f [Hz], S [m^2/Hz]\"; units: "
+                            + "; ".join(f"{key}: {', '.join(units)}" for key, units in UNITS.items()))
+        scales[name] = UNITS[name][unit or next(iter(UNITS[name]))]
+    rows = []
+    for n, line in lines[1:]:
+        try:
+            row = [float(word) for word in line.partition("#")[0].split(",")]
+        except ValueError:
+            raise DataError(f"{path}:{n}: not numbers: {line[:60]}") from None
+        if len(row) != len(scales) or not np.isfinite(row).all():
+            raise DataError(f"{path}:{n}: has {len(row)} numbers under {len(scales)} names")
+        rows.append(row)
+    columns = dict(zip(scales, np.array(rows).reshape(-1, len(scales)).T * np.array(list(scales.values()))[:, None]))
+    first = next((name for name in ("t", "f") if name in columns), None)
+    if set(columns) not in ({"t", "eta"}, {"f", "S"}):
+        raise DataError(f"{path}: has the columns {', '.join(columns)}; needed are t and eta, or f and S")
+    if len(rows) < 3 or (np.diff(columns[first]) <= 0).any():
+        raise DataError(f"{path}: needs three lines or more, with {first} that ascends")
+    return columns
+
+
+def wave_over_stroke(k, depth, is_flap):
+    """The amplitude of the wave over that of the plate at the still water's level, far from it.
+
+    R.G. Dean, R.A. Dalrymple (1991) *Water wave mechanics for engineers and scientists*, ch. 6."""
+    y = k * depth
+    s = np.sinh(y) + (1 - np.cosh(y)) / y if is_flap else np.sinh(y)
+    return 4 * np.sinh(y) * s / (np.sinh(2 * y) + 2 * y)
+
+
+class Waves:
+    """Amplitudes (m, complex) of waves of even frequencies (Hz) that repeat after `duration` (s), as from irfft / n."""
+
+    def __init__(self, frequency, amplitude, duration, lost):
+        self.frequency, self.amplitude, self.duration, self.lost = frequency, amplitude, duration, lost
+
+    def limited(self, band):
+        """The part in a band (Hz); what share of the energy that leaves out is `lost`. Throws DataError."""
+        energy = np.abs(self.amplitude) ** 2
+        inside = (self.frequency >= band[0]) & (self.frequency <= band[1])
+        lost = 1 - energy[inside].sum() / energy.sum() if energy.any() else 1.0
+        if lost > LARGEST_LOSS:
+            raise DataError(f"{100 * lost:.3g} % of the waves' energy lies outside of the band from {band[0]:.4g} to "
+                            f"{band[1]:.4g} Hz; remedy: a wider --band")
+        return Waves(self.frequency[inside], self.amplitude[inside], self.duration, lost)
+
+    @property
+    def peak(self):
+        weight = np.abs(self.amplitude) ** 8
+        return float((self.frequency * weight).sum() / weight.sum())
+
+    @property
+    def height(self):
+        """Hm0, m"""
+        return float(4 * np.sqrt((np.abs(self.amplitude) ** 2).sum() / 2))
+
+
+def even_series(columns):
+    """A record with even steps, its mean taken out."""
+    time, elevation = columns["t"], columns["eta"]
+    step = np.diff(time).min()
+    even = np.arange(time[0], time[-1] + step / 2, step)
+    return even, np.interp(even, time, elevation - elevation.mean())
+
+
+def recorded(time, elevation, lead):
+    """The surface over time, after `lead` (s) of still water."""
+    step = time[1] - time[0]
+    still = np.zeros(round(lead / step))
+    surface = np.concatenate([still, elevation, still])
+    amplitude = 2 * np.fft.rfft(surface)[1:] / surface.size
+    return Waves(np.fft.rfftfreq(surface.size, step)[1:], amplitude, surface.size * step, 0.0)
+
+
+def chosen(frequency, density, duration, seed):
+    """Waves of a spectrum (m^2/Hz) with phases by chance, which repeat after `duration` (s)."""
+    even = np.arange(1, int(frequency[-1] * duration) + 1) / duration
+    energy = np.maximum(np.interp(even, frequency, density, left=0, right=0), 0)
+    phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, even.size)
+    return Waves(even, np.sqrt(2 * energy / duration) * np.exp(1j * phase), duration, 0.0)
+
+
+def motion(waves, depth, distance, is_flap):
+    """Times (s) and strokes (m) of a plate that makes the waves at a distance (m) in front of it.
+
+    A stroke X sin wt makes c X cos(wt - kx)."""
+    k = wave_numbers(waves.frequency, depth, GRAVITY)
+    stroke = waves.amplitude * np.exp(1j * k * distance) / (1j * wave_over_stroke(k, depth, is_flap))
+    time = np.arange(0, waves.duration, 1 / (LINES_PER_PERIOD * waves.frequency[-1]))
+    moved = np.array([(stroke * np.exp(2j * np.pi * waves.frequency * t)).real.sum() for t in time])
+    ramp = min(2 / waves.peak, waves.duration / 4)
+    ends = np.clip(np.minimum(time, time[-1] - time) / ramp, 0, 1)
+    return time, moved * (1 - np.cos(np.pi * ends)) / 2
+
+
+def lead_of(distance, depth, highest):
+    """The time (s) in which the slowest waves, of `highest` Hz, come a distance (m) far."""
+    k = wave_numbers([0.999 * highest, 1.001 * highest], depth, GRAVITY)
+    return distance * (k[1] - k[0]) / (2 * np.pi * 0.002 * highest)
+
+
+def waves_of(columns, options):
+    """Those that the plate is to make, and the time (s) of the run at which the record begins."""
+    lead = 0.0
+    if "f" in columns:
+        if options.duration is None:
+            raise DataError("a spectrum needs --duration: how many seconds of waves")
+        waves = chosen(columns["f"], columns["S"], options.duration, options.seed)
+        band = options.band or [ratio * waves.peak for ratio in BAND]
+    else:
+        series = even_series(columns)
+        band = options.band or [ratio * recorded(*series, 0.0).peak for ratio in BAND]
+        step = series[0][1] - series[0][0]
+        lead = math.ceil(lead_of(options.distance, options.depth, band[1]) / step) * step
+        waves = recorded(*series, lead)
+    waves = waves.limited(band)
+    if waves.height > BREAKING * options.depth:
+        raise DataError(f"the waves are {waves.height:.3g} m high (Hm0) in water of {options.depth:.3g} m: they break; is the "
+                        "unit of the file right?")
+    return waves, lead
+
+
+def write_motion(path, time, stroke, depth, is_flap):
+    """The water lies on the side of larger x: a flap that leans towards it turns clockwise."""
+    values, heading = (-np.arctan(stroke / depth), "t [s], angle [rad]") if is_flap else (stroke, "t [s], x [m]")
+    text = "".join(f"{t:.5f}, {value:.7f}\n" for t, value in zip(time, values))
+    write_whole(path, lambda part: part.write_text(f"{heading}\n{text}", encoding="utf-8"))
+
+
+def options_of(arguments):
+    parser = PlainParser("tailwater paddle", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser.epilog = "Example: tailwater paddle gauge.csv --to paddle.csv --depth 0.4 --distance 5"
+    parser.add_argument("file", type=Path, help='CSV: a surface ("t [s], eta [mm]") or a spectrum ("f [Hz], S [m^2/Hz]")')
+    parser.add_argument("--to", type=Path, required=True, metavar="FILE", help="the motion, for a wall")
+    parser.add_argument("--depth", type=number, required=True, metavar="M", help="of the still water at the plate")
+    parser.add_argument("--distance", type=number, default=0.0, metavar="M", help="of the gauge from the plate (0)")
+    parser.add_argument("--flap", action="store_true", help="a plate that turns about its foot on the bed, not a piston")
+    parser.add_argument("--band", type=number, nargs=2, metavar=("HZ", "HZ"), help="frequencies that are made (0.3 to 3 times "
+                        "the peak's)")
+    parser.add_argument("--duration", type=number, metavar="S", help="of the waves of a spectrum")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of their phases (1)")
+    options = parser.parse_args(arguments)
+    for name in ("depth", "duration"):
+        if getattr(options, name) is not None and getattr(options, name) <= 0:
+            parser.error(f"--{name} {getattr(options, name):g}: must be above 0")
+    if options.distance < 0:
+        parser.error(f"--distance {options.distance:g}: the gauge stands in front of the plate, at 0 or more")
+    if options.band and not 0 < options.band[0] < options.band[1]:
+        parser.error(f"--band {options.band[0]:g} {options.band[1]:g}: the first must be above 0 and below the second")
+    return options
+
+
+def main(arguments):
+    options = options_of(arguments)
+    try:
+        waves, lead = waves_of(read_columns(options.file), options)
+        time, stroke = motion(waves, options.depth, options.distance, options.flap)
+        write_motion(options.to, time, stroke, options.depth, options.flap)
+    except DataError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 4
+    print(f"{options.to}: {time.size} lines, {time[-1]:.4g} s; stroke {stroke.min():.4g} to {stroke.max():.4g} m at the still "
+          f"water's level\nwaves: Hm0 {waves.height:.4g} m, peak {waves.peak:.4g} Hz, between {waves.frequency[0]:.4g} and "
+          f"{waves.frequency[-1]:.4g} Hz, which leaves out {100 * waves.lost:.1f} % of the energy")
+    if lead > 0:
+        print(f"the record begins at t = {lead:.6g} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
