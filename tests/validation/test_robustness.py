@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import math
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ import unittest
 from fake_program import ProgramTest
 from tailwater_validation import reading, robustness, runs
 from tailwater_validation.curves import DataError
+from tailwater_validation.metric import Metric
 
 
 class BenchTest(ProgramTest):
@@ -71,7 +73,7 @@ class Runs(BenchTest):
             runs.Program(self.folder / "nothing")
 
 
-class Gates(unittest.TestCase):
+class Gates(BenchTest):
     def test_runs_of_one_name_are_one_run(self):
         for is_full in (False, True):
             every = [run for gate in robustness.gates(robustness.Bench("full" if is_full else "quick")).values() for run in gate.runs]
@@ -103,6 +105,24 @@ class Gates(unittest.TestCase):
                     finer = (*flow.spacings, flow.finest)[1:1 + count]
                     self.assertEqual(held, [f"particles.spacing={dx:g}" for dx in finer])
                 self.assertEqual(checks[f"exact.{name}.{flow.ordered}.order"].metric.low, 1.5)
+
+    def test_an_order_is_not_asked_of_who_is_right_on_the_coarsest_set(self):
+        made = runs.Run("coarse", self.case), runs.Run("fine", self.case)
+        self.make(*made)
+        for coarse, fine, bar, verdict in ((0.02, 0.015, 0.03, "met"),     # order 0.4, but within the bar on both
+                                           (0.03, 0.03, 0.03, "met"),
+                                           (0.031, 0.015, 0.03, "missed"),  # order 1.05, not within it
+                                           (0.02, 0.021, 0.03, "missed"),   # grows
+                                           (0.02, 0.015, None, "missed"),   # no bar to be within
+                                           (0.1, 0.025, 0.03, "met")):      # order 2
+            errors = {"coarse": coarse, "fine": fine}
+            check = robustness.OrderOfError(Metric("a.order", "order", "", "", low=robustness.LEAST_ORDER), made,
+                                            lambda *_, coarse=coarse, fine=fine: math.log2(coarse / fine),
+                                            error=lambda run, errors=errors: errors[run.path.name], bar=bar)
+            metric, = check.scores(self.folder / "out")
+            self.assertEqual(metric.verdict, verdict, errors)
+            self.assertAlmostEqual(metric.value, math.log2(coarse / fine))  # the order is shown as it is
+            self.assertEqual(bool(metric.met_because), verdict == "met" and metric.value < robustness.LEAST_ORDER)
 
     def test_the_full_matrix_is_that_of_the_table(self):
         gate = robustness.gates(robustness.Bench("full"))["dam-break"]

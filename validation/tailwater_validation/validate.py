@@ -37,7 +37,7 @@ def metric_record(check, metric):
             "high": metric.high, "paper": metric.paper,
             "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
             "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": finite(metric.shifted_value),
-            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "uncertainty": finite(metric.uncertainty), "note": metric.note,
+            "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "uncertainty": finite(metric.uncertainty), "note": metric.note or metric.met_because,
             "variant": check.variant, "runs": [run.name for run in check.runs]}
 
 
