@@ -272,6 +272,12 @@ class Checks(unittest.TestCase):
 
 
 class Records(ValidateTest):
+    def test_the_terminal_says_why_a_value_outside_of_its_bar_meets_it(self):
+        metric = Metric("a", "observed order", "", "", low=1.5, value=0.9, met_because="right already")
+        record = validate.metric_record(Check(metric, (), None), metric)
+        table = validate.overview({"studies": [{"name": "exact", "metrics": [record]}], "verdicts": {"met": 1}})
+        self.assertRegex(table, r"exact +observed order +0\.9 +>= 1\.5 +met +right already\n")
+
     def test_a_flow_that_starts_without_energy(self):
         path = synthetic_folder() / "summary.json"
         told = path.read_text()

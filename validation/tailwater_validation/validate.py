@@ -146,10 +146,11 @@ def export(program, out):
 
 
 def overview(result):
-    """The numbers that have a target, for the terminal."""
-    rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"])
+    """The numbers that have a target, for the terminal, with what there is to say about a verdict."""
+    rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"],
+             metric["note"])
             for study in result["studies"] for metric in study["metrics"] if metric["verdict"] != "shown"]
-    table = text_table(("study", "what", "value", "unit", "target", "verdict"), rows)
+    table = text_table(("study", "what", "value", "unit", "target", "verdict", "note"), rows)
     return "\n".join([table, "", ", ".join(f"{count} {verdict}" for verdict, count in result["verdicts"].items())])
 
 
