@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""Whether the intervals of `tailwater study` contain what is known: the table of docs/theory/uncertainty.md.
+
+Each flow has one number whose truth is known, taken over that truth. A study at four spacings, with runs from other
+starts and one with half of the time step, gives it an interval, which should contain 1 and be narrow.
+
+Usage: scripts/interval_study.py DIR [NAME ...] [--jobs N] [--finer F]    needs the program (scripts/build.sh)
+--finer F divides all spacings. Called again it goes on with what is not done. All of it takes ten minutes of CPU time.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
+import tailwater as tw  # noqa: E402
+from tailwater_validation import exact_flows  # noqa: E402
+from tailwater_validation.run_folder import RunFolder  # noqa: E402
+
+
+def error_of(flow, name):
+    """1 + an error that validate has."""
+    return lambda run: 1 + exact_flows.FLOWS[flow](run)[name]
+
+
+def long_axis(run):
+    series = exact_flows.frames(run)
+    start, end = (exact_flows.semi_axes(frame.position) for frame in (series[0], series[-1]))
+    return end[0] / exact_flows.drop_axes([series[-1].time], run.parameters["A"], *start)[0][0]
+
+
+def mean_speed(run):
+    last = exact_flows.frames(run)[-1]
+    velocity, = exact_flows.fields(run, last, "velocity")
+    profile, _ = exact_flows.poiseuille_exact(run)
+    gap = run.parameters["L"]
+    y = (np.arange(1000) + 0.5) * gap / 1000
+    return velocity[:, 0].mean() / profile(y, last.time).mean()
+
+
+# What it is, where its truth is from; the case; the coarsest spacing (the finest is half of it); how it is read.
+FLOWS = {
+    "poiseuille": ("mean speed at 95 % of the steady flow, series", "verification/poiseuille", "L/20", mean_speed),
+    "ritter": ("discharge of a dam break on a dry bed, 8/27", "verification/ritter", "h0/16", error_of("ritter", "discharge_error")),
+    "stoker": ("speed of the bore, mass and momentum", "verification/stoker", "h0/16", error_of("stoker", "front_error")),
+    "drop": ("long axis of a stretching drop, Monaghan (1994)", "robustness/drop", "R/30", long_axis),
+    "run-up": ("run-up on a beach, Synolakis (1987)", "flume/run_up", "h/12", error_of("run-up", "run_up_error")),
+    "solitary-wave": ("speed, Fenton (1972)", "solitary_wave/case", "h/8", error_of("solitary-wave", "speed_error")),
+    "standing-wave": ("period, linear theory", "robustness/standing_wave", "depth/20", error_of("standing-wave", "period_error")),
+    "weir": ("discharge for the head, Rehbock without surface tension", "flume/weir", "P/10", error_of("weir", "ideal_error")),
+    "ogee": ("discharge for the energy head, 2.18 H^1.5", "flume/ogee", "Hd/6", error_of("ogee", "coefficient_error")),
+    "broad-weir": ("discharge for the energy head, critical flow", "flume/broad_weir", "P/6",
+                   error_of("broad-weir", "coefficient_error")),
+    "gate": ("contraction, potential flow (0.61)", "flume/sluice_gate", "a/3", error_of("sluice-gate", "contraction_error")),
+    "jump": ("depth behind the jump, momentum of its profile", "flume/hydraulic_jump", "h1/3",
+             error_of("hydraulic-jump", "momentum_error")),
+}
+
+
+def study(name, options):
+    _, case, coarsest, read = FLOWS[name]
+    case = tw.Case(ROOT / "cases" / f"{case}.toml")
+    case["particles.spacing"] = f"{coarsest}/{2 * options.finer:g}"
+    found = tw.study(case, out=options.out / name, jobs=options.jobs,
+                     quantities=lambda run: {(name, "over the truth"): (read(RunFolder(run.path)), "")})
+    return found.rows[0]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path, metavar="DIR")
+    parser.add_argument("names", nargs="*", metavar="NAME", default=list(FLOWS))
+    parser.add_argument("--jobs", type=int, default=2, metavar="N")
+    parser.add_argument("--finer", type=float, default=1.0, metavar="F")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    print("| flow | number, truth | value over the truth, interval | limit | order | contains it | half width |\n"
+          "| --- | --- | --- | --- | --- | --- | --- |", flush=True)
+    contain = narrow = count = 0
+    for name in options.names:
+        try:
+            row = study(name, options)
+        except tw.Error as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            continue
+        is_inside, width = row["low"] <= 1 <= row["high"], row["uncertainty"]
+        contain, narrow, count = contain + is_inside, narrow + (width <= 0.05), count + 1
+        order = "-" if np.isnan(row["order"]) else f"{row['order']:.1f}"
+        print(f"| {name} | {FLOWS[name][0]} | {row['value']:.4f} ± {width:.4f} | {row['limit']:.4f} | {order} | "
+              f"{'yes' if is_inside else '**no**'} | {100 * width:.1f} % |", flush=True)
+    print(f"\n{contain} of {count} intervals contain the truth; {narrow} have a half width of at most 5 %.")
+
+
+if __name__ == "__main__":
+    main()
