@@ -1,5 +1,6 @@
 // The compiled part of the Python package: tailwater._simulation.
 #include <pybind11/eigen.h>
+#include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -92,6 +93,7 @@ void bind_simulation(py::module_& module, const char* name) {
       .def_property_readonly("kind", &Flown::kind)
       .def_property_readonly("acceleration", &Flown::acceleration)
       .def("set_discharge", &Flown::set_discharge)
+      .def("steer", &Flown::steer)
       .def_property_readonly("bodies",
                              [](const Flown& self) {
                                std::vector<std::string> names;

@@ -1,7 +1,9 @@
 #include "python_simulation.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +13,28 @@
 #include "run/run_case.h"
 
 namespace tailwater {
+namespace {
+
+/// [dx]; from where a wall is to where a path of a script begins: round-off, and no more.
+constexpr double largest_jump = 1e-6;
+
+/// Throws InputError for what is no place of a wall.
+template <int Dim>
+Placement<Dim> placement_of(const std::vector<double>& given, const std::string& label, double time) {
+  const bool is_finite = std::ranges::all_of(given, [](double value) { return std::isfinite(value); });
+  if ((given.size() != Dim && given.size() != Dim + 1) || !is_finite) {
+    throw InputError(
+        fmt::format("{}: the path of a script gives [{:.6g}] at t = {:.6f} s, not {} components of a "
+                    "displacement in m, and an angle in rad if it turns",
+                    label, fmt::join(given, ", "), time, Dim));
+  }
+  Placement<Dim> placement;
+  for (int axis = 0; axis < Dim; ++axis) placement.displacement[axis] = given[static_cast<std::size_t>(axis)];
+  if (given.size() > Dim) placement.angle = given.back();
+  return placement;
+}
+
+}  // namespace
 
 template <int Dim>
 PythonSimulation<Dim>::Lenders::Lenders(Flow<Dim>& flow)
@@ -132,6 +156,36 @@ void PythonSimulation<Dim>::set_discharge(const std::string& inlet, double disch
     return;
   }
   throw InputError(fmt::format("there is no inlet '{}'", inlet));
+}
+
+template <int Dim>
+void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::vector<double>(double)> path) {
+  Flow<Dim>& flow = simulation().flow();
+  WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const auto wall = std::ranges::find_if(motion.moving(), [&](const auto& moving) {
+    return moving.body < 0 && spec_.walls[static_cast<std::size_t>(moving.wall)].name == name;
+  });
+  if (wall == motion.moving().end()) {
+    throw InputError(fmt::format(
+        "there is no wall '{}' that a script can move; remedy: the name of a wave maker or a gate, or of a wall that "
+        "moves in the case, as with displacement = [{}\"0*t\"]",
+        name, Dim == 2 ? "0, " : "0, 0, "));
+  }
+  const std::string label = wall_label(flow.walls.boundary, wall->wall);
+  if (wall->maker >= 0 && flow.setup.wave_plates[static_cast<std::size_t>(wall->maker)].absorbs) {
+    throw InputError(fmt::format("{}: the water moves it too; remedy: absorption = \"none\"", label));
+  }
+  GivenMotion<Dim> given{
+      [label, path = std::move(path)](double time) { return placement_of<Dim>(path(time), label, time); }};
+  const State<Dim>& state = flow.state;
+  motion.steer(static_cast<std::size_t>(wall - motion.moving().begin()), std::move(given), state.time, state.motion,
+               largest_jump * flow.setup.spacing, label);
+  tell_of_script();
+  if (simulation().is_prepared()) {
+    dt_ = simulation().shorten();
+  } else if (state.step == 0) {
+    motion.get_velocity(state.time, state.motion, flow.state.wall_velocity);
+  }
 }
 
 /// So that nobody takes the results for those of the case alone.

@@ -1,6 +1,7 @@
 // A simulation as Python drives it: python/tailwater/simulation.py.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +55,10 @@ class PythonSimulation {
 
   /// From now on, in place of what the case says. Throws InputError for an inlet without a discharge.
   void set_discharge(const std::string& inlet, double discharge);
+  /// From now on a wall that moves is where `path` says at a time [s]: its displacement [m] from where it is drawn, and
+  /// after it, if given, its angle [rad]. Throws InputError for a wall that does not move, or that the water moves too,
+  /// and for a path that begins elsewhere. Collective.
+  void steer(const std::string& wall, std::function<std::vector<double>(double)> path);
 
  private:
   struct Lenders {

@@ -151,6 +151,14 @@ class Step:
         discharge. Throws InputError for another."""
         self._now().set_discharge(inlet, float(discharge))
 
+    def steer(self, wall: str, path):
+        """From this step on a wave maker, a gate or another wall that moves in the case goes along `path`, a function of
+        the time (s) that returns its displacement (m) from where it is drawn, 2 or 3 numbers, and after them, if it
+        turns about its pivot, its angle (rad). It is asked at times of the coming steps, some more than once. Throws
+        InputError for a path that begins elsewhere than where the wall is."""
+        self._now().steer(wall, lambda time: np.atleast_1d(path(time)).tolist())
+        self.dt = self._flow.dt
+
 
 class Simulation:
     """The run of a case in this process, for a `with`. Going through it takes the steps, to the end of the case.
@@ -206,6 +214,10 @@ class Simulation:
             return work()
         except Error as error:
             self._failure = str(error)
+            raise
+        except BaseException as error:  # of a path of the script, within a step
+            self._end_others(error)
+            self._failure = repr(error)
             raise
         finally:
             warn_of_new()

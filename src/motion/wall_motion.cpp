@@ -132,7 +132,7 @@ typename WallPath<Dim>::Motion WallPath<Dim>::make_motion(const CaseSpec& spec, 
 
 template <int Dim>
 AffineMap<Dim> WallPath<Dim>::at(double time, const MakerState& maker) const {
-  const Placement<Dim> placement = std::visit(
+  return at(std::visit(
       [&]<class M>(const M& motion) {
         if constexpr (std::is_same_v<M, MotionOfMaker<Dim>>) {
           return motion.at(time, maker);
@@ -140,7 +140,11 @@ AffineMap<Dim> WallPath<Dim>::at(double time, const MakerState& maker) const {
           return motion.at(time);
         }
       },
-      motion_);
+      motion_));
+}
+
+template <int Dim>
+AffineMap<Dim> WallPath<Dim>::at(const Placement<Dim>& placement) const {
   AffineMap<Dim> map;
   const double angle = placement.angle;
   if constexpr (Dim == 2) {
@@ -250,16 +254,36 @@ template <int Dim>
 double WallMotion<Dim>::largest_displacement(double from, double to, const MotionState<Dim>& state) const {
   double farthest = 0.0;
   for (const MovingWall& moving : moving_) {
-    const AffineMap<Dim> before = moving.at(from, state);
-    const AffineMap<Dim> after = moving.at(to, state);
-    for (const WallFace<Dim>& face : drawn_faces_) {
-      if (face.wall != moving.wall) continue;
-      for (const Vec<Dim>& corner : face.corners) {
-        farthest = std::max(farthest, (after(corner) - before(corner)).norm());
-      }
+    farthest = std::max(farthest, farthest_corner(moving.wall, moving.at(from, state), moving.at(to, state)));
+  }
+  return farthest;
+}
+
+/// How far [m] a corner of the wall is at most from one place to the other.
+template <int Dim>
+double WallMotion<Dim>::farthest_corner(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const {
+  double farthest = 0.0;
+  for (const WallFace<Dim>& face : drawn_faces_) {
+    if (face.wall != wall) continue;
+    for (const Vec<Dim>& corner : face.corners) {
+      farthest = std::max(farthest, (after(corner) - before(corner)).norm());
     }
   }
   return farthest;
+}
+
+template <int Dim>
+void WallMotion<Dim>::steer(std::size_t which, GivenMotion<Dim> given, double time, const MotionState<Dim>& state,
+                            double off, const std::string& label) {
+  MovingWall& moving = moving_.at(which);
+  const double jump = farthest_corner(moving.wall, moving.at(time, state), moving.path.at(given.at(time)));
+  if (jump > off) {
+    throw InputError(
+        fmt::format("{}: the path of a script begins {:.4g} m from where the wall is at t = {:.4f} s; remedy: one that "
+                    "begins there",
+                    label, jump, time));
+  }
+  moving.path.follow(std::move(given));
 }
 
 template class WrittenMotion<2>;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,6 +92,14 @@ class MotionOfMaker {
   WavePlate<Dim> plate_;
 };
 
+/// A motion that a program gives which uses this one as a library.
+template <int Dim>
+struct GivenMotion {
+  std::function<Placement<Dim>(double time)> path;
+
+  Placement<Dim> at(double time) const { return path(time); }
+};
+
 /// The path of one wall, from its table in the case file.
 template <int Dim>
 class WallPath {
@@ -98,15 +107,20 @@ class WallPath {
   /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
   WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
+  /// Takes the place of the motion; the pivot and the axis stay.
+  void follow(GivenMotion<Dim> given) { motion_ = std::move(given); }
+
   /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
   /// `maker` is the state of a wave maker.
   AffineMap<Dim> at(double time, const MakerState& maker = {}) const;
+  AffineMap<Dim> at(const Placement<Dim>& placement) const;
 
   /// Maps x to the mean velocity [m/s], between two times [s], of the point that is drawn at x.
   AffineMap<Dim> mean_velocity(double from, double to) const;
 
  private:
-  using Motion = std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>>;
+  using Motion =
+      std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>, GivenMotion<Dim>>;
   static Motion make_motion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
 
   Motion motion_;
@@ -145,6 +159,11 @@ class WallMotion {
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
+  /// From now on `moving()[which]`, which is of no body, takes a path that is given. Throws InputError, with the wall's
+  /// `label`, if that begins farther than `off` [m] from where the wall is at `time` [s].
+  void steer(std::size_t which, GivenMotion<Dim> given, double time, const MotionState<Dim>& state, double off,
+             const std::string& label);
+
   /// Moves the faces and the particles of moving walls to their places at `time`.
   void place(double time, const MotionState<Dim>& state, Boundary<Dim>& boundary, WallParticles<Dim>& particles) const;
 
@@ -157,6 +176,8 @@ class WallMotion {
   double largest_displacement(double from, double to, const MotionState<Dim>& state) const;
 
  private:
+  double farthest_corner(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const;
+
   /// A particle of a moving wall.
   struct DrawnParticle {
     std::size_t row;  ///< of the table of wall particles

@@ -51,6 +51,13 @@ double Simulation<Dim>::prepare() {
 }
 
 template <int Dim>
+double Simulation<Dim>::shorten() {
+  const double dt = next_time_step(flow_);
+  guard_.require_sound_step(dt);
+  return dt_ = std::min(dt_, dt);
+}
+
+template <int Dim>
 StepReport Simulation<Dim>::step() {
   prepare();
   StepReport report;

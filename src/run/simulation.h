@@ -42,6 +42,9 @@ class Simulation {
   /// Throws SolverError when it has collapsed. Does nothing if a step is ready.
   double prepare();
   bool is_prepared() const { return dt_ > 0.0; }
+  /// After walls have been steered anew: takes less of the step that is ready if they go too far in it. Returns its
+  /// size.
+  double shorten();
 
   /// Takes a step, with flow().loads, which are then gone. Makes it ready first if need be. Throws SolverError when the
   /// step fails; the flow is then as it was before it.

@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 import tailwater as tw
+from scipy.optimize import brentq
 from small import DAM, DROP, PackageTest
 
 INFLOW = """\
@@ -21,6 +22,35 @@ to = [0, 1]
 discharge = 0.1
 [time]
 end = 0.3
+"""
+
+
+PISTON = """\
+[case]
+title = "A piston makes waves"
+[particles]
+spacing = 0.025
+jitter = 0.1
+[[fluid]]
+name = "water"
+min = [0, 0]
+max = [1, 0.2]
+[[wall]]
+name = "flume"
+points = [[-0.2, 0.5], [-0.2, 0], [1, 0], [1, 0.5]]
+fluid_side = "left"
+[[wave_maker]]
+name = "piston"
+type = "{type}"
+from = [0, 0]
+to = [0, 0.5]
+depth = 0.2
+height = 0.06
+period = 0.8
+order = 1
+ramp = 0.3
+[time]
+end = 0.5
 """
 
 
@@ -144,6 +174,77 @@ class AtInlets(PackageTest):
         with tw.Case(self.write("inflow.toml", INFLOW)).simulation() as simulation:
             with self.assertRaisesRegex(tw.InputError, "there is no inlet 'well'"):
                 simulation.now().set_discharge("well", 0.1)
+
+
+class OnWalls(PackageTest):
+    def stroke(self, kind, time, height=0.06, period=0.8, depth=0.2, ramp=0.3):
+        """Of the plate at the still water's level, m: Dean & Dalrymple (1991), ch. 6."""
+        omega, y = 2 * np.pi / period, brentq(lambda y: y * np.tanh(y) - (2 * np.pi / period)**2 * depth / 9.81, 1e-3, 9)
+        shape = np.sinh(y) + ((1 - np.cosh(y)) / y if kind == "flap" else 0)
+        transfer = 4 * np.sinh(y) * shape / (np.sinh(2 * y) + 2 * y)
+        share = 1 if time >= ramp else (1 - np.cos(np.pi * time / ramp)) / 2
+        return share * height / 2 / transfer * np.sin(omega * time)
+
+    def motion(self, case, hook=None):
+        with case.simulation(hook=hook) as simulation:
+            simulation.run()
+            end = simulation.now()
+            return end.time, end.position[np.argsort(end.id)]
+
+    def case(self, kind="piston"):
+        return tw.Case(self.write("piston.toml", PISTON.format(type=kind)))
+
+    def test_paddle_in_python_is_that_of_the_case(self):
+        paths = {"piston": lambda time: [self.stroke("piston", time), 0],
+                 "flap": lambda time: [0, 0, -np.arctan(self.stroke("flap", time) / 0.2)]}
+        for kind, path in paths.items():
+            time, made = self.motion(self.case(kind))
+            still = self.case(kind).update({"wave_maker.piston.start": 100})
+
+            def hook(step, path=path):
+                if step.number == 0:
+                    step.steer("piston", path)
+            steered_time, steered = self.motion(still, hook)
+            self.assertAlmostEqual(steered_time, time, delta=1e-10)
+            self.assertLess(abs(steered - made).max(), 1e-10, kind)
+            self.assertGreater(abs(self.motion(still)[1] - made).max(), 1e-3)
+
+    def test_path_that_jumps_is_refused_and_a_fast_one_shortens_the_step(self):
+        with self.case().update({"wave_maker.piston.start": 100}).simulation() as simulation:
+            for step in simulation:
+                if step.number == 3:
+                    begin, long = step.time, step.dt
+                    with self.assertRaisesRegex(tw.InputError, "begins 0.01 m from where the wall is at t = "):
+                        step.steer("piston", lambda time: [0.01, 0])
+                    step.steer("piston", lambda time: [5.0 * (time - begin), 0])
+                    self.assertLess(step.dt, 0.5 * long)
+                    self.assertLess(5.0 * step.dt, simulation.spacing)
+                    return
+        self.fail("no step")
+
+    def test_what_cannot_be_steered(self):
+        def hook(step):
+            for name, path, message in (("flume", None, "no wall 'flume' that a script can move"),
+                                        ("piston", lambda time: [time], "not 2 components"),
+                                        ("piston", lambda time: [0, np.nan], "not 2 components")):
+                with self.assertRaisesRegex(tw.InputError, message):
+                    step.steer(name, path)
+        with self.case().simulation(hook=hook):
+            pass
+        with self.assertRaisesRegex(tw.InputError, 'the water moves it too; remedy: absorption = "none"'):
+            self.case().update({"wave_maker.piston.absorption": "active"}).simulation(
+                hook=lambda step: step.steer("piston", lambda time: [0, 0]))
+
+    def test_error_of_a_path_ends_the_simulation(self):
+        def path(time):
+            return [0, 0 if time < 0.01 else 1 / 0]
+        with self.assertRaises(ZeroDivisionError), self.assertWarnsRegex(tw.RunWarning, "a script acts"):
+            with self.case().update({"wave_maker.piston.start": 100}).simulation(
+                    "out", hook=lambda step: step.number == 0 and step.steer("piston", path)) as simulation:
+                simulation.run()
+        summary = tw.Run("out").summary
+        self.assertEqual(summary["status"], "failed")
+        self.assertIn("ZeroDivisionError", summary["message"])
 
 
 if __name__ == "__main__":

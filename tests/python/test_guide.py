@@ -60,6 +60,8 @@ class Guide(PackageTest):
         self.assertGreater(names["level"][3], names["level"][2])
         self.assertEqual(names["crest"][0][0], 0.0)
         self.assertTrue(np.isfinite(names["crest"]).all())
+        # The paddle goes 50 mm in 0.2 s, at most pi/2 times its mean speed of 0.25 m/s, and water before it as fast.
+        self.assertTrue(0.05 < names["pushed"] < 1.0, names["pushed"])
         self.assertIn("particles.spacing - ", told.getvalue())
 
 
