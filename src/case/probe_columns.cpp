@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "base/assert.h"
+
 namespace tailwater {
 namespace {
 
@@ -119,6 +121,15 @@ std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension) {
     if (is_written && is_of_dimension(column.name, dimension)) columns.push_back(column);
   }
   return columns;
+}
+
+Compared compared_with(const MeasurementTable& measurement, const CaseSpec& spec) {
+  const auto probe = std::ranges::find(spec.probes, measurement.probe, &ProbeTable::name);
+  TAILWATER_ASSERT(probe != spec.probes.end(), "a measurement has a probe");
+  const std::vector<SeriesColumn> columns = columns_of(*probe, spec.general.dimension);
+  const auto column = std::ranges::find(columns, measurement.column, &SeriesColumn::name);
+  TAILWATER_ASSERT(column != columns.end(), "a measurement has a column of its probe");
+  return {static_cast<std::size_t>(probe - spec.probes.begin()), *column};
 }
 
 bool is_heading_of(const SeriesColumn& column, std::string_view heading) {

@@ -13,6 +13,13 @@ namespace tailwater {
 /// Those that the probe writes, the first its default; none where its table has several lines of one time.
 std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension);
 
+struct Compared {
+  std::size_t probe;  ///< in the case
+  SeriesColumn column;
+};
+/// With what a measurement of a case that has been read is compared.
+Compared compared_with(const MeasurementTable& measurement, const CaseSpec& spec);
+
 /// Whether a heading of a table, as in "force_x_N_per_m", is that of the column.
 bool is_heading_of(const SeriesColumn& column, std::string_view heading);
 

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/assert.h"
 #include "case/probe_columns.h"
 #include "run/probe_results.h"
 #include "run/probe_table.h"
@@ -27,12 +26,6 @@ Curve within_run(const TimeSeries& series, double end) {
     measured.value.push_back(series.columns[0][k]);
   }
   return measured;
-}
-
-const ProbeTable& probe_of(const MeasurementTable& measurement, const CaseSpec& spec) {
-  const auto probe = std::ranges::find(spec.probes, measurement.probe, &ProbeTable::name);
-  TAILWATER_ASSERT(probe != spec.probes.end(), "a measurement has a probe");
-  return *probe;
 }
 
 nlohmann::ordered_json json_of(const Difference& difference, double scatter) {
@@ -114,14 +107,13 @@ std::string MeasurementScore::words() const {
   return text;
 }
 
-std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const RunFolder& folder) {
+std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std::filesystem::path& run) {
   std::vector<MeasurementScore> scores;
   for (const MeasurementTable& measurement : spec.measurements) {
-    const std::vector<SeriesColumn> columns = columns_of(probe_of(measurement, spec), spec.general.dimension);
-    const auto column = std::ranges::find(columns, measurement.column, &SeriesColumn::name);
-    TAILWATER_ASSERT(column != columns.end(), "a measurement has a column of its probe");
-    const ProbeColumn found = read_probe_column(
-        folder.probe(measurement.probe), [&](std::string_view heading) { return is_heading_of(*column, heading); });
+    const SeriesColumn column = compared_with(measurement, spec).column;
+    const ProbeColumn found =
+        read_probe_column(run / "probes" / (measurement.probe + ".csv"),
+                          [&](std::string_view heading) { return is_heading_of(column, heading); });
     MeasurementScore one = score(measurement, {found.time, found.value});
     one.unit = unit_of_column(found.name, spec.general.dimension);
     scores.push_back(std::move(one));

@@ -2,12 +2,12 @@
 // run that goes on after a stop tells the same as one that was never stopped.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "case/spec.h"
-#include "io/run_folder.h"
 
 namespace tailwater {
 
@@ -54,8 +54,9 @@ struct MeasurementScore {
 /// Of a measured and a computed curve; of a computed one that does not reach a measured time, without samples.
 MeasurementScore score(const MeasurementTable& measurement, const Curve& computed);
 
-/// Of each measurement, in the order of the case. Throws IoError if a table cannot be read.
-std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const RunFolder& folder);
+/// Of each measurement, in the order of the case, from what is in the folder of a run. Throws IoError if a table cannot
+/// be read.
+std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std::filesystem::path& run);
 
 /// The block "measurements" of the summary.
 nlohmann::ordered_json json_of(const std::vector<MeasurementScore>& scores);

@@ -13,8 +13,10 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "case/reader.h"
 #include "io/folder_lock.h"
 #include "io/run_folder.h"
+#include "run/measurements.h"
 #include "run/progress.h"
 
 namespace tailwater {
@@ -103,6 +105,16 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
   return lines;
 }
 
+/// How far a run that goes on is from what was measured, by the tables that it has written; nothing if they or the case
+/// cannot be read.
+Json scores_so_far(const fs::path& run) {
+  try {
+    return json_of(measurement_scores(read_effective_case(run / effective_case_name), run));
+  } catch (const UserError&) {
+    return Json::array();
+  }
+}
+
 /// As viewers call it; a summary that says "running" where nobody is at work is of a run that was killed.
 std::string state_of(const std::string& status, bool is_at_work) {
   if (is_at_work) return status == "running" ? "running" : "waiting";  // it has not begun its steps yet
@@ -132,6 +144,7 @@ Json info_from(const fs::path& run, const Json& summary) {
           {"particles", summary.at("particles").at("fluid")},
           {"lines", std::move(shown)},
           {"warnings", summary.at("warnings")},
+          {"measurements", is_live ? scores_so_far(run) : summary.value("measurements", Json::array())},
           {"controls", is_at_work ? Json::array({"stop", "checkpoint"}) : Json::array({"resume"})}};
 }
 
@@ -207,8 +220,15 @@ Json run_info(const fs::path& run) {
   } catch (const IoError&) {
   } catch (const nlohmann::json::exception&) {
   }
-  return {{"state", "waiting"},       {"time", 0.0},          {"end", nullptr},         {"progress", 0.0},
-          {"time_left", nullptr},     {"particles", nullptr}, {"lines", Json::array()}, {"warnings", Json::array()},
+  return {{"state", "waiting"},
+          {"time", 0.0},
+          {"end", nullptr},
+          {"progress", 0.0},
+          {"time_left", nullptr},
+          {"particles", nullptr},
+          {"lines", Json::array()},
+          {"warnings", Json::array()},
+          {"measurements", Json::array()},
           {"controls", Json::array()}};
 }
 

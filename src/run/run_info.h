@@ -21,7 +21,8 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& run);
 /// is not of this version.
 std::vector<InfoLine> summary_digest(const nlohmann::ordered_json& summary);
 
-/// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, controls}
+/// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, measurements,
+/// controls}
 /// (docs/reference/view.md). What cannot be read is left out: never throws for what is in the folder.
 nlohmann::ordered_json run_info(const std::filesystem::path& run);
 

@@ -326,7 +326,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
     do_on_root(ranks_, [&] {
       try {
         results_ = probe_results(spec_, folder_, flow.state.time);
-        scores_ = measurement_scores(spec_, folder_);
+        scores_ = measurement_scores(spec_, folder_.path());
       } catch (const IoError&) {
         if (message.empty()) throw;  // of a run that has failed the summary counts more than its results
       }

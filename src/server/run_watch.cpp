@@ -12,7 +12,9 @@
 namespace tailwater {
 namespace {
 
-constexpr auto time_between_infos = std::chrono::seconds(1);
+constexpr auto least_time_between_infos = std::chrono::seconds(1);
+/// So many times as long as an info has taken pass until the next one: where tables are long it takes a while.
+constexpr int rest_over_work = 20;
 
 std::string event(std::string_view name, const nlohmann::ordered_json& data) {
   return fmt::format("event: {}\ndata: {}\n\n", name,
@@ -58,10 +60,11 @@ std::string RunWatch::tables() {
 }
 
 std::string RunWatch::info() {
-  const auto now = Clock::now();
-  if (!last_info_.empty() && now - last_info_time_ < time_between_infos) return "";
-  last_info_time_ = now;
+  const auto begin = Clock::now();
+  if (begin < next_info_time_) return "";
   const std::string told = event("info", run_info(folder_.path()));
+  const auto end = Clock::now();
+  next_info_time_ = std::max<Clock::time_point>(begin + least_time_between_infos, end + rest_over_work * (end - begin));
   if (told == last_info_) return "";
   last_info_ = told;
   return told;

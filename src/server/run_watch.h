@@ -33,7 +33,7 @@ class RunWatch {
   bool is_gone_ = false;
   std::map<std::string, std::int64_t> table_sizes_;  ///< bytes
   std::string last_info_;
-  Clock::time_point last_info_time_;
+  Clock::time_point next_info_time_;
 };
 
 /// The tables of a run by their path in its folder.

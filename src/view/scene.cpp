@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/error.h"
+#include "case/probe_columns.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "probes/probe_set.h"
@@ -167,10 +169,13 @@ std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimensio
   return {low, {high[0], low[1]}, high, {low[0], high[1]}};
 }
 
+/// Headings by probe.
+using Columns = std::vector<std::vector<std::string>>;
+
 /// The columns of each probe's table after the time; none where it cannot measure, which is told of elsewhere.
 template <int Dim>
-std::vector<std::vector<std::string>> columns_of_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::vector<std::vector<std::string>> columns(spec.probes.size());
+Columns columns_of_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  Columns columns(spec.probes.size());
   try {
     const std::vector<Probe<Dim>> probes = make_probes<Dim>(spec, boundary);
     for (std::size_t p = 0; p < probes.size(); ++p) columns[p] = probes[p].reading.columns;
@@ -181,9 +186,8 @@ std::vector<std::vector<std::string>> columns_of_probes(const CaseSpec& spec, co
 }
 
 template <int Dim>
-Json probes_json(const CaseSpec& spec, const Boundary<Dim>& boundary, const Json& box) {
+Json probes_json(const CaseSpec& spec, const Columns& columns, const Json& box) {
   const double lowest = box.is_null() ? 0.0 : box["min"][Dim - 1].template get<double>();
-  const std::vector<std::vector<std::string>> columns = columns_of_probes(spec, boundary);
   Json probes = Json::array();
   for (std::size_t p = 0; p < spec.probes.size(); ++p) {
     const ProbeTable& table = spec.probes[p];
@@ -196,6 +200,30 @@ Json probes_json(const CaseSpec& spec, const Boundary<Dim>& boundary, const Json
                       {"body", table.body}});
   }
   return probes;
+}
+
+/// What laboratories have measured within the time of the run, in the order of the case.
+Json measurements_json(const CaseSpec& spec, const Columns& columns) {
+  Json measurements = Json::array();
+  for (const MeasurementTable& table : spec.measurements) {
+    const Compared compared = compared_with(table, spec);
+    const std::vector<std::string>& headings = columns[compared.probe];
+    const auto heading =
+        std::ranges::find_if(headings, [&](const std::string& name) { return is_heading_of(compared.column, name); });
+    Json time = Json::array();
+    Json value = Json::array();
+    for (std::size_t k = 0; k < table.series.time.size(); ++k) {
+      if (table.series.time[k] < 0.0 || table.series.time[k] > spec.time.end) continue;
+      time.push_back(rounded(table.series.time[k]));
+      value.push_back(rounded(table.series.columns[0][k]));
+    }
+    measurements.push_back({{"probe", table.probe},
+                            {"column", heading == headings.end() ? table.column : *heading},
+                            {"file", std::filesystem::path(table.file).filename().string()},
+                            {"time", std::move(time)},
+                            {"value", std::move(value)}});
+  }
+  return measurements;
 }
 
 Json periodic_json(const CaseSpec& spec) {
@@ -248,6 +276,7 @@ template <int Dim>
 Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const std::vector<Opening<Dim>> ends = sound_open_ends<Dim>(spec);
   const Json box = box_json(boundary, ends);
+  const Columns columns = columns_of_probes(spec, boundary);
   Json scalars = Json::array();
   for (const FrameScalar& scalar : frame_scalars) scalars.push_back({{"name", scalar.name}, {"unit", scalar.unit}});
   return {{"format", frame_format},
@@ -263,7 +292,8 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
           {"bodies", bodies_json(spec, pose_of_walls(boundary))},
           {"inlets", open_ends_json(ends, OpeningKind::inlet)},
           {"outlets", open_ends_json(ends, OpeningKind::outlet)},
-          {"probes", probes_json(spec, boundary, box)},
+          {"probes", probes_json<Dim>(spec, columns, box)},
+          {"measurements", measurements_json(spec, columns)},
           {"scalars", std::move(scalars)}};
 }
 

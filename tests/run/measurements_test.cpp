@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "case/reader.h"
+#include "io/run_folder.h"
 #include "io/temporary_folder.h"
 
 namespace tailwater {
@@ -109,7 +110,7 @@ TEST(MeasurementScores, AreReadFromTheTablesOfProbes) {
   const CaseSpec spec = read_case_text(keys, "case.toml");
   const RunFolder run = RunFolder::create(folder.path() / "run", false);
   std::ofstream(run.probe("H2")) << "time_s,connected_m,highest_m,wet_m\n0,9,9,0.09\n0.5,9,9,nan\n1,9,9,0.11\n";
-  const std::vector<MeasurementScore> scores = measurement_scores(spec, run);
+  const std::vector<MeasurementScore> scores = measurement_scores(spec, run.path());
   ASSERT_EQ(scores.size(), 1u);
   EXPECT_EQ(scores[0].unit, "m");
   EXPECT_NEAR(scores[0].as_timed.bias, -0.01, 1e-12);

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "case/reader.h"
+#include "io/temporary_folder.h"
 
 namespace tailwater {
 namespace {
@@ -86,6 +88,31 @@ at = [0.5, 0]
   EXPECT_EQ(scene["probes"][0]["points"], Json::parse("[[0.5, 0.0]]"));
   EXPECT_EQ(scene["probes"][0]["columns"], Json::parse(R"(["connected_m", "highest_m", "wet_m"])"));
   EXPECT_EQ(scene["box"]["max"], Json::parse("[4.0, 2.0]"));
+}
+
+TEST(Scene, HoldsWhatWasMeasuredWithinTheTimeOfTheRun) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "lab.csv") << "t [s], depth [mm]\n-1, 9\n0, 400\n0.5, 380\n2, 300\n3, 9\n";
+  const Json scene = scene_of<2>(R"(
+[[fluid]]
+min = [0, 0]
+max = [1, 0.5]
+[[wall]]
+points = [[0, 2], [0, 0], [4, 0], [4, 2]]
+[[probe]]
+name = "all"
+type = "energy"
+[[probe]]
+name = "gauge"
+type = "depth"
+at = [0.5, 0]
+[[measurement]]
+probe = "gauge"
+column = "wet"
+file = ")" + (folder.path() / "lab.csv").string() +
+                                 "\"\n");
+  EXPECT_EQ(scene["measurements"], Json::parse(R"([{"probe": "gauge", "column": "wet_m", "file": "lab.csv",
+                                                    "time": [0.0, 0.5, 2.0], "value": [0.4, 0.38, 0.3]}])"));
 }
 
 TEST(Scene, APlateIsDrawnOnce) {

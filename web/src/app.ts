@@ -88,10 +88,12 @@ export class App {
     return runs.filter((run) => run.scene.dimension === runs[0]!.scene.dimension);
   }
 
-  /** What the picture shows: the drawing of the case beside its editor, else the runs. */
+  /** What the picture shows: the drawing of the case beside its editor, and where there is no run, else the runs. */
   shown(): Subject[] {
-    if (this.look.now.tab === "case" && this.server && this.look.now.side) return this.sketch ? [this.sketch.subject] : [];
-    return this.shownRuns();
+    const drawing = this.sketch ? [this.sketch.subject] : [];
+    if (this.look.now.tab === "case" && this.server && this.look.now.side) return drawing;
+    const runs = this.shownRuns();
+    return runs.length > 0 ? runs : drawing;
   }
 
   /** A new drawing of the case. */

@@ -123,14 +123,12 @@ export interface Probe {
 }
 
 export interface Measurement {
-  name: string;
   probe: string;
+  /** As the probe's table has it. */
   column: string;
-  title?: string;
+  file: string;
   time: number[];
   value: number[];
-  uncertainty?: number | null;
-  score?: string | null;
 }
 
 export interface Scene {
@@ -165,6 +163,8 @@ export interface Info {
   particles?: number;
   lines: { label: string; text: string }[];
   warnings: string[];
+  /** What the run says of each measurement of its scene, in their order; empty where it does not yet. */
+  measurements: { words: string }[];
   controls?: string[];
 }
 

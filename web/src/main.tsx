@@ -58,7 +58,7 @@ function Page({ app }: { app: App }) {
       {!reading && look.side && (
         <aside>
           <div class="tabs" role="tablist" aria-label="Beside the picture">
-            {app.runs.length > 0 && tab("gauges", "Gauges")}
+            {(app.runs.length > 0 || run) && tab("gauges", "Gauges")}
             {app.runs.length > 0 && tab("run", "Run")}
             {app.server && app.state?.case && tab("case", "Case")}
           </div>

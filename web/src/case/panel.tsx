@@ -11,6 +11,9 @@ import { CaseEditor } from "./editor.ts";
 const pause = 120;
 const rest = 1000;
 
+/** How many drawings there have been: each is another one for the picture and the plots. */
+let drawings = 0;
+
 export function CasePanel({ app }: { app: App }) {
   useChanges(app.data);
   const server = app.server!;
@@ -25,7 +28,6 @@ export function CasePanel({ app }: { app: App }) {
     let timer = 0;
     let later = 0;
     let asked: AbortController | null = null;
-    let version = 0;
     const ask = async (text: string) => {
       clearTimeout(later);
       asked?.abort();
@@ -36,7 +38,7 @@ export function CasePanel({ app }: { app: App }) {
         show(answer);
         made.find(answer.findings);
         app.caseWord = "Nothing can be drawn before the errors are mended.";
-        if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++version}`), answer.drawing);
+        if (answer.drawing) app.draw(drawn(answer.drawing, app.state?.case?.path ?? "case", `case-${++drawings}`), answer.drawing);
         else app.data.tell();
         tell("");
         if (!hasError(answer)) later = window.setTimeout(() => void estimate(text, signal), rest);

@@ -18,8 +18,10 @@ export function choices(run: Subject, probe: Probe): string[] {
   return columns.filter((name) => name !== "time_s" && !/^[xyz]_m$/.test(name));
 }
 
-/** The one that is asked for most often. */
-export function favourite(probe: Probe, columns: string[]): string {
+/** The one that was measured, else the one that is asked for most often. */
+export function favourite(run: Subject, probe: Probe, columns: string[]): string {
+  const measured = run.scene.measurements.find((m) => m.probe === probe.name && columns.includes(m.column));
+  if (measured) return measured.column;
   const liked: Record<string, string[]> = {
     depth: ["connected_m"], front: ["front_m"], energy: ["total_J"], volume: ["density_error_rms"], profile: ["connected_m"],
     "velocity-profile": ["velocity_x_m_per_s"], "run-up": ["connected_m"], motion: ["displacement_y_m", "displacement_z_m"], "level-map": ["highest_m"],
@@ -36,8 +38,10 @@ export function curves(runs: Subject[], probe: string, column: string): Curve[] 
   });
 }
 
-export function laboratory(run: Subject, probe: string, column: string): Measurement[] {
-  return run.scene.measurements.filter((m) => m.probe === probe && m.column === column);
+/** What was measured of a column, and what the run says of it; of a case that has not run the name of its file. */
+export function laboratory(run: Subject, probe: string, column: string): (Measurement & { words: string })[] {
+  const all = run.scene.measurements.map((m, i) => ({ ...m, words: run.info?.measurements[i]?.words ?? m.file }));
+  return all.filter((m) => m.probe === probe && m.column === column);
 }
 
 export function axisLabel(column: string): string {

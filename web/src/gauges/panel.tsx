@@ -49,7 +49,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   const owner = runs.find((run) => run.table(probe.name)) ?? runs[0]!;
   const columns = choices(owner, probe);
   const [chosen, choose] = useState("");
-  const column = columns.includes(chosen) ? chosen : favourite(probe, columns);
+  const column = columns.includes(chosen) ? chosen : favourite(owner, probe, columns);
   const lit = app.look.now.probe === probe.name;
   const card = useRef<HTMLElement>(null);
   const plot = useRef<uPlot | null>(null);
@@ -60,8 +60,8 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   const profile = isProfile(probe);
   const lines = profile ? profileCurves(app, runs, probe, column) : overTime(app, runs, probe, column);
   const rows = runs.map((run) => run.table(probe.name)?.rows ?? 0).join(" ");
-  const stamp = rows + column + (profile ? `@${blockStamp(owner, probe, app.player.time)}` : "");
-  const lab = laboratory(owner, probe.name, column);
+  const stamp = owner.id + rows + column + (profile ? `@${blockStamp(owner, probe, app.player.time)}` : "");
+  const measured = runs.flatMap((run) => laboratory(run, probe.name, column).map((m) => ({ ...m, run })));
   const { unit } = split(column);
   const save = (how: string) => {
     if (how === "csv") saveText(`${probe.name}.csv`, "text/csv", csv(owner, probe.name));
@@ -92,16 +92,16 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
         </select>
       </header>
       <div class="read" aria-live="off" />
-      {owner.table(probe.name) ? (
+      {owner.table(probe.name) || measured.length > 0 ? (
         <Plot lines={lines} xLabel={profile ? "x, m" : "time, s"} yLabel={axisLabel(column)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
       ) : (
         <p class="hint">No reading yet.</p>
       )}
       {!profile && runs.length >= 3 && <Limit runs={runs} probe={probe.name} column={column} plot={plot} />}
-      {lab.map((m) => (
+      {measured.map((m) => (
         <p class="score">
-          <i /> {m.title ?? m.name}
-          {m.score ? `: ${m.score}` : ""}
+          <i /> {runs.length > 1 ? `${m.run.name}: ` : ""}
+          {m.words}
         </p>
       ))}
     </section>
@@ -154,9 +154,8 @@ function overTime(app: App, runs: Subject[], probe: Probe, column: string): Line
   const lines: Line[] = curves(runs, probe.name, column).map(({ run, x, y }) => ({
     name: run.name, x, y, colour: palette[runs.indexOf(run) % 6]!,
   }));
-  for (const m of laboratory(runs[0]!, probe.name, column)) {
-    lines.push({ name: m.title ?? "laboratory", x: m.time, y: m.value, colour: colours().text, points: true });
-  }
+  const ofOne = runs.map((run) => laboratory(run, probe.name, column)).find((all) => all.length > 0) ?? [];
+  for (const m of ofOne) lines.push({ name: m.file, x: m.time, y: m.value, colour: colours().text, points: true });
   return lines;
 }
 

@@ -1,10 +1,10 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
-import { readdirSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { allowed, camera, until } from "../support/browser.ts";
-import { withProgram } from "../support/program.ts";
+import { measured, withProgram } from "../support/program.ts";
 
 test("a done run: no blank and no jump of the camera through all its frames; a probe is picked; sent as a file", async (context) => {
   await withProgram(context, async (place, open) => {
@@ -34,6 +34,8 @@ test("a done run: no blank and no jump of the camera through all its frames; a p
     place.call("view", "run", "--export", "run.html");
     const sent = await open(pathToFileURL(place.path("run.html")).href);
     await until(sent, "app.shown()[0]?.frames.isDecoded(100) && app.shown()[0].frames.list.length < 210 && app.shown()[0].table('gauge')?.rows > 90");
+    const [{ words }] = (JSON.parse(readFileSync(place.path("run/summary.json"), "utf8")) as { measurements: [{ words: string }] }).measurements;
+    for (const one of [page, sent]) assert.deepEqual(await measured(one), [[[0, 0.4], [0.1, 0.395], [0.2, 0.38]], words]);
     // The same water: a particle is where it is in the run, but for what the file rounds.
     const place0 = "(() => { const f = tailwater.shown()[0].frames.at(1).a; return [0, 1].map((d) => f.boxMin[d] + f.data[d] / 65535 * (f.boxMax[d] - f.boxMin[d])); })()";
     await until(page, "app.shown()[0].frames.at(1)?.exact");

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { renameSync, statSync } from "node:fs";
 import { test } from "node:test";
 import { allowed, camera, until } from "../support/browser.ts";
-import { press, withProgram } from "../support/program.ts";
+import { measured, press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
   await withProgram(context, async (place, open) => {
@@ -27,6 +27,9 @@ test("a live run on two ranks: its frames are on the screen within a second; sto
     const took = shown.at - statSync(place.path("run/view", `${String(shown.index).padStart(5, "0")}.frame`)).mtimeMs;
     assert.ok(took < (await allowed(page, 1000)), `a frame is on the screen within 1 s; here ${took} ms`);
     assert.equal(await camera(page), before);
+    // The run goes on for longer than the measurement; how far it is from what it has reached is told meanwhile.
+    await page.waitForFunction("/against lab.csv, 3 samples of 0 to 0.2 s: rms [\\d.e-]+ m, bias/.test(document.querySelector('.gauge .score')?.textContent)");
+    assert.deepEqual(((await measured(page)) as [number[][]])[0], [[0, 0.4], [0.1, 0.395], [0.2, 0.38], [100, 0.133]]);
     await until(page, "app.shownRuns()[0].table('gauge')?.rows > 3");
 
     await page.keyboard.press("r");

@@ -3,13 +3,18 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { until } from "../support/browser.ts";
-import { withProgram } from "../support/program.ts";
+import { measured, press, withProgram } from "../support/program.ts";
 
-test("a case: an error at its place, the time it takes, and run on two ranks", async (context) => {
+test("a case: what was measured, an error at its place, the time it takes, and run on two ranks", async (context) => {
   await withProgram(context, async (place, open) => {
     const page = await open(await place.view("dam.toml"));
     await until(page, "app.shown()[0]?.scene.probes[0].name === 'gauge'");
     await page.waitForFunction("/About \\d+ steps/.test(document.querySelector('.found').textContent)");
+    await press(page, "Gauges");
+    await page.waitForSelector(".gauge .plot canvas");
+    assert.deepEqual(await measured(page), [[[0, 0.4], [0.1, 0.395], [0.2, 0.38]], "lab.csv"]);
+    await press(page, "Case");
+    await page.waitForSelector(".cm-content");
     const put = (from: string, to: string) =>
       page.evaluate(`(() => {
         const text = document.querySelector(".cm-content").cmTile?.root?.view ?? document.querySelector(".cm-content").cmView.view;

@@ -31,7 +31,7 @@ export function standingWave(rows = 25, end = 4): Flow {
       { name: "P1", type: "wall-pressure", points: [[length, 0.1]], columns: ["pressure_Pa"] },
       { name: "energy", type: "energy", points: [], columns: ["total_J"] },
     ],
-    measurements: [{ name: "H1", probe: "H1", column: "connected_m", title: "laboratory", time: [0, 0.5, 1, 1.5, 2], value: [0.5, 0.5, 0.5, 0.5, 0.5].map((h, i) => h + eta(0.5, i / 2)), uncertainty: 0.005, score: "within 1 %" }],
+    measurements: [{ probe: "H1", column: "connected_m", file: "laboratory.csv", time: [0, 0.5, 1, 1.5, 2], value: [0, 1, 2, 3, 4].map((i) => depth + eta(0.5, i / 2)) }],
   };
   const n = columns * rows;
   return {

@@ -84,13 +84,21 @@ name = "gauge"
 type = "depth"
 at = [0.4, 0]
 interval = 0.01
+[[measurement]]
+probe = "gauge"
+column = "highest"
+file = "lab.csv"
 `;
 
-/** Calls `body` with a workplace that holds the case as dam.toml, and a browser; there is no fault in its console. */
+/** Of the gauge, as a laboratory might have measured it for 100 s. */
+const lab = "t [s], depth [mm]\n0, 400\n0.1, 395\n0.2, 380\n100, 133\n";
+
+/** Calls `body` with a workplace that holds the case as dam.toml with lab.csv, and a browser; there is no fault in its console. */
 export async function withProgram(context: TestContext, body: (place: Workplace, open: (address: string) => Promise<Page>) => Promise<void>): Promise<void> {
   if (!existsSync(program)) return context.skip(`there is no ${program}`);
   const place = new Workplace();
   writeFileSync(place.path("dam.toml"), dam);
+  writeFileSync(place.path("lab.csv"), lab);
   const visits: Visit[] = [];
   try {
     await body(place, async (address) => {
@@ -103,6 +111,13 @@ export async function withProgram(context: TestContext, body: (place: Workplace,
     await place.close();
   }
 }
+
+/** The measured points in the plot of the gauge, [s, m], and what is told of them. */
+export const measured = (page: Page) =>
+  page.evaluate(`(() => {
+    const { time, value } = tailwater.shown()[0].scene.measurements[0];
+    return [time.map((t, i) => [t, value[i]]), document.querySelector(".gauge .score")?.textContent.trim()];
+  })()`);
 
 /** Presses the button with this word, once it is there. */
 export async function press(page: Page, word: string): Promise<void> {
