@@ -13,6 +13,7 @@ pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 # That with which PETSc is linked: a process cannot hold two builds of HDF5. Debian's name first, then HDF5's own.
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi hdf5)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 find_path(ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos REQUIRED)
 find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan REQUIRED)

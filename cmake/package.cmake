@@ -44,7 +44,7 @@ find_package(Tailwater).")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libtailwater-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libpetsc-real-dev, libhdf5-openmpi-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libeigen3-dev, libcli11-dev, libcpp-httplib-dev, libtomlplusplus-dev, libmuparser-dev, libfmt-dev, nlohmann-json3-dev, zlib1g-dev")
+    "libpetsc-real-dev, libhdf5-openmpi-dev, libopenmpi-dev, libtrilinos-zoltan-dev, libeigen3-dev, libcli11-dev, libcpp-httplib-dev, libtomlplusplus-dev, libmuparser-dev, libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libdeflate-dev")
 
 set(CPACK_COMPONENT_DOCUMENTS_DESCRIPTION "documents of Tailwater
 The reference of the case file, the theory equation by equation, guides and

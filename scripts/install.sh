@@ -7,7 +7,7 @@ build=(
   g++ cmake ninja-build pkg-config git ca-certificates
   libpetsc-real-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev libmuparser-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
-  libcpp-httplib-dev
+  libcpp-httplib-dev libdeflate-dev
   python3-dev pybind11-dev python3-numpy python3-pandas
 )
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)

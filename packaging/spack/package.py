@@ -28,6 +28,7 @@ class Tailwater(CMakePackage):
     depends_on("muparser@2.3:")
     depends_on("nlohmann-json@3.11:")
     depends_on("zlib-api")
+    depends_on("libdeflate")
     depends_on("benchmark", when="+benchmarks")
     depends_on("python@3.11:", type="run")
     depends_on("py-numpy", type="run")

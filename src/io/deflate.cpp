@@ -1,7 +1,8 @@
 #include "io/deflate.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
+#include <memory>
 #include <new>
 
 #include "base/assert.h"
@@ -9,13 +10,12 @@
 namespace tailwater {
 
 std::string deflated(std::string_view raw, int level) {
-  uLongf size = compressBound(raw.size());
-  std::string bytes(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                               reinterpret_cast<const Bytef*>(raw.data()), raw.size(), level);
-  if (status == Z_MEM_ERROR) throw std::bad_alloc();
-  TAILWATER_ASSERT(status == Z_OK, "zlib accepts levels 0 to 9 and a buffer of compressBound bytes");
-  bytes.resize(size);
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (compressor == nullptr) throw std::bad_alloc();
+  std::string bytes(libdeflate_zlib_compress_bound(compressor.get(), raw.size()), '\0');
+  bytes.resize(libdeflate_zlib_compress(compressor.get(), raw.data(), raw.size(), bytes.data(), bytes.size()));
+  TAILWATER_ASSERT(!bytes.empty(), "a zlib stream has room within its bound");
   return bytes;
 }
 

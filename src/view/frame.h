@@ -63,7 +63,7 @@ struct FramesBefore {
 
 enum class Deflation {
   quick,  ///< while a run waits for it
-  small,  ///< a tenth smaller, in several times the time
+  small,  ///< 6 % smaller, in ten times the time
 };
 
 /// The bytes of a frame, which are the same for the same frames.

@@ -169,6 +169,13 @@ FrameParticles FrameSeries<Dim>::gather(const WaterNow<Dim>& water, const Commun
   std::vector<Stored> stored(water.id.size());
   std::array<double, Dim> per_metre;
   for (int d = 0; d < Dim; ++d) per_metre[d] = largest_place / (scale_.high[d] - scale_.low[d]);
+  std::array<double, std::tuple_size_v<decltype(Stored::scalar)>> low_of{};
+  std::array<double, std::tuple_size_v<decltype(Stored::scalar)>> per_unit{};
+  for (std::size_t s = 0; s < scalars; ++s) {
+    const auto [low, high] = scale_.ranges[s];
+    low_of[s] = low;
+    per_unit[s] = largest_scalar / (static_cast<double>(high) - low);
+  }
   for_each(water.id.size(), [&](std::size_t i) {
     stored[i].id = water.id[i];
     for (int d = 0; d < Dim; ++d) {
@@ -176,9 +183,7 @@ FrameParticles FrameSeries<Dim>::gather(const WaterNow<Dim>& water, const Commun
     }
     stored[i].scalar = {};
     for (std::size_t s = 0; s < scalars; ++s) {
-      const auto [low, high] = scale_.ranges[s];
-      stored[i].scalar[s] =
-          static_cast<std::uint8_t>((water.scalars[s][i] - low) / (high - low) * largest_scalar + 0.5);
+      stored[i].scalar[s] = static_cast<std::uint8_t>((water.scalars[s][i] - low_of[s]) * per_unit[s] + 0.5);
     }
   });
   stored = ranks.gather(stored);

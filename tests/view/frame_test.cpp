@@ -63,6 +63,13 @@ TEST_P(EachOrder, IsReadBackBitForBit) {
   }
 }
 
+TEST_P(EachOrder, OfTheSameParticlesIsReadBackBitForBit) {
+  std::mt19937 random(4);
+  const FramesBefore before{random_particles(counted(300), 3, random), random_particles(counted(300), 3, random)};
+  const Frame frame = frame_of(random_particles(counted(300), 3, random), GetParam(), 3);
+  EXPECT_EQ(decode_frame(encode_frame(frame, before), before), frame);
+}
+
 TEST_P(EachOrder, AnEmptyFrameCanComeBefore) {
   std::mt19937 random(2);
   const FramesBefore before{random_particles({}, 2, random), random_particles({1, 2}, 2, random)};
