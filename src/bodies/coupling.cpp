@@ -43,7 +43,8 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
       dt_(dt),
       drive_(drive),
       forces_(flow, flow.state.time),
-      covered_(find_covered(flow, flow.state.time)) {
+      covered_(find_covered(flow, flow.state.time)),
+      gaps_(flow, flow.state.time) {
   const std::vector<FloatingBody<Dim>>& bodies = flow.setup.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (const int entry : bodies[b].free) freedoms_.push_back({b, entry});
@@ -62,6 +63,7 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
   }
   one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
   std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
+  gaps_.hold_water(flow);
 }
 
 template <int Dim>
@@ -96,7 +98,9 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   const std::vector<double> solved = flow_.state.particles.pressure;
   lift_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
   finish_pressure(flow_, drive_);
-  const std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
+  std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
+  const std::vector<Twist<Dim>> in_gaps = forces_.of_gaps(flow_.state.particles.pressure, gaps_);
+  for (std::size_t b = 0; b < pressures.size(); ++b) pressures[b] += in_gaps[b];
   flow_.state.particles.pressure = solved;
   Eigen::VectorXd g(scale_.size());
   Eigen::VectorXd forces(scale_.size());

@@ -24,7 +24,7 @@ namespace tailwater {
 template <int Dim>
 class BodyCoupling {
  public:
-  /// `fullness` is that of the equation (pressure/full_water.h).
+  /// `fullness` is that of the equation (pressure/full_water.h). Holds the water in narrow gaps.
   BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double fullness, double dt, WallDrive<Dim>& drive);
 
   /// Solves the pressure equation to `tolerance`, and corrects the motion once. `drive` follows.
@@ -65,6 +65,7 @@ class BodyCoupling {
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;
   std::vector<CoveredParticle> covered_;
+  NarrowGaps<Dim> gaps_;
   std::vector<Freedom> freedoms_;
   Eigen::VectorXd scale_;          ///< mass or moment of inertia of each degree of freedom
   std::vector<Twist<Dim>> loads_;  ///< on each body: all but pressure, contacts and lines; the same in all passes

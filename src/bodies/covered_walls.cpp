@@ -5,9 +5,6 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; wall particles behind a gap that is this wide are not covered any more.
-constexpr double widest_cover = 0.5;
-
 /// Where bodies are, as boxes that hold all that they may cover.
 template <int Dim>
 std::vector<Eigen::AlignedBox<double, Dim>> boxes_around(const Flow<Dim>& flow,

@@ -9,6 +9,9 @@
 
 namespace tailwater {
 
+/// [dx]; wall particles behind a gap that is this wide are not covered any more.
+inline constexpr double widest_cover = 0.5;
+
 /// An owned particle of a wall at rest, behind a place that a body covers.
 struct CoveredParticle {
   std::size_t i;

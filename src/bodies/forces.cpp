@@ -81,6 +81,17 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<doubl
 }
 
 template <int Dim>
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_gaps(const std::vector<double>& pressure,
+                                                     const NarrowGaps<Dim>& gaps) const {
+  ForceSums<Dim> sums(flow_, time_);
+  const bool is_root = flow_.setup.ranks.is_root();
+  gaps.visit_forces(pressure, [&](int body, const Vec<Dim>& x, const Vec<Dim>& force) {
+    if (is_root) sums.add(body, x, force);
+  });
+  return sums.gather();
+}
+
+template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_friction() const {
   const std::vector<std::size_t> walls = walls_of_bodies(flow_);
   ForceSums<Dim> sums(flow_, time_);

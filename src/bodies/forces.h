@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bodies/covered_walls.h"
+#include "bodies/narrow_gaps.h"
 
 namespace tailwater {
 
@@ -18,6 +19,8 @@ class ForcesOnBodies {
   /// Collective.
   std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure,
                                       const std::vector<CoveredParticle>& covered) const;
+  /// By the water in gaps that are too narrow for particles, in a pressure field that is up to date. Collective.
+  std::vector<Twist<Dim>> of_gaps(const std::vector<double>& pressure, const NarrowGaps<Dim>& gaps) const;
   /// By the friction that the present step has found. Collective.
   std::vector<Twist<Dim>> of_friction() const;
   /// By what the last guard took from the water in front of bodies. Collective.

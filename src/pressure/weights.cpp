@@ -14,6 +14,10 @@ constexpr double cell_edge = 2.0;
 /// behind a wall; elsewhere, and as long as there is no water inside, it is hydrostatic.
 template <int Dim>
 void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
+  if (flow.end_of[i] < 0) {  // held in a narrow gap: nothing corrects its pressure
+    flow.pressure_rows.row(i).finish_as_zero();
+    return;
+  }
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();

@@ -204,6 +204,62 @@ TEST(FloatingBody, SinksToTheBedAndLiesThere) {
   EXPECT_LT(std::abs(angle_of<2>(body.placement.linear)[0]), 1e-6);
 }
 
+// A box half as heavy as water lies on the bed, and no particle is beneath it. Water gets there all the same: it stays
+// as long as the water beside it is shallower than half its height, and comes off the bed where it is deeper.
+TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double dx = 0.025;
+  for (const double share : {0.8, 1.2}) {
+    CaseSpec spec = tank_case<Dim>(dx, 0.6, share * 0.125);
+    Coordinates low(Dim, 0.175);
+    Coordinates high(Dim, 0.425);
+    low[Dim - 1] = 0.0;
+    high[Dim - 1] = 0.25;
+    add_box(spec, low, high, 500.0);
+    spec.bodies[0].free = {Dim == 2 ? "y" : "z"};
+    Flow<Dim> flow = make_flow<Dim>(spec);
+    start(flow);
+    const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
+    double highest = 0.0;
+    while (flow.state.time < 0.25) {
+      step(flow);
+      highest = std::max(highest, body.centre[Dim - 1] - 0.125);
+      ASSERT_GT(body.centre[Dim - 1] - 0.125, -1e-9);
+    }
+    if (share < 1.0) {
+      EXPECT_LT(highest, 0.01 * dx);
+    } else {
+      EXPECT_GT(highest, 0.25 * dx);
+    }
+  }
+}
+
+// The same box, in the same way under twice its height of water. It comes up and heaves about its draught: the mean
+// over the last two of its periods of about 0.7 s is that of Archimedes.
+TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
+  constexpr double dx = 0.025;
+  CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
+  add_box(spec, {0.4, 0.0}, {0.8, 0.2}, 500.0);
+  spec.bodies[0].free = {"y"};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  double water = 0.0;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i)) water += flow.state.particles.volume[i];
+  }
+  constexpr double from = 2.6;
+  double duration = 0.0;
+  double sum = 0.0;
+  while (flow.state.time < 4.0) {
+    const double dt = step(flow).dt;
+    if (flow.state.time < from) continue;
+    duration += dt;
+    sum += dt * (flow.state.motion.bodies.each[0].centre[1] - 0.1);
+  }
+  const double draught = (water + 0.4 * 0.1) / 1.2 - sum / duration;
+  EXPECT_NEAR(draught, 0.1, 0.2 * dx);
+}
+
 // Beside a tank, in the air: the step is that of the water, of first order in time.
 TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   constexpr double dx = 0.05;

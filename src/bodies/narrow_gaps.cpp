@@ -1,0 +1,212 @@
+#include "bodies/narrow_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "bodies/covered_walls.h"
+
+namespace tailwater {
+namespace {
+
+/// [dx]; water in a narrower gap is held. Results are the same from 0.6 to 0.9. With 0.5 water from both sides piles up
+/// in the gap; with 1 water at its rim, held, lets none in as it opens.
+constexpr double closed_gap = 0.75;
+/// [dx]; a row of particles has room in a wider gap.
+constexpr double open_gap = 1.0;
+/// [dx]; a piece of a gap counts less and less from there to here.
+constexpr double widest_gap = 1.5;
+
+/// [dx]; water so near to the middle of a piece is in the gap, not beside it.
+constexpr double reach_of_piece = 0.75;
+
+/// Least of -cos of the angle between the normals of a body's particle and of the wall that it faces: at the corner of
+/// a box, where it is the mean of three, it is 0.577.
+constexpr double least_facing = 0.5;
+
+/// Nothing is solved for, as in the end stretch of an outlet.
+constexpr Role held = Role::open_end;
+
+/// [dx]; pieces so near are beside each other.
+constexpr double reach_of_neighbours = 1.6;
+
+/// [dx]; the sum of the ways to the pieces beside one is longer at a rim: dx in 2D, 3 dx at a straight one in 3D.
+constexpr double least_lopsidedness = 0.5;
+
+}  // namespace
+
+template <int Dim>
+NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, double time) : flow_(flow) {
+  find_pieces(time);
+  if (pieces_.empty()) return;
+  find_rim(time);
+  look_at_water();
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::find_pieces(double time) {
+  const WallParticles<Dim>& table = flow_.walls.particles;
+  const double dx = flow_.setup.spacing;
+  const ContactSurfaces<Dim>& contact = flow_.setup.contact;
+  const Boundary<Dim>& resting = contact.each.front().boundary;
+  for (const ContactSurface<Dim>& hull : contact.each) {
+    if (hull.body < 0) continue;
+    const AffineMap<Dim> placement = flow_.state.motion.bodies.each[hull.body].at(time);
+    for (std::int32_t row = 0; row < static_cast<std::int32_t>(flow_.walls.moving); ++row) {
+      if (flow_.setup.body_of_wall[table.wall[row]] != hull.body) continue;
+      const Vec<Dim>& x = table.position[row];
+      const NearestWall<Dim> wall = resting.nearest(x, (1.0 + widest_gap) * dx);
+      if (wall.face < 0 || wall.signed_distance <= 0.0) continue;
+      const Vec<Dim> normal = (x - wall.point) / wall.signed_distance;
+      if (-table.normal[row].dot(normal) < least_facing) continue;
+      const double depth = -hull.boundary.nearest(placement.inverse(x), contact_reach * dx).signed_distance;
+      const double gap = std::max(0.0, wall.signed_distance - depth);
+      if (depth <= 0.0 || depth >= dx || gap >= widest_gap * dx) continue;
+      pieces_.push_back({.body = hull.body, .row = row, .x = x - depth * normal, .normal = normal, .gap = gap});
+    }
+  }
+}
+
+// At a rim the pieces beside one are on one side only. It counts if the place on the other side is free. Between a body
+// and a side wall it is not.
+template <int Dim>
+void NarrowGaps<Dim>::find_rim(double time) {
+  const double dx = flow_.setup.spacing;
+  const ContactSurfaces<Dim>& contact = flow_.setup.contact;
+  std::vector<Vec<Dim>> places;
+  for (const Piece& piece : pieces_) places.push_back(piece.x);
+  const CellGrid<Dim> grid(places, reach_of_neighbours * dx);
+  for (Piece& piece : pieces_) {
+    Vec<Dim> inward = Vec<Dim>::Zero();
+    grid.for_each_near(piece.x, [&](std::int32_t n) {
+      const Vec<Dim> way = pieces_[n].x - piece.x;
+      if (pieces_[n].body == piece.body && way.norm() < reach_of_neighbours * dx) inward += way;
+    });
+    if (pieces_.size() > 1 && inward.norm() < least_lopsidedness * dx) continue;
+    const Vec<Dim> beside = piece.x + 0.5 * dx * piece.normal - dx * inward.stableNormalized();
+    piece.is_at_rim = std::ranges::all_of(contact.each, [&](const ContactSurface<Dim>& surface) {
+      if (surface.wall >= 0 || (surface.body >= 0 && surface.body != piece.body)) return true;
+      const AffineMap<Dim> placement =
+          surface.body < 0 ? AffineMap<Dim>() : flow_.state.motion.bodies.each[surface.body].at(time);
+      const NearestWall<Dim> nearest = surface.boundary.nearest(placement.inverse(beside), contact_reach * dx);
+      return nearest.face < 0 || nearest.signed_distance > 0.0;
+    });
+  }
+}
+
+// Water fills a gap in front of a piece as far as a hat of dx around its middle holds it, which a row of particles dx
+// apart does. It presses on the body itself. As the gap closes, what it does to the wall behind comes to act on the
+// body too (covered_walls.h): that takes its pressure back, and gives the body its weight, which the wall carries.
+template <int Dim>
+void NarrowGaps<Dim>::look_at_water() {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const Pairs<Dim>& pairs = flow_.pairs();
+  const double dx = flow_.setup.spacing;
+  for (const Piece& piece : pieces_) {
+    middles_.push_back(flow_.neighbourhood.wrapped(piece.x - 0.5 * piece.gap * piece.normal));
+  }
+  grid_ = CellGrid<Dim>(middles_, reach_of_piece * dx);
+  std::vector<std::int32_t> piece_of(flow_.walls.moving, -1);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) piece_of[pieces_[n].row] = static_cast<std::int32_t>(n);
+  std::vector<double> filled(pieces_.size(), 0.0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are of a gap
+    if (particles.is_fluid(i)) continue;
+    const auto row = static_cast<std::size_t>(particles.wall_row[i]);
+    if (row >= piece_of.size() || piece_of[row] < 0) continue;
+    const auto n = static_cast<std::size_t>(piece_of[row]);
+    pieces_[n].particle = i;
+    const Vec<Dim> to_middle =
+        pieces_[n].x - 0.5 * pieces_[n].gap * pieces_[n].normal - flow_.walls.particles.position[row];
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      if (!particles.is_fluid(j)) continue;
+      filled[n] += std::max(0.0, 1.0 - (particles.position[j] - particles.position[i] - to_middle).norm() / dx);
+      if (pieces_[n].is_at_rim && piece_at(particles.position[j]) < 0) pieces_[n].water.push_back(k);
+    }
+  }
+  flow_.setup.ranks.sum_of_each(filled);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Piece& piece = pieces_[n];
+    const double water = std::min(1.0, filled[n]);
+    const double covered = std::max(0.0, 1.0 - piece.gap / (widest_cover * dx));
+    const double counted = std::min(1.0, (widest_gap - piece.gap / dx) / (widest_gap - open_gap));
+    piece.area = std::pow(dx, Dim - 1) * counted * (1.0 - (1.0 - covered) * water);
+    piece.carried = std::pow(dx, Dim) * covered * water * std::max(0.0, -weight_of(piece.normal));
+  }
+}
+
+template <int Dim>
+std::int32_t NarrowGaps<Dim>::piece_at(const Vec<Dim>& x) const {
+  std::int32_t nearest = -1;
+  double least = reach_of_piece * flow_.setup.spacing;
+  grid_.for_each_near(x, [&](std::int32_t n) {
+    const double distance = (x - middles_[n]).norm();
+    if (distance >= least) return;
+    nearest = n;
+    least = distance;
+  });
+  return nearest;
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
+  if (pieces_.empty()) return;
+  flow.halo().exchange(flow.state.particles.pressure);
+  const std::vector<double> p = find_pressure(flow.state.particles.pressure);
+  LinearSystem& rows = flow.pressure_rows;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    const std::int32_t n = piece_at(flow.state.particles.position[i]);
+    if (n < 0 || pieces_[n].gap >= closed_gap * flow.setup.spacing) return;
+    flow.role[i] = held;
+    flow.state.particles.velocity[i].setZero();
+    rows.divide_diagonal(i, 0.0);
+    rows.rhs()[i] = p[n];
+  });
+}
+
+template <int Dim>
+std::vector<double> NarrowGaps<Dim>::find_rim_heads(const std::vector<double>& pressure) const {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const Pairs<Dim>& pairs = flow_.pairs();
+  std::vector<double> sums(2 * pieces_.size(), 0.0);  // of each piece the weight of the water beside it, and with heads
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    for (const std::size_t k : pieces_[n].water) {
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      const double weight = pairs.value(pieces_[n].particle, k);
+      sums[2 * n] += weight;
+      sums[2 * n + 1] += weight * (pressure[j] - weight_of(particles.position[j]));
+    }
+  }
+  flow_.setup.ranks.sum_of_each(sums);
+  std::vector<double> heads(pieces_.size(), 0.0);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (pieces_[n].is_at_rim) heads[n] = sums[2 * n] > 0.0 ? sums[2 * n + 1] / sums[2 * n] : -weight_of(pieces_[n].x);
+  }
+  return heads;
+}
+
+template <int Dim>
+std::vector<double> NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressure) const {
+  if (pieces_.empty()) return {};
+  const std::vector<double> heads = find_rim_heads(pressure);
+  std::vector<double> p(pieces_.size(), 0.0);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    const Piece& piece = pieces_[n];
+    double weights = piece.is_at_rim ? 1.0 : 0.0;
+    double sum = piece.is_at_rim ? heads[n] : 0.0;
+    for (std::size_t e = 0; !piece.is_at_rim && e < pieces_.size(); ++e) {
+      if (!pieces_[e].is_at_rim || pieces_[e].body != piece.body) continue;
+      const double nearness = std::pow((pieces_[e].x - piece.x).norm(), 1 - Dim);
+      weights += nearness;
+      sum += nearness * heads[e];
+    }
+    if (weights > 0.0) p[n] = std::max(0.0, sum / weights + weight_of(piece.x));
+  }
+  return p;
+}
+
+template class NarrowGaps<2>;
+template class NarrowGaps<3>;
+
+}  // namespace tailwater
