@@ -2,9 +2,11 @@
 
 import json
 import os
+import re
 import subprocess
 import unittest
 import xml.etree.ElementTree
+from pathlib import Path
 
 from program import SMALL_CASE, ProgramTest
 
@@ -150,6 +152,13 @@ class CommandLine(ProgramTest):
 
 
 class New(ProgramTest):
+    def test_every_template_is_in_the_gallery(self):
+        names = re.search(r"NAME:\{(.*?)\}", self.call("new", "--help").stdout)[1].split(",")
+        docs = Path(__file__).resolve().parents[2] / "docs"
+        shown = re.findall(r"^## (.+)$", (docs / "gallery.md").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual(sorted(shown), sorted(names), "remedy: scripts/gallery.py")
+        self.assertEqual([name for name in names if not (docs / "images/gallery" / f"{name}.webp").is_file()], [])
+
     def test_templates_can_be_checked_and_run(self):
         for template, spacing in TEMPLATES.items():
             with self.subTest(template):

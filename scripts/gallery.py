@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""The gallery, a page of all templates in the documents: runs each as it stands, draws it, and writes what it shows and costs.
+
+Usage: scripts/gallery.py [TEMPLATE ...]    runs those that are named, or all, where out/gallery has no whole run of them
+       scripts/gallery.py --coarse ...      the same with twice the spacing, where there is no run yet; the page says so
+
+What a template shows is told by the head of its case, what it costs by its run. The pictures go to docs/images/gallery.
+All need about ten minutes of CPU time.
+"""
+import pathlib
+import re
+import sys
+import tempfile
+import textwrap
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "build/release/lib/python3/dist-packages")]
+import tailwater as tw  # noqa: E402
+from PIL import Image  # noqa: E402
+from tailwater.program import call  # noqa: E402
+from tailwater_validation import pictures  # noqa: E402
+from tailwater_validation.run_folder import RunFolder  # noqa: E402
+
+PAGE = ROOT / "docs" / "gallery.md"
+IMAGES = ROOT / "docs" / "images" / "gallery"
+RUNS = ROOT / "out" / "gallery"
+WIDTH = 900  # pixels of a picture
+# s; the moment that is shown, where it is not the end.
+MOMENTS = {"dam-break": 0.8, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0, "sloshing": 4.5, "floating-box": 0.1}
+NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "What its gauges", "What the gauges", "seconds")
+HEAD = """\
+# Gallery
+
+Every template of `tailwater new`, as it stands: `tailwater new NAME my.toml`, then
+
+    tailwater check my.toml && tailwater run my.toml --out my_run --pictures 6
+
+Made by `scripts/gallery.py`. Water is coloured by its speed. CPU time is that of one core of a busy machine:
+{processor}.
+"""
+
+
+def templates():
+    """All names, in the order in which the help tells them."""
+    told = " ".join(call("new", "--help").split())
+    names = re.search(r"NAME:\{(.*?)\}", told)[1].split(",")
+    words = told.partition("REQUIRED ")[2]
+    return sorted(names, key=lambda name: re.search(rf"\b(?<!-){name}\b(?!-)", words).start())
+
+
+def what_it_shows(name):
+    """The first sentences of the case's comment, up to those that are the same in all."""
+    case = tw.Case.template(name)
+    head = re.match(r"(#.*\n)+", case.file.read_text(encoding="utf-8"))[0]
+    comment = " ".join(line.lstrip("# ") for line in head.splitlines())
+    told = []
+    for sentence in re.findall(r".+?[.?](?=\s|$)", comment):
+        if sentence.strip().startswith(NOT_SHOWN):
+            break
+        told.append(sentence.strip())
+    return " ".join(told)
+
+
+def is_whole(folder):
+    return (folder / "summary.json").is_file() and RunFolder(folder).summary.get("status") == "done"
+
+
+def finished(name, may_be_coarse):
+    """A whole run of the template, made if it is not there; in a folder NAME-coarse if it is a coarse one."""
+    folders = [RUNS / name, RUNS / f"{name}-coarse"]
+    for folder in folders[:2 if may_be_coarse else 1]:
+        if is_whole(folder):
+            return RunFolder(folder)
+    print(f"gallery.py: {name}", flush=True)
+    case = tw.Case.template(name)
+    if may_be_coarse:
+        case["particles.spacing"] = f"2*({case['particles.spacing']})"
+    folder = folders[may_be_coarse]
+    case.run(folder, force=folder.exists())
+    return RunFolder(folder)
+
+
+def draw(name, run):
+    """Into docs/images/gallery: a picture of its moment, if there is none of this run."""
+    image_file = IMAGES / f"{name}.webp"
+    if image_file.is_file() and image_file.stat().st_mtime > (run.path / "summary.json").stat().st_mtime:
+        return
+    with tempfile.TemporaryDirectory() as scratch:
+        for picture in (run.path / "pictures").glob("*.png"):
+            picture.unlink()
+        folder = pictures.draw(run, times=[MOMENTS.get(name, run.times[-1])])
+        image = Image.open(next(folder.glob("*.png"))).convert("RGB")
+        image.thumbnail((WIDTH, WIDTH))
+        IMAGES.mkdir(parents=True, exist_ok=True)
+        image.save(image_file, quality=80, method=6)
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def section(name, run):
+    summary = run.summary
+    told = [f"- `{probe}`: {result['words']}" for probe, result in run.results.items()]
+    particles = summary["particles"]
+    coarse = " Shown is a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
+    return "\n".join([
+        f"\n## {name}\n", textwrap.fill(what_it_shows(name) + coarse, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
+        f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
+        f"{summary['time_s']['reached']:.3g} s of water in {duration(summary['cost']['cpu_s'])} of CPU time."
+        + (" Its probes tell:\n" if told else ""), *told]) + "\n"
+
+
+def main(arguments):
+    may_be_coarse = "--coarse" in arguments
+    asked = [word for word in arguments if word != "--coarse"]
+    names = templates()
+    if unknown := [name for name in asked if name not in names]:
+        print(f"{__doc__}\nno template {', '.join(unknown)}", file=sys.stderr)
+        return 2
+    for name in asked or names:
+        draw(name, finished(name, may_be_coarse))
+    if missing := [name for name in names if not any(map(is_whole, (RUNS / name, RUNS / f"{name}-coarse")))]:
+        print(f"gallery.py: no page yet; not run: {', '.join(missing)}")
+        return 0
+    runs = {name: finished(name, True) for name in names}
+    processor = next(iter(runs.values())).summary["machine"]["processor"]
+    text = HEAD.format(processor=processor) + "".join(section(*run) for run in runs.items())
+    PAGE.write_text(text, encoding="utf-8")
+    print(f"gallery.py: {PAGE}, {sum(run.summary['cost']['cpu_s'] for run in runs.values()):.0f} s of CPU time")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
