@@ -16,42 +16,48 @@ KINDS = ("Vertices", "Lines", "Polygons", "Strips")
 CHUNK = 1 << 18  # bytes before compression
 
 
-def append(group, name, values):
-    """To a dataset that grows; a table's row is one value."""
-    values = np.asarray(values)
-    if name not in group:
-        row = values.shape[1:]
-        length = max(1, CHUNK // max(1, values.dtype.itemsize * int(np.prod(row))))
-        group.create_dataset(name, shape=(0, *row), maxshape=(None, *row), chunks=(length, *row), dtype=values.dtype,
-                             compression="gzip", compression_opts=1, shuffle=True)
-    data = group[name]
-    data.resize(len(data) + len(values), axis=0)
-    data[len(data) - len(values):] = values
+class Tables:
+    """Datasets that grow. They stay open: what is closed is packed, and packed anew each time leaves holes in the file."""
+
+    def __init__(self, root):
+        self.root = root
+        self._open = {}
+
+    def append(self, name, values):
+        """A table's row is one value."""
+        values = np.asarray(values)
+        if name not in self._open:
+            row = values.shape[1:]
+            length = max(1, CHUNK // max(1, values.dtype.itemsize * int(np.prod(row))))
+            self._open[name] = self.root.create_dataset(
+                name, shape=(0, *row), maxshape=(None, *row), chunks=(length, *row), dtype=values.dtype, compression="gzip",
+                compression_opts=1, shuffle=True)
+        data = self._open[name]
+        data.resize(len(data) + len(values), axis=0)
+        data[len(data) - len(values):] = values
 
 
-def append_cells(root, count):
+def append_cells(tables, count):
     """Of one time: a vertex for each of `count` points, and nothing else."""
     for kind in KINDS:
         cells = count if kind == "Vertices" else 0
-        group = root.require_group(kind)
-        append(group, "NumberOfCells", np.array([cells]))
-        append(group, "NumberOfConnectivityIds", np.array([cells]))
-        append(group, "Connectivity", np.arange(cells))
-        append(group, "Offsets", np.arange(cells + 1))
+        tables.append(f"{kind}/NumberOfCells", [cells])
+        tables.append(f"{kind}/NumberOfConnectivityIds", [cells])
+        tables.append(f"{kind}/Connectivity", np.arange(cells))
+        tables.append(f"{kind}/Offsets", np.arange(cells + 1))
 
 
-def append_step(root, number, frame, points, names):
+def append_step(tables, number, frame, points, names):
     """`points` were written before it."""
-    steps = root.require_group("Steps")
-    steps.attrs["NSteps"] = number + 1
-    append(steps, "Values", [frame.time])
-    append(steps, "PartOffsets", [number])
-    append(steps, "NumberOfParts", [1])
-    append(steps, "PointOffsets", [points])
+    tables.root.require_group("Steps").attrs["NSteps"] = number + 1
+    tables.append("Steps/Values", [frame.time])
+    tables.append("Steps/PartOffsets", [number])
+    tables.append("Steps/NumberOfParts", [1])
+    tables.append("Steps/PointOffsets", [points])
     for name in ("CellOffsets", "ConnectivityIdOffsets"):
-        append(steps, name, [[points, 0, 0, 0]])
+        tables.append(f"Steps/{name}", [[points, 0, 0, 0]])
     for name in names:
-        append(steps.require_group("PointDataOffsets"), name, [points])
+        tables.append(f"Steps/PointDataOffsets/{name}", [points])
 
 
 def write_steps(file, frames):
@@ -59,19 +65,19 @@ def write_steps(file, frames):
     root = file.create_group("VTKHDF")
     root.attrs["Version"] = VERSION
     root.attrs["Type"] = np.bytes_("PolyData")  # a text of fixed length, as VTK wants it
-    points, names = 0, None
+    tables, points, names = Tables(root), 0, None
     for number, (time, path) in enumerate(frames):
         frame = read_frame(time, path)
         if names is not None and list(frame.fields) != names:
             raise DataError(f"{path}: has the fields {', '.join(frame.fields)}, and the files before it {', '.join(names)}")
         names = list(frame.fields)
         count = len(frame.position)
-        append_step(root, number, frame, points, names)
-        append(root, "NumberOfPoints", [count])
-        append(root, "Points", frame.position)
-        append_cells(root, count)
+        append_step(tables, number, frame, points, names)
+        tables.append("NumberOfPoints", [count])
+        tables.append("Points", frame.position)
+        append_cells(tables, count)
         for name, values in frame.fields.items():
-            append(root.require_group("PointData"), name, values)
+            tables.append(f"PointData/{name}", values)
         points += count
 
 

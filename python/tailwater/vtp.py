@@ -12,7 +12,7 @@ from .errors import DataError
 __all__ = ["read_points"]
 
 TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt64": "<u8", "UInt32": "<u4"}
-START = re.compile(rb'<AppendedData (?:encoding="raw")?>\s*_')
+START = re.compile(rb'<AppendedData\s*(?:encoding="raw")?>\s*_')
 RAW = re.compile(rb'encoding(?: CDATA |=)"raw"')  # in the tag, or before it for all
 
 
