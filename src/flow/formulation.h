@@ -68,6 +68,12 @@ class Discretisation {
   virtual void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const = 0;
 
+  /// The same pairs, seen from the water: what each of these owned fluid particles pushes the walls with, over its
+  /// volume. Each neighbour counts with its `share`, which is 0 for fluid and up to date on ghosts.
+  virtual void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                    std::span<const double> share, const std::vector<double>& pressure,
+                                    std::span<Vec<Dim>> pushes) const = 0;
+
   /// Finds the shifts [m] of owned particles and takes along the fields that change with them. Returns how many would
   /// have been longer than their bound. Collective.
   virtual std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const = 0;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/for_each.h"
+#include "case/formulation.h"
 #include "geometry/from_spec.h"
 #include "sampling/water_lattice.h"
+#include "walls/facing_walls.h"
 #include "walls/halfway.h"
 #include "walls/wall_contact.h"
 
@@ -24,6 +27,10 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
 /// [dx]; edge of the cubes of space of which each rank makes the walls. Around a cube rows are made, and thrown away,
 /// to find out which have room at its border.
 constexpr double cube_over_spacing = 32.0;
+
+bool has_force_probe(const CaseSpec& spec) {
+  return std::ranges::any_of(spec.probes, [](const ProbeTable& probe) { return probe.type == ProbeType::force; });
+}
 
 /// The walls with the rows in this rank's share of space.
 template <int Dim>
@@ -47,6 +54,12 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
     walls.depth.push_back(rubs ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance)
                                : 0.0);
   }
+  walls.share_of_water.assign(walls.particles.size(), 0.0);
+  if (has_force_probe(spec)) {
+    const double radius = traits_of(spec).support * spec.particles.spacing;
+    for_each(walls.particles.size(),
+             [&](std::size_t row) { walls.share_of_water[row] = share_of_water(walls, row, radius); });
+  }
   walls.curvature = find_curvature(walls, spec.particles.spacing, reach);
   walls.is_curved = ranks.any(std::ranges::any_of(walls.curvature, [](const Mat<Dim>& S) { return !S.isZero(0.0); }));
   return walls;
@@ -59,8 +72,6 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   if (gravity.norm() == 0.0) return fluid.box().sizes().maxCoeff() + spacing;
   return fluid.extent_along(gravity.normalized()) + spacing;
 }
-
-bool asks_for_wall_forces(const ProbeTable& probe) { return probe.type == ProbeType::force; }
 
 /// Depth of the water [m] that there may be: at the start, and what open ends bring.
 template <int Dim>
@@ -129,7 +140,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                                       : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
       rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
-      finds_wall_forces(!spec.bodies.empty() || std::ranges::any_of(spec.probes, &asks_for_wall_forces)),
+      finds_wall_forces(!spec.bodies.empty() || has_force_probe(spec)),
+      finds_wall_pressure(has_force_probe(spec)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),

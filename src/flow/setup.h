@@ -49,8 +49,9 @@ struct Setup {
   double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
-  bool finds_wall_forces;  ///< whether a probe or a floating body asks for them
-  bool is_closed;          ///< periodic in every direction: no surface anywhere, pressure known up to a constant
+  bool finds_wall_forces;    ///< whether a probe or a floating body asks for friction and what the last guard does
+  bool finds_wall_pressure;  ///< whether a probe asks for the forces of the pressure too
+  bool is_closed;            ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
   std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet

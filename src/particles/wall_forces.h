@@ -8,16 +8,19 @@
 
 namespace tailwater {
 
-/// Entries of owned particles. On a wall particle: what its pairs with fluid particles do to it. On a fluid particle:
-/// what it does to the wall in front of which the last guard has kept it. Their sum is what the walls have taken from
+/// Entries of owned particles. On a wall particle: what its pairs with fluid particles do to it, of the pressure that
+/// part of it which does not act through the fluid particles. On a fluid particle: that part of its own pairs, and what
+/// it does to the wall in front of which the last guard has kept it. The sum of all is what the walls have taken from
 /// the water's momentum, per time. In 2D per metre of width.
 template <int Dim>
 struct WallForces {
-  std::vector<Vec<Dim>> pressure;  ///< N
-  std::vector<Vec<Dim>> friction;  ///< N
+  std::vector<Vec<Dim>> pressure;       ///< N; on a fluid particle the guard's
+  std::vector<Vec<Dim>> through_water;  ///< N; pressure through a fluid particle, 0 on a wall particle
+  std::vector<Vec<Dim>> friction;       ///< N
 
   void reset(std::size_t owned) {
     pressure.assign(owned, Vec<Dim>::Zero());
+    through_water.assign(owned, Vec<Dim>::Zero());
     friction.assign(owned, Vec<Dim>::Zero());
   }
 };

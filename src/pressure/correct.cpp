@@ -1,5 +1,4 @@
 #include "base/for_each.h"
-#include "pressure/operators.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -19,20 +18,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   add_wall_forces(flow, particles.pressure);
 }
 
-template <int Dim>
-void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
-  if (!flow.setup.finds_wall_forces) return;
-  const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<std::size_t> walls =
-      indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i); });
-  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
-  for_each(walls.size(),
-           [&](std::size_t n) { flow.wall_forces.pressure[walls[n]] -= particles.volume[walls[n]] * pushes[n]; });
-}
-
 template void correct<2>(Flow<2>&, const Prediction<2>&, const WallDrive<2>&, double);
 template void correct<3>(Flow<3>&, const Prediction<3>&, const WallDrive<3>&, double);
-template void add_wall_forces<2>(Flow<2>&, const std::vector<double>&);
-template void add_wall_forces<3>(Flow<3>&, const std::vector<double>&);
 
 }  // namespace tailwater

@@ -12,6 +12,7 @@
 #include "base/assert.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "geometry/facing.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/places.h"
@@ -21,11 +22,11 @@ namespace tailwater {
 namespace {
 
 /// e: the share of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
-/// forces across both of them by one over their angle.
-constexpr double indifference = 0.02;
+/// forces along both of them by one over their angle; ten times as much would mix the walls of a corner of 30 degrees.
+constexpr double indifference = 1e-3;
 
-/// Weight of patches which the particle is not behind, over that of the others. It counts where there are no others.
-constexpr double weight_in_front = 1e-6;
+/// Weight of patches that take no part in a force, over that of the others. It counts where there are no others.
+constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
@@ -82,6 +83,24 @@ struct Shares {
   Mat<Dim> across() const { return normals + indifference * weight * Mat<Dim>::Identity(); }
   /// Of friction.
   Mat<Dim> along() const { return (1.0 + indifference) * weight * Mat<Dim>::Identity() - normals; }
+  Vec<Dim> across_inverse(const Vec<Dim>& force) const { return (across() / weight).inverse() * (force / weight); }
+  Vec<Dim> along_inverse(const Vec<Dim>& force) const { return (along() / weight).inverse() * (force / weight); }
+};
+
+struct PatchWeights {
+  double of_pressure;
+  double of_friction;
+};
+
+template <int Dim>
+struct Sharing {
+  Shares<Dim> of_pressure;
+  Shares<Dim> of_friction;
+
+  void add(double share, const PatchWeights& weights, const Vec<Dim>& n) {
+    of_pressure.add(share * weights.of_pressure, n);
+    of_friction.add(share * weights.of_friction, n);
+  }
 };
 
 template <int Dim>
@@ -170,7 +189,7 @@ class WallForceProbe {
   /// across the wall, is the same there.
   Loads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
     Loads<Dim> loads;
-    loads.pressure = context.wall_forces->pressure[i];
+    loads.pressure = context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
     loads.friction = context.wall_forces->friction[i];
     const Vec<Dim>& x = context.particles.position[i];
     if (!loads.pressure.isZero(0.0)) loads.moment += moment(x, loads.pressure);
@@ -188,44 +207,70 @@ class WallForceProbe {
                      const std::vector<AffineMap<Dim>>& velocity) const {
     const Vec<Dim>& x = context.particles.position[i];
     if (!takes_all_ && !around_chosen_.contains(x)) return {};
-    Shares<Dim> all;
-    Shares<Dim> chosen;
-    for_each_share_near(context.boundary, x, [&](std::int32_t k, double weight, const Vec<Dim>& normal) {
-      all.add(weight, normal);
-      if (chosen_[k] > 0.0) chosen.add(chosen_[k] * weight, normal);
+    const bool is_water = context.particles.is_fluid(i);
+    Sharing<Dim> all;
+    Sharing<Dim> chosen;
+    for_each_share_near(context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
+      all.add(1.0, weight, n);
+      if (chosen_[k] > 0.0) chosen.add(chosen_[k], weight, n);
     });
     Loads<Dim> loads;
-    if (all.weight == 0.0) return takes_all_ ? whole : loads;
-    const Vec<Dim> pressure = (all.across() / all.weight).inverse() * (whole.pressure / all.weight);
-    const Vec<Dim> friction = (all.along() / all.weight).inverse() * (whole.friction / all.weight);
-    loads.pressure = chosen.across() * pressure;
-    loads.friction = chosen.along() * friction;
+    if (all.of_pressure.weight == 0.0) return takes_all_ ? whole : loads;
+    const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
+    const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
+    loads.pressure = chosen.of_pressure.across() * pressure;
+    loads.friction = chosen.of_friction.along() * friction;
     if (has_power_) {
-      for_each_share_near(context.boundary, x, [&](std::int32_t k, double weight, const Vec<Dim>& normal) {
-        const int wall = context.boundary.faces[patches_[k].face].wall;
-        if (chosen_[k] == 0.0 || !moves(wall)) return;
-        Shares<Dim> share;
-        share.add(chosen_[k] * weight, normal);
-        loads.power -= (share.across() * pressure + share.along() * friction).dot(velocity[wall](x));
-      });
+      for_each_share_near(
+          context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
+            const int wall = context.boundary.faces[patches_[k].face].wall;
+            if (chosen_[k] == 0.0 || !moves(wall)) return;
+            Sharing<Dim> share;
+            share.add(chosen_[k], weight, n);
+            const Vec<Dim> force = share.of_pressure.across() * pressure + share.of_friction.along() * friction;
+            loads.power -= force.dot(velocity[wall](x));
+          });
     }
     loads.moment = moment(x, loads.pressure);
     if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
     return loads;
   }
 
-  /// Calls body(k, weight, normal) for each patch k near x that takes a share of the forces there.
-  template <class Body>
-  void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, Body&& body) const {
+  /// Calls visit(k, weight, offset) for each patch k near x, with its weight by size and distance.
+  template <class Visit>
+  void for_each_patch_near(const Vec<Dim>& x, Visit&& visit) const {
     grid_.for_each_near(x, [&](std::int32_t k) {
       const Vec<Dim> offset = x - centres_[k];
       const double squared = offset.squaredNorm();
       if (squared >= reach_ * reach_) return;
       const double nearness = 1.0 - std::sqrt(squared) / reach_;
-      const Vec<Dim>& normal = boundary.faces[patches_[k].face].normal;
-      const bool is_behind = normal.dot(offset) < 0.0;
-      const double size = patches_[k].measure * (is_behind ? 1.0 : weight_in_front);
-      body(k, size * (nearness * nearness) * (nearness * nearness), normal);
+      visit(k, patches_[k].measure * (nearness * nearness) * (nearness * nearness), offset);
+    });
+  }
+
+  /// Calls body(k, weights, normal) for each patch k near a particle at x. Its own patches are those on whose side it
+  /// is: behind the plane for a wall particle, in front of it for water. The pressure's force is for all patches but
+  /// those that face the nearest of these, so that nothing is taken across a gap or through a thin body; friction is
+  /// for its own.
+  template <class Body>
+  void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water, Body&& body) const {
+    const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
+    const auto is_own = [&](std::int32_t k, const Vec<Dim>& offset) {
+      return (normal_of(k).dot(offset) < 0.0) != is_water;
+    };
+    double largest = 0.0;
+    Vec<Dim> own_normal = Vec<Dim>::Zero();
+    for_each_patch_near(x, [&](std::int32_t k, double weight, const Vec<Dim>& offset) {
+      if (weight <= largest || !is_own(k, offset)) return;
+      largest = weight;
+      own_normal = normal_of(k);
+    });
+    for_each_patch_near(x, [&](std::int32_t k, double weight, const Vec<Dim>& offset) {
+      const bool own = is_own(k, offset);
+      const bool takes_pressure = own || !face_each_other<Dim>(normal_of(k), own_normal);
+      body(k,
+           PatchWeights{takes_pressure ? weight : weight_of_others * weight, own ? weight : weight_of_others * weight},
+           normal_of(k));
     });
   }
 

@@ -1,16 +1,17 @@
 // Force, moment and power of the water on walls, or on a part of them: probe "force".
 //
-//   F = sum_w P_w f_w,    M = sum_w (r_w - c) x P_w f_w,    power = -sum_w V_w . P_w f_w
+//   F = sum_i P_i f_i,    M = sum_i (r_i - c) x P_i f_i,    power = -sum_i V_i . P_i f_i
 //
-// f_w is the reaction of the pair forces between wall particle w and the water in the last step (wall_forces.h). So the
-// forces on all walls together are what the water's momentum has lost to them, to round-off. P_w f_w is the part of it
-// that belongs to the chosen part of the walls. With the patches k near w, behind which w stands,
+// f_i is what acts on the walls through particle i in the last step (wall_forces.h): of the pressure's pair forces half
+// through the wall particle and half through the water particle. So the forces on all walls together are what the
+// water's momentum has lost to them, to round-off. P_i f_i is the part of it that belongs to the chosen part of the
+// walls. With the patches k near i,
 //
-//   P_w = sum over chosen k of A_k (sum over all k of A_k)^-1,    A_k = s_k (1 - |r_w - r_k|/R)^4 (n_k n_k^T + e I)
+//   P_i = sum over chosen k of A_k (sum over all k of A_k)^-1,    A_k = s_k (1 - |r_i - r_k|/R)^4 (n_k n_k^T + e I)
 //
-// for pressure; for friction I - n_k n_k^T replaces n_k n_k^T. s is the patch's measure. So behind a corner each wall
-// gets the part of the pressure's force along its own normal; beside a border in a flat wall both parts share it by
-// distance. docs/theory/probes.md derives this, and how well each part is known.
+// for pressure; for friction I - n_k n_k^T replaces n_k n_k^T. s is the patch's measure. So in a corner each wall gets
+// the part of the pressure's force along its own normal, whatever the angle; beside a border in a flat wall both parts
+// share it by distance. docs/theory/probes.md derives this, and how well each part is known.
 #pragma once
 
 #include "case/spec.h"

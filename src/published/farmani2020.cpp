@@ -99,6 +99,22 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
     });
   }
 
+  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
+    const Pairs<Dim>& pairs = flow.pairs();
+    for_each(water.size(), [&](std::size_t n) {
+      const std::size_t i = water[n];
+      pushes[n].setZero();
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+        if (share[pairs.j[k]] == 0.0) continue;
+        pushes[n] +=
+            share[pairs.j[k]] *
+            density_weighted_slope<Dim>(pairs, i, k, flow.state.particles.volume, flow.here.concentration, pressure) *
+            pairs.e(i, k);
+      }
+    });
+  }
+
   std::size_t find_shifts(Flow<Dim>&, double, std::vector<Vec<Dim>>&) const override { return 0; }
 
  private:

@@ -132,6 +132,11 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     find_conservative_pushes(flow, walls, pressure, pushes);
   }
 
+  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
+    find_conservative_pushes_on_walls(flow, water, share, pressure, pushes);
+  }
+
   std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const override {
     Particles<Dim>& particles = flow.state.particles;
     const std::size_t capped = find_published_shifts<Dim>(shifting_, dt, flow.pairs(), particles, flow.here, shifts);

@@ -43,6 +43,8 @@ class RobustDiscretisation final : public Discretisation<Dim> {
                      std::span<Vec<Dim>> gradient) const override;
   void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
                    std::span<Vec<Dim>> pushes) const override;
+  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override;
   std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const override;
 
  private:

@@ -29,6 +29,13 @@ void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>& flow, std::span<con
 }
 
 template <int Dim>
+void RobustDiscretisation<Dim>::find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                                     std::span<const double> share, const std::vector<double>& pressure,
+                                                     std::span<Vec<Dim>> pushes) const {
+  find_conservative_pushes_on_walls(flow, water, share, pressure, pushes);
+}
+
+template <int Dim>
 void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> divergence) {
   const std::vector<Four> in_single = in_fours(velocity);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
@@ -55,16 +62,40 @@ void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                             \
-  template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,         \
-                                                         std::span<Vec<Dim>>) const;                           \
-  template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,        \
-                                                           std::span<double>) const;                           \
-  template void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>&, std::span<const std::size_t>,         \
-                                                       const std::vector<double>&, std::span<Vec<Dim>>) const; \
-  template void find_standard_divergence<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::span<double>); \
-  template void find_conservative_pushes<Dim>(const Flow<Dim>&, std::span<const std::size_t>,                  \
-                                              const std::vector<double>&, std::span<Vec<Dim>>);
+template <int Dim>
+void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                       std::span<const double> share, const std::vector<double>& pressure,
+                                       std::span<Vec<Dim>> pushes) {
+  const std::vector<double>& volume = flow.state.particles.volume;
+  for_each(water.size(), [&](std::size_t n) {
+    const std::size_t i = water[n];
+    VecSum<Dim> sum;
+    const Lanes own_volume = in_all_lanes(volume[i]);
+    const Lanes own = in_all_lanes(pressure[i]);
+    for_each_pair(flow.pairs(), i, [&](const auto& several) {
+      const PairVectorLanes<Dim> pair = flow.here.pair_vectors(several);
+      sum += several.of(share) * (own_volume * pair.place.volume() * (own + several.of(pressure)) * pair.a);
+    });
+    pushes[n] = sum.total() / volume[i];
+  });
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
+  template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,               \
+                                                         std::span<Vec<Dim>>) const;                                 \
+  template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,              \
+                                                           std::span<double>) const;                                 \
+  template void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>&, std::span<const std::size_t>,               \
+                                                       const std::vector<double>&, std::span<Vec<Dim>>) const;       \
+  template void RobustDiscretisation<Dim>::find_pushes_on_walls(const Flow<Dim>&, std::span<const std::size_t>,      \
+                                                                std::span<const double>, const std::vector<double>&, \
+                                                                std::span<Vec<Dim>>) const;                          \
+  template void find_standard_divergence<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::span<double>);       \
+  template void find_conservative_pushes<Dim>(const Flow<Dim>&, std::span<const std::size_t>,                        \
+                                              const std::vector<double>&, std::span<Vec<Dim>>);                      \
+  template void find_conservative_pushes_on_walls<Dim>(const Flow<Dim>&, std::span<const std::size_t>,               \
+                                                       std::span<const double>, const std::vector<double>&,          \
+                                                       std::span<Vec<Dim>>);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

@@ -14,4 +14,10 @@ template <int Dim>
 void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes);
 
+/// Likewise Discretisation::find_pushes_on_walls.
+template <int Dim>
+void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                       std::span<const double> share, const std::vector<double>& pressure,
+                                       std::span<Vec<Dim>> pushes);
+
 }  // namespace tailwater

@@ -21,21 +21,23 @@ namespace tailwater {
 /// those that this rank keeps of walls at rest, each of these two by number, then halo rows (shared_rows.h).
 template <int Dim>
 struct Walls {
-  Boundary<Dim> boundary;           ///< faces
-  WallParticles<Dim> particles;     ///< the table that Particles::wall_row points into
-  std::vector<double> friction;     ///< lambda of each row of the table: 0 free slip, 1 no slip
-  std::vector<double> roughness;    ///< m; k_s of each row
-  std::vector<double> depth;        ///< m; of each row behind its wall, where it has friction
-  std::vector<Mat<Dim>> curvature;  ///< 1/m; of each row's wall as it is drawn (halfway.h)
-  bool is_curved = false;           ///< whether any wall is; on all ranks the same
-  std::size_t moving = 0;           ///< rows of walls that move
-  std::size_t kept = 0;             ///< rows without halo rows
-  std::int64_t all = 0;             ///< rows of the case, of all ranks
+  Boundary<Dim> boundary;              ///< faces
+  WallParticles<Dim> particles;        ///< the table that Particles::wall_row points into
+  std::vector<double> friction;        ///< lambda of each row of the table: 0 free slip, 1 no slip
+  std::vector<double> roughness;       ///< m; k_s of each row
+  std::vector<double> depth;           ///< m; of each row behind its wall, where it has friction
+  std::vector<Mat<Dim>> curvature;     ///< 1/m; of each row's wall as it is drawn (halfway.h)
+  std::vector<double> share_of_water;  ///< of the force of a pair; for a force probe, as drawn (facing_walls.h)
+  bool is_curved = false;              ///< whether any wall is; on all ranks the same
+  std::size_t moving = 0;              ///< rows of walls that move
+  std::size_t kept = 0;                ///< rows without halo rows
+  std::int64_t all = 0;                ///< rows of the case, of all ranks
 
   /// Calls body with references to all that rows have.
   template <class Body>
   void apply_to_rows(Body&& body) {
-    particles.apply_to_fields([&](auto&... field) { body(field..., friction, roughness, depth, curvature); });
+    particles.apply_to_fields(
+        [&](auto&... field) { body(field..., friction, roughness, depth, curvature, share_of_water); });
   }
 };
 

@@ -46,14 +46,17 @@ ProbeTable on_walls(ProbeType type, const Coordinates& moment_about) {
   return probe;
 }
 
-/// Some force through every owned wall particle.
+/// Some force through every owned particle.
 template <int Dim>
 WallForces<Dim> made_forces(const Particles<Dim>& particles) {
   WallForces<Dim> forces;
   forces.reset(particles.owned);
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (particles.is_fluid(i)) continue;
     const Vec<Dim>& x = particles.position[i];
+    if (particles.is_fluid(i)) {
+      forces.through_water[i] = Vec<Dim>::Constant(std::cos(4.0 * x[0] + 2.0 * x[Dim - 1]));
+      continue;
+    }
     forces.pressure[i] = Vec<Dim>::Constant(std::sin(7.0 * x[0] + 3.0 * x[Dim - 1]));
     forces.friction[i][0] = std::cos(5.0 * x[0] - x[Dim - 1]);
   }

@@ -8,8 +8,7 @@
 #include "base/error.h"
 #include "flow/verbs.h"
 #include "pressure/verbs.h"
-#include "probes/wall_force.h"
-#include "schemes/cases.h"
+#include "schemes/force_reader.h"
 #include "support/dimensions.h"
 
 namespace tailwater {
@@ -18,47 +17,6 @@ namespace {
 /// Relative; what is left of sums of 1e5 forces of pairs, each up to 1e2 times as large as a particle's weight, in
 /// units of the whole weight of 1e2 particles at least: eps 1e5 1e2/1e2, and ten times that.
 constexpr double rounding = 2e-10;
-
-ProbeTable force_probe(Coordinates about, std::vector<std::string> walls = {}) {
-  ProbeTable probe;
-  probe.name = "force";
-  probe.type = ProbeType::force;
-  probe.walls = std::move(walls);
-  probe.moment_about = std::move(about);
-  return probe;
-}
-
-/// What probe `which` of the case reads of the last step.
-template <int Dim>
-class Reader {
- public:
-  Reader(const CaseSpec& spec, const Flow<Dim>& flow, std::size_t which = 0)
-      : flow_(flow), reading_(force_reading<Dim>(spec.probes[which], spec, flow.walls.boundary)) {}
-
-  Row row(double dt) const {
-    return reading_
-        .take({.particles = flow_.state.particles,
-               .grid = flow_.neighbourhood.grid(),
-               .kernel = flow_.setup.kernel,
-               .boundary = flow_.walls.boundary,
-               .density = flow_.setup.density,
-               .gravity = flow_.setup.gravity,
-               .spacing = flow_.setup.spacing,
-               .time = flow_.state.time,
-               .totals = {},
-               .domain = flow_.setup.domain,
-               .dt = dt,
-               .wall_forces = &flow_.wall_forces})
-        .at(0);
-  }
-  Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>(row(dt).data()); }
-  double power(double dt) const { return row(dt).back(); }
-  const Reading<Dim>& reading() const { return reading_; }
-
- private:
-  const Flow<Dim>& flow_;
-  Reading<Dim> reading_;
-};
 
 template <int Dim>
 struct Momentum {

@@ -1,0 +1,55 @@
+#include "base/for_each.h"
+#include "pressure/operators.h"
+#include "pressure/verbs.h"
+#include "walls/facing_walls.h"
+
+namespace tailwater {
+namespace {
+
+/// The share of a pair's force that acts through its fluid particle, by wall particle, ghosts included; 0 at fluid.
+template <int Dim>
+std::vector<double> shares_of_water(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const bool rests = flow.setup.wall_motion.moving().empty();
+  std::vector<double> share(particles.size(), 0.0);
+  for_each(particles.size(), [&](std::size_t i) {
+    if (particles.is_fluid(i) || !flow.here.is_wet[i]) return;
+    const auto row = static_cast<std::size_t>(particles.wall_row[i]);
+    share[i] =
+        rests ? flow.walls.share_of_water[row] : share_of_water(flow.walls, row, kernel_radius(flow.setup.kernel));
+  });
+  return share;
+}
+
+}  // namespace
+
+template <int Dim>
+void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
+  if (!flow.setup.finds_wall_pressure) return;
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::vector<double> share = shares_of_water(flow);
+  std::vector<std::size_t> walls;
+  std::vector<std::size_t> water;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: lists
+    if (!particles.is_fluid(i)) {
+      walls.push_back(i);
+    } else if (flow.pairs().sees_wall[i] != 0) {
+      water.push_back(i);
+    }
+  }
+  WallForces<Dim>& forces = flow.wall_forces;
+  std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
+  for_each(walls.size(), [&](std::size_t n) {
+    const std::size_t i = walls[n];
+    forces.pressure[i] -= (1.0 - share[i]) * particles.volume[i] * pushes[n];
+  });
+  pushes.resize(water.size());
+  flow.discretisation().find_pushes_on_walls(flow, water, share, pressure, pushes);
+  for_each(water.size(),
+           [&](std::size_t n) { forces.through_water[water[n]] += particles.volume[water[n]] * pushes[n]; });
+}
+
+template void add_wall_forces<2>(Flow<2>&, const std::vector<double>&);
+template void add_wall_forces<3>(Flow<3>&, const std::vector<double>&);
+
+}  // namespace tailwater

@@ -1,0 +1,173 @@
+// Forces on the walls of corners and edges: each wall has its own, whatever the angle (docs/theory/probes.md).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flow/verbs.h"
+#include "geometry/meshes.h"
+#include "pressure/verbs.h"
+#include "schemes/force_reader.h"
+
+namespace tailwater {
+namespace {
+
+using Outline = std::vector<Coordinates>;
+
+/// Walls of one chain, with the water on its left, each with a probe.
+CaseSpec chain_of_walls(double dx, double level, const Outline& corners) {
+  CaseSpec spec;
+  spec.particles.spacing = dx;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    WallTable wall;
+    wall.name = "wall" + std::to_string(k);
+    wall.points = {corners[k], corners[k + 1]};
+    spec.walls.push_back(wall);
+    spec.probes.push_back(force_probe(corners[k], {wall.name}));
+  }
+  FluidTable water;
+  water.shape = BlockShape::fill;
+  water.seed = {0.1, 0.1};
+  water.level = level;
+  spec.fluid = {water};
+  return spec;
+}
+
+/// Hydrostatic force (x, y) on one of these walls, and its moment about its first corner.
+Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
+  const double level = spec.fluid[0].level;
+  const Outline& points = spec.walls[which].points;
+  Vec<2> a(points[0].data());
+  Vec<2> b(points[1].data());
+  const Vec<2> corner = a;
+  if (a[1] > level) a = b + (level - b[1]) / (a[1] - b[1]) * (a - b);
+  if (b[1] > level) b = a + (level - a[1]) / (b[1] - a[1]) * (b - a);
+  const double weight = spec.physics.density * g;
+  const double pa = weight * (level - a[1]);
+  const double pb = weight * (level - b[1]);
+  const Vec<2> out(b[1] - a[1], a[0] - b[0]);  // across the wall, times its length
+  const Vec<2> force = 0.5 * (pa + pb) * out;
+  // Across the wall a force p has the moment arm along it; Simpson's rule is exact.
+  const Vec<2> along = (b - a).normalized();
+  const double from = (a - corner).dot(along);
+  const double to = (b - corner).dot(along);
+  const double arm = (pa * from + 2.0 * (pa + pb) * 0.5 * (from + to) + pb * to) / 6.0;
+  return {force[0], force[1], -arm * (b - a).norm()};
+}
+
+/// Means of what all probes read over the second half of `steps` from rest.
+template <int Dim>
+std::vector<Row> mean_forces(const CaseSpec& spec, int steps) {
+  Flow<Dim> flow = make_flow<Dim>(spec);
+  std::vector<Row> sums(spec.probes.size());
+  double duration = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const double dt = step(flow).dt;
+    if (2 * n < steps) continue;
+    duration += dt;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const Row row = Reader<Dim>(spec, flow, k).row(dt);
+      sums[k].resize(row.size(), 0.0);
+      for (std::size_t c = 0; c < row.size(); ++c) sums[k][c] += dt * row[c];
+    }
+  }
+  for (Row& row : sums) {
+    for (double& value : row) value /= duration;
+  }
+  return sums;
+}
+
+class LeaningWall : public testing::TestWithParam<double> {};
+
+/// 20 rows of water at rest below a wall that leans over it: 1 %.
+TEST_P(LeaningWall, HasTheForceOfWaterAtRest) {
+  const double angle = GetParam() * std::numbers::pi / 180.0;
+  const double length = 0.6 / std::tan(angle) + 0.2;
+  const CaseSpec spec =
+      chain_of_walls(0.02, 0.4, {{0.0, 0.6}, {0.0, 0.0}, {length, 0.0}, {length - 0.6 / std::tan(angle), 0.6}});
+  const std::vector<Row> means = mean_forces<2>(spec, 120);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const Vec<3> expected = hydrostatic(spec, k);
+    const double scale = expected.head<2>().norm();
+    EXPECT_NEAR(means[k][0], expected[0], 0.01 * scale) << k;
+    EXPECT_NEAR(means[k][1], expected[1], 0.01 * scale) << k;
+    EXPECT_NEAR(means[k][6], expected[2], 0.01 * std::abs(expected[2])) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, LeaningWall, testing::Values(60.0, 45.0, 30.0),
+                         [](const auto& angle) { return std::to_string(static_cast<int>(angle.param)); });
+
+/// A sill with a slope of 30 degrees up and an upright face down: its edges are of the body, its feet of the water.
+TEST(Sill, EachFaceHasTheForceOfWaterAtRest) {
+  const double toe = 0.4 + 0.2 / std::tan(std::numbers::pi / 6.0);
+  const CaseSpec spec = chain_of_walls(0.02, 0.4,
+                                       {{0.0, 0.6},
+                                        {0.0, 0.0},
+                                        {0.4, 0.0},
+                                        {toe, 0.2},
+                                        {toe + 0.3, 0.2},
+                                        {toe + 0.3, 0.0},
+                                        {toe + 0.7, 0.0},
+                                        {toe + 0.7, 0.6}});
+  const std::vector<Row> means = mean_forces<2>(spec, 120);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const Vec<3> expected = hydrostatic(spec, k);
+    const double scale = expected.head<2>().norm();
+    EXPECT_NEAR(means[k][0], expected[0], 0.01 * scale) << k;
+    EXPECT_NEAR(means[k][1], expected[1], 0.01 * scale) << k;
+  }
+}
+
+/// Across a gap of three rows of water each wall has its own force: it does not act through the water between them,
+/// where the forces on both would cancel.
+TEST(NarrowGap, BothWallsHaveTheirForce) {
+  const double dx = 0.1;
+  const double p = 3000.0;
+  CaseSpec spec = chain_of_walls(dx, 1.0, {{0.0, 1.0}, {0.0, 0.0}, {0.3, 0.0}, {0.3, 1.0}});
+  spec.fluid[0].level = 0.9999;
+  Flow<2> flow = make_flow<2>(spec);
+  locate(flow);
+  flow.wall_forces.reset(flow.state.particles.owned);
+  add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
+  // What the open end lacks is the same for both (p <r>/pi).
+  EXPECT_NEAR(Reader<2>(spec, flow, 0).force()[0], -p * 1.0, 0.35 * p * dx);
+  EXPECT_NEAR(Reader<2>(spec, flow, 2).force()[0], p * 1.0, 0.35 * p * dx);
+}
+
+/// Ten rows of water at rest between two side walls, below a mesh that leans over it by 60 degrees. At ten rows 2 %.
+TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
+  const double dx = 0.04;
+  const double level = 0.4;
+  const double width = 0.32;
+  const double toe = 0.6;
+  const double slope = 1.0 / std::tan(std::numbers::pi / 3.0);
+  TriangleMesh mesh = testing_cases::sheet_mesh(1, [](double, double) { return 0.0; });
+  for (Vec<3>& x : mesh.points) {
+    const double z = 0.9 * x[1] - 0.2;
+    x = {toe - slope * z, (width + 0.4) * x[0] - 0.2, z};
+  }
+  const testing_cases::MeshFolder folder;
+  CaseSpec spec = tank_case<3>(dx, 0.8, level);
+  spec.walls[0].max[1] = width;
+  WallTable lean = folder.wall(mesh, FluidSide::below);
+  lean.name = "lean";
+  spec.walls.push_back(lean);
+  spec.fluid[0] = FluidTable{};
+  spec.fluid[0].shape = BlockShape::fill;
+  spec.fluid[0].seed = {0.1, 0.1, 0.1};
+  spec.fluid[0].level = level;
+  spec.probes = {force_probe({0.0, 0.0, 0.0}, {"lean"}), force_probe({0.0, 0.0, 0.0})};
+  const std::vector<Row> means = mean_forces<3>(spec, 60);
+  const double across = 0.5 * spec.physics.density * g * level * level * width;
+  const double scale = across * std::hypot(1.0, slope);
+  EXPECT_NEAR(means[0][0], across, 0.02 * scale);
+  EXPECT_NEAR(means[0][1], 0.0, 0.02 * scale);
+  EXPECT_NEAR(means[0][2], across * slope, 0.02 * scale);
+}
+
+}  // namespace
+}  // namespace tailwater
