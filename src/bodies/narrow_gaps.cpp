@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; water in a narrower gap is held. Results are the same from 0.6 to 0.9. With 0.5 water from both sides piles up
+/// [dx]; water in a narrower gap is held. From 0.6 to 0.9 results are similar. With 0.5 water from both sides piles up
 /// in the gap; with 1 water at its rim, held, lets none in as it opens.
 constexpr double closed_gap = 0.75;
 /// [dx]; a row of particles has room in a wider gap.
@@ -78,12 +78,16 @@ void NarrowGaps<Dim>::find_rim(double time) {
   const CellGrid<Dim> grid(places, reach_of_neighbours * dx);
   for (Piece& piece : pieces_) {
     Vec<Dim> inward = Vec<Dim>::Zero();
+    bool is_alone = true;
     grid.for_each_near(piece.x, [&](std::int32_t n) {
       const Vec<Dim> way = pieces_[n].x - piece.x;
-      if (pieces_[n].body == piece.body && way.norm() < reach_of_neighbours * dx) inward += way;
+      if (&pieces_[n] == &piece || pieces_[n].body != piece.body || way.norm() >= reach_of_neighbours * dx) return;
+      inward += way;
+      is_alone = false;
     });
-    if (pieces_.size() > 1 && inward.norm() < least_lopsidedness * dx) continue;
-    const Vec<Dim> beside = piece.x + 0.5 * dx * piece.normal - dx * inward.stableNormalized();
+    if (!is_alone && inward.norm() < least_lopsidedness * dx) continue;
+    Vec<Dim> beside = piece.x + 0.5 * dx * piece.normal;
+    if (!is_alone) beside -= dx * inward.normalized();
     piece.is_at_rim = std::ranges::all_of(contact.each, [&](const ContactSurface<Dim>& surface) {
       if (surface.wall >= 0 || (surface.body >= 0 && surface.body != piece.body)) return true;
       const AffineMap<Dim> placement =
