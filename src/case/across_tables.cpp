@@ -146,6 +146,27 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
 }
 
+/// Enclosed air acts in the robust formulation, on walls whose motion is known.
+void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const toml::node* node = root["air"]["pockets"].node();
+  if (spec.air.pockets == AirPockets::none || node == nullptr) return;
+  const auto wrong = [&](const std::string& message) {
+    problems.add(&node->source(), fmt::format("air.pockets = {}: {}", value_text(*node), message));
+  };
+  const std::string_view why_not = traits_of(spec).no_pockets;
+  if (!why_not.empty()) {
+    wrong(fmt::format("is not possible with scheme.formulation = \"{}\": {}; choose \"{}\", or \"{}\" pockets",
+                      name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust),
+                      name_of(AirPockets::none)));
+  }
+  if (!spec.bodies.empty()) {
+    wrong(
+        fmt::format("is not possible with floating bodies yet, whose motion is found with the pressure; give their "
+                    "walls a motion, or choose \"{}\"",
+                    name_of(AirPockets::none)));
+  }
+}
+
 /// Studies change parts of the robust formulation; the published ones have none of these.
 void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const toml::table* study = root["study"].as_table();
@@ -179,6 +200,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_levels_of_fills(spec, root, problems);
   check_names_of_driven_walls(spec, root, problems);
   check_bodies(spec, root, problems);
+  check_air(spec, root, problems);
   check_study(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }

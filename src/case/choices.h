@@ -13,6 +13,7 @@ enum class WallShape { polyline, polygon, box, mesh, plate };
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
 enum class Slip { free, no_slip, partial };
 enum class Turbulence { none, spalart_allmaras };
+enum class AirPockets { none, adiabatic, isothermal };
 enum class AxisDirection { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z };
 enum class MakerType { piston, flap };
 enum class WaveKind { regular, solitary, jonswap, none };
@@ -72,6 +73,10 @@ struct Choices<Slip> {
 template <>
 struct Choices<Turbulence> {
   static constexpr std::array<std::string_view, 2> names{"none", "spalart-allmaras"};
+};
+template <>
+struct Choices<AirPockets> {
+  static constexpr std::array<std::string_view, 3> names{"none", "adiabatic", "isothermal"};
 };
 template <>
 struct Choices<AxisDirection> {

@@ -7,6 +7,8 @@ constexpr std::string_view not_exact =
     "its viscous and pressure forces on the water have no equal and opposite force on the wall";
 constexpr std::string_view not_one_projection =
     "the force on a body must be the reaction of that on the water, and move both by their new velocities";
+constexpr std::string_view has_marked_surface =
+    "its pressure is 0 at marked particles of the surface, and no air acts on them";
 
 bool is_published(const SchemeTable& scheme) { return scheme.formulation == Formulation::published; }
 
@@ -16,10 +18,10 @@ FormulationTraits traits_of(const CaseSpec& spec) {
   const bool is_two_step = spec.scheme.name == SchemeName::farmani2020;
   if (!is_published(spec.scheme)) {
     const bool moves_with_mean = is_two_step || spec.study.displacement == Displacement::mean_velocity;
-    return {spec.study.support, {.on_wall = false, .behind = true}, "", moves_with_mean ? not_one_projection : ""};
+    return {spec.study.support, {.on_wall = false, .behind = true}, "", moves_with_mean ? not_one_projection : "", ""};
   }
-  if (is_two_step) return {2.4, {.on_wall = true, .behind = true}, "", not_one_projection};
-  return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection};
+  if (is_two_step) return {2.4, {.on_wall = true, .behind = true}, "", not_one_projection, has_marked_surface};
+  return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection, has_marked_surface};
 }
 
 void apply_formulation(SchemeTable& scheme) {

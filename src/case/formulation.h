@@ -19,6 +19,7 @@ struct FormulationTraits {
   WallPlacement walls;           ///< where the particles of walls stand
   std::string_view no_reaction;  ///< why forces on walls cannot be measured; empty if they can
   std::string_view no_floating;  ///< why bodies cannot float; empty if they can
+  std::string_view no_pockets;   ///< why enclosed air cannot be a gas; empty if it can
 };
 
 FormulationTraits traits_of(const CaseSpec& spec);

@@ -130,6 +130,22 @@ struct ParticlesTable {
   }
 };
 
+/// Air that water and walls enclose. Air that reaches the open has the pressure 0 of the water's equations.
+struct AirTable {
+  AirPockets pockets = AirPockets::none;
+  double pressure = 101325.0;
+
+  bool operator==(const AirTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.choice("pockets", self.pockets,
+             "What air is that water and walls enclose: nothing, as the open air; or a gas whose pressure follows from "
+             "its volume, and which keeps its heat (adiabatic) or its temperature (isothermal) (docs/theory/air.md)");
+    v.number("pressure", self.pressure, "Pa", Range::above(0.0), "Absolute pressure of the atmosphere");
+  }
+};
+
 /// Directions in which the domain repeats itself; an empty range: not periodic.
 struct DomainTable {
   std::vector<double> periodic_x;
@@ -837,6 +853,7 @@ struct CaseSpec {
   std::vector<Parameter> parameters;
   CaseTable general;
   PhysicsTable physics;
+  AirTable air;
   ParticlesTable particles;
   DomainTable domain;
   std::vector<FluidTable> fluid;
@@ -865,6 +882,7 @@ struct CaseSpec {
   static void describe(Self& self, Visitor& v) {
     v.table("case", self.general, "The case as a whole");
     v.table("physics", self.physics, "Fluid and gravity");
+    v.table("air", self.air, "Air that water and walls enclose");
     v.table("particles", self.particles, "Resolution and initial arrangement");
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");

@@ -47,6 +47,30 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   return particles;
 }
 
+/// Looks at the walls in a run, for the box around all places where they are.
+constexpr int looks_at_moving_walls = 1000;
+
+template <int Dim>
+AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
+  if (spec.air.pockets == AirPockets::none) return {};
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+  for (const OpenEnd<Dim>& end : setup.open_ends) {
+    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
+  }
+  MotionState<Dim> start;
+  start.wave_makers.resize(setup.wave_plates.size());
+  for (const auto& moving : setup.wall_motion.moving()) {
+    for (int k = 0; k <= looks_at_moving_walls; ++k) {
+      const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
+      for (const WallFace<Dim>& face : boundary.faces) {
+        if (face.wall == moving.wall) box.extend(moved(placement, face).box());
+      }
+    }
+  }
+  return AirWatch<Dim>(spec.air, box, setup.spacing, setup.domain);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -63,6 +87,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, c
       pressure_rows(ranks),
       pressure_solver(spec.pressure_solver,
                       {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = setup.keeps_matrix() ? 3 : 2}),
+      air(make_air_watch(spec, setup, drawing.walls.boundary)),
       walls(std::move(drawing.walls)),
       shared_rows(std::move(drawing.shared_rows)),
       near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {

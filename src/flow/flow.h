@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "air/air_watch.h"
 #include "closures/surroundings.h"
 #include "flow/loads.h"
 #include "flow/role.h"
@@ -35,12 +36,14 @@ struct Flow {
   Neighbourhood<Dim> neighbourhood;
   LinearSystem pressure_rows;
   LinearSolver pressure_solver;
+  AirWatch<Dim> air;
 
   // Now.
   Walls<Dim> walls;                  ///< at their present positions
   SharedRows<Dim> shared_rows;       ///< where other rows are, if there are other ranks
   NearWalls<Dim> near_walls;         ///< which rows are among the particles
   Surroundings<Dim> here;            ///< as `locate` found them
+  PocketSides<Dim> sides;            ///< where the rows of the pressure look into pockets of air
   bool is_located = false;           ///< whether no particle has moved since
   bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them

@@ -63,6 +63,15 @@ class Discretisation {
   virtual void find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                              std::span<Vec<Dim>> gradient) const = 0;
 
+  /// The weights of the air in the finished rows of these owned particles of water, in the rows' unit. Asked only where
+  /// air has a pressure, which is the robust formulation's.
+  virtual void find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                                std::span<double> weights) const;
+
+  /// Gradient of a pressure field at these owned particles of water; likewise.
+  virtual void find_gradient_at(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                                const std::vector<double>& pressure, std::span<Vec<Dim>> gradient) const;
+
   /// What each of these owned wall particles pushes the fluid with by a pressure field, over its volume [the field's
   /// unit * m^(Dim - 1)]: the reactions of its shares in the gradients at its fluid neighbours.
   virtual void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,

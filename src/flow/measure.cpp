@@ -58,6 +58,21 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+AirMeasures measure_air(const Flow<Dim>& flow) {
+  const std::vector<AirPocket>& pockets = flow.state.air.pockets;
+  AirMeasures air{.pockets = pockets.size()};
+  double largest = 0.0;
+  for (const AirPocket& pocket : pockets) {
+    air.volume += pocket.volume;
+    air.energy += flow.air.law().energy(pocket.gas, pocket.volume);
+    if (pocket.volume <= largest) continue;
+    largest = pocket.volume;
+    air.pressure = flow.air.law().pressure(pocket.gas, pocket.volume);
+  }
+  return air;
+}
+
+template <int Dim>
 double largest_speed(const Flow<Dim>& flow) {
   return flow.setup.ranks.largest(largest_speed_of_rank(flow));
 }
@@ -95,11 +110,14 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.departed += end.departed;
     measures.arrived += end.arrived;
   }
+  measures.air = measure_air(flow);
   return measures;
 }
 
 template FluidSums fluid_sums_of_rank<2>(const Flow<2>&);
 template FluidSums fluid_sums_of_rank<3>(const Flow<3>&);
+template AirMeasures measure_air<2>(const Flow<2>&);
+template AirMeasures measure_air<3>(const Flow<3>&);
 template double largest_speed<2>(const Flow<2>&);
 template double largest_speed<3>(const Flow<3>&);
 template FlowMeasures measure<2>(const Flow<2>&);

@@ -23,6 +23,14 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);
 
+/// What is in pockets of enclosed air.
+struct AirMeasures {
+  std::size_t pockets = 0;
+  double volume = 0.0;    ///< m^Dim; of all
+  double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
+  double energy = 0.0;    ///< J; of all the gas (air/gas_law.h)
+};
+
 /// The measures at the end of a step.
 struct FlowMeasures {
   double largest_speed = 0.0;       ///< m/s
@@ -33,9 +41,13 @@ struct FlowMeasures {
   double density_error_largest = 0.0;
   Passed departed;  ///< through all open ends, and below all walls, since the start
   Passed arrived;
+  AirMeasures air;
 
   double energy() const { return kinetic_energy + potential_energy; }
 };
+
+template <int Dim>
+AirMeasures measure_air(const Flow<Dim>& flow);
 
 /// Collective.
 template <int Dim>

@@ -58,6 +58,7 @@ bool remove_outflow(Flow<Dim>& flow) {
       indices_where(particles.owned, [&](std::size_t i) { return leaves_by[i] == stays; });
   const bool some_left = kept.size() != particles.owned;
   if (!flow.setup.ranks.any(some_left)) return false;
+  flow.air.forget_responses();
   for (std::size_t w = 0; w <= falls; ++w) {
     Passed passed = sum_over(particles.owned, Passed{}, [&](std::size_t i) -> Passed {
       if (leaves_by[i] != w) return {};

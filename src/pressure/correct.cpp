@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "pressure/pockets.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -14,6 +15,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
     if (flow.role[i] != Role::water) return;
     particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
   });
+  push_by_pockets(flow, dt);
   flow.state.wall_velocity = drive.velocity;
   add_wall_forces(flow, particles.pressure);
 }

@@ -87,7 +87,7 @@ template <int Dim>
 Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                  const PosedEquation& equation, double dt) {
   return {density_work(flow, equation, dt), wall_work(flow, dt), end_work(flow, dt),
-          viscous_work(flow, start, predicted, dt)};
+          viscous_work(flow, start, predicted, dt), flow.setup.ranks.is_root() ? flow.sides.work : 0.0};
 }
 
 template <int Dim>
@@ -97,7 +97,8 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   FluidSums sums = fluid_sums_of_rank(flow);
   double change = sums.energy - start.energy;
   Works& work = report.work;
-  setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, change, sums.mass, sums.kinetic_energy);
+  setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, work.air, change, sums.mass,
+                       sums.kinetic_energy);
 
   const double doubt = in_doubt * (std::abs(work.walls) + std::abs(work.ends) + report.dragged());
   const double g = setup.gravity.norm();

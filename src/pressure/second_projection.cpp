@@ -4,6 +4,7 @@
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/operators.h"
+#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
@@ -51,6 +52,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
+  take_out_air(flow);
   lift_to_zero<Dim>(flow, fullness, particles.pressure, correction);
   admit(flow, correction);
   flow.halo().exchange(correction);
@@ -63,6 +65,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   });
   add_wall_forces(flow, correction);
   finish_pressure(flow, drive);
+  put_back_air(flow);
   return second;
 }
 

@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "pressure/full_water.h"
+#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
@@ -50,6 +51,7 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallD
   const double tolerance = flow.pressure_solver.tolerance();
   Particles<Dim>& particles = flow.state.particles;
   // The guess is what this projection found last.
+  take_out_air(flow);
   for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
   PressureReport report;
   if (flow.setup.has_air()) {
@@ -66,7 +68,9 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallD
   }
   flow.forget_matrix();
   report.interventions.fallback_rows = equation.fallback_rows;
+  report.iterations += flow.sides.iterations;
   finish_pressure(flow, drive);
+  add_air(flow, equation.dt);
   return report;
 }
 

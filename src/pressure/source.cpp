@@ -3,6 +3,7 @@
 
 #include "base/for_each.h"
 #include "pressure/full_water.h"
+#include "pressure/pockets.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -23,11 +24,13 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
                        const WallDrive<Dim>& drive, double dt) {
   PressureSource source = flow.discretisation().find_source(flow, predicted.velocity, target, dt);
   PosedEquation equation;
+  equation.dt = dt;
   equation.fullness = find_fullness(flow);
   take_out_mean(flow, equation.fullness, source.rows);
   take_out_mean(flow, equation.fullness, source.density);
   equation.density_source = std::move(source.density);
   equation.fallback_rows = assemble_weights(flow, drive);
+  pose_pockets<Dim>(flow, predicted.velocity, dt);
   const std::vector<double>& beside = equation.density_source;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;

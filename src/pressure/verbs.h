@@ -27,6 +27,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 struct PosedEquation {
   std::size_t fallback_rows = 0;
   std::vector<double> density_source;  ///< Pa/m^2; PressureSource::density
+  double dt = 0.0;                     ///< s
   double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
 };
 

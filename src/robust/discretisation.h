@@ -41,6 +41,10 @@ class RobustDiscretisation final : public Discretisation<Dim> {
                        std::span<double> divergence) const override;
   void find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                      std::span<Vec<Dim>> gradient) const override;
+  void find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                        std::span<double> weights) const override;
+  void find_gradient_at(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                        const std::vector<double>& pressure, std::span<Vec<Dim>> gradient) const override;
   void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
                    std::span<Vec<Dim>> pushes) const override;
   void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,

@@ -17,6 +17,16 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
 }
 
 template <int Dim>
+void RobustDiscretisation<Dim>::find_gradient_at(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                                                 const std::vector<double>& pressure,
+                                                 std::span<Vec<Dim>> gradient) const {
+  const std::vector<double>& volume = flow.state.particles.volume;
+  for_each(particles.size(), [&](std::size_t n) {
+    gradient[n] = conservative_gradient<Dim>(flow.pairs(), particles[n], volume, flow.here.pair_vectors, pressure);
+  });
+}
+
+template <int Dim>
 void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity,
                                                 std::span<double> divergence) const {
   find_standard_divergence(flow, velocity, divergence);
@@ -83,6 +93,8 @@ void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const st
 #define TAILWATER_INSTANTIATE(Dim)                                                                                   \
   template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,               \
                                                          std::span<Vec<Dim>>) const;                                 \
+  template void RobustDiscretisation<Dim>::find_gradient_at(const Flow<Dim>&, std::span<const std::size_t>,          \
+                                                            const std::vector<double>&, std::span<Vec<Dim>>) const;  \
   template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,              \
                                                            std::span<double>) const;                                 \
   template void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>&, std::span<const std::size_t>,               \

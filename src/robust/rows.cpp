@@ -44,6 +44,16 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
 
 }  // namespace
 
+template <int Dim>
+void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                                                 std::span<double> weights) const {
+  for_each(particles.size(), [&](std::size_t n) {
+    const std::size_t i = particles[n];
+    const double air = laws_.air.weight(flow.pressure_rows.sum_of_weights(i), flow.setup.lattice.morris);
+    weights[n] = air * (1.0 - flow.here.interior[i]);
+  });
+}
+
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
@@ -77,8 +87,10 @@ std::size_t RobustDiscretisation<Dim>::write_rows(Flow<Dim>& flow) const {
   return 0;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                        \
-  template double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>&, std::size_t, double) const; \
+#define TAILWATER_INSTANTIATE(Dim)                                                                          \
+  template void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>&, std::span<const std::size_t>, \
+                                                            std::span<double>) const;                       \
+  template double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>&, std::size_t, double) const;   \
   template std::size_t RobustDiscretisation<Dim>::write_rows(Flow<Dim>&) const;
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

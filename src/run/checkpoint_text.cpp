@@ -121,6 +121,44 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
   return body;
 }
 
+nlohmann::json json_of(const AirState& air) {
+  const auto& [pockets, begun, ended, way, gas_found, gas_lost, energy_lost, energy_set] = air;
+  nlohmann::json json{{"begun", begun},
+                      {"ended", ended},
+                      {"way", way},
+                      {"gas_found", gas_found},
+                      {"gas_lost", gas_lost},
+                      {"energy_lost", energy_lost},
+                      {"energy_set", energy_set},
+                      {"pockets", nlohmann::json::array()}};
+  for (const auto& [number, gas, volume, torn, cells] : pockets) {
+    std::vector<std::int32_t> runs;
+    for (const auto& [row, begin, end] : cells) runs.insert(runs.end(), {row, begin, end});
+    json["pockets"].push_back(
+        {{"number", number}, {"gas", gas}, {"volume", volume}, {"torn", torn}, {"cells", std::move(runs)}});
+  }
+  return json;
+}
+
+AirState air_of(const nlohmann::json& json) {
+  AirState air{{},
+               json.at("begun"),
+               json.at("ended"),
+               json.at("way"),
+               json.at("gas_found"),
+               json.at("gas_lost"),
+               json.at("energy_lost"),
+               json.at("energy_set")};
+  for (const nlohmann::json& each : json.at("pockets")) {
+    AirPocket pocket{each.at("number"), each.at("gas"), each.at("volume"), each.at("torn"), {}};
+    const auto runs = each.at("cells").get<std::vector<std::int32_t>>();
+    require_fit(runs.size() % 3 == 0 && pocket.gas >= 0.0 && pocket.volume > 0.0, "air");
+    for (std::size_t k = 0; k < runs.size(); k += 3) pocket.cells.push_back({runs[k], runs[k + 1], runs[k + 2]});
+    air.pockets.push_back(std::move(pocket));
+  }
+  return air;
+}
+
 }  // namespace
 
 void require_fit(bool condition, const char* part) {
@@ -131,12 +169,13 @@ template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
   const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
-               density_share, fallen] = checkpoint.state;
+               density_share, air, fallen] = checkpoint.state;
   nlohmann::json json{{"time", time},
                       {"step", step},
                       {"approach", approach},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
+                      {"air", json_of(air)},
                       {"fallen", json_of(fallen)},
                       {"reference_step", checkpoint.reference_step},
                       {"open_ends", nlohmann::json::array()},
@@ -160,6 +199,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
+  state.air = air_of(json.at("air"));
   state.fallen = passed_of(json.at("fallen"));
   checkpoint.reference_step = json.at("reference_step");
   for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));

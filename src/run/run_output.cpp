@@ -70,6 +70,27 @@ nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
   return discharges;
 }
 
+/// What became of enclosed air, and what there is of it.
+template <int Dim>
+nlohmann::ordered_json pockets_of(const Flow<Dim>& flow) {
+  const AirState& air = flow.state.air;
+  nlohmann::ordered_json now = nlohmann::ordered_json::array();
+  for (const AirPocket& pocket : air.pockets) {
+    now.push_back({{"number", pocket.number},
+                   {"volume_m3", pocket.volume},
+                   {"gas_m3", pocket.gas},
+                   {"pressure_Pa", flow.air.law().pressure(pocket.gas, pocket.volume)}});
+  }
+  return {{"begun", air.begun},
+          {"ended", air.ended},
+          {"gas_found_m3", air.gas_found},
+          {"gas_lost_m3", air.gas_lost},
+          {"energy_J", measure_air(flow).energy},
+          {"energy_lost_J", air.energy_lost},
+          {"energy_set_J", air.energy_set},
+          {"now", std::move(now)}};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -93,7 +114,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       fields_schedule_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
                                                          : spec.time.end / default_field_files),
       cpu_start_(cpu_seconds_of_process()) {
-  do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), kept_bytes(kept, "steps")); });
+  do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), flow.air.is_on(), kept_bytes(kept, "steps")); });
   if (kept != nullptr) take_up(*kept);
 }
 
@@ -317,6 +338,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                                     {"ranks", rank_log_.json()}};
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
+  if (flow.air.is_on()) summary["pockets"] = pockets_of(flow);
   nlohmann::ordered_json discharges = discharges_of(flow);
   if (!discharges.empty()) summary["discharge"] = std::move(discharges);
   for (const auto& [probe, lines] : probes_.summaries()) {

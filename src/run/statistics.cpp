@@ -32,8 +32,10 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   energy_in_ = measures.arrived.energy;
   brought_by_walls_ += report.brought_by_walls();
   brought_by_ends_ += report.work.ends;
+  brought_by_air_ += report.work.air;
   viscous_work_ += report.work.viscous;
-  const double accounted = energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_;
+  const double accounted =
+      energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_ - brought_by_air_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.work.density;
@@ -66,6 +68,7 @@ void RunStatistics::for_each_sum(Self& self, Body&& body) {
   body("energy_in", self.energy_in_);
   body("brought_by_walls", self.brought_by_walls_);
   body("brought_by_ends", self.brought_by_ends_);
+  body("brought_by_air", self.brought_by_air_);
   body("viscous_work", self.viscous_work_);
   body("energy_least", self.energy_least_);
   body("energy_rise", self.energy_rise_);
@@ -116,6 +119,7 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
         {"in_J", energy_in_},
         {"brought_by_walls_J", brought_by_walls_},
         {"brought_by_open_ends_J", brought_by_ends_},
+        {"brought_by_air_J", brought_by_air_},
         {"viscous_work_J", viscous_work_},
         {"largest_rise_J", energy_rise_},
         {"largest_rise_over_start", over_start(energy_rise_)},

@@ -48,6 +48,7 @@ class RunStatistics {
   double energy_in_ = 0.0;   ///< J; energy of the water that came in
   double brought_by_walls_ = 0.0;
   double brought_by_ends_ = 0.0;
+  double brought_by_air_ = 0.0;
   double viscous_work_ = 0.0;
   double energy_least_;  ///< J; least energy so far, inside plus out minus in, without what walls and open ends brought
   double energy_rise_ = 0.0;

@@ -9,6 +9,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   assign_roles(flow);
   hold_open_ends(flow, dt);
   steer_wave_makers(flow);
+  watch_air(flow, dt);
   const StepStart<Dim> start = remember(flow);
   steer_bodies(flow, start, dt);
   StepReport report = flow.setup.formulation.take_step(flow, start, dt);

@@ -1,0 +1,127 @@
+#include "air/air_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "walls/wall_contact.h"
+
+namespace tailwater {
+namespace {
+
+/// [dx]; within which a particle of water or of a wall covers cells: water that is stretched and disordered has no
+/// holes then.
+constexpr double cover = 1.1;
+
+/// [dx]; how far water may go between two looks: a cell.
+constexpr double way_between_looks = 0.5;
+
+}  // namespace
+
+template <int Dim>
+AirWatch<Dim>::AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim>& box, double spacing,
+                        const PeriodicDomain<Dim>& domain)
+    : law_(air), spacing_(spacing) {
+  const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
+  if (air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
+  grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing, domain);
+}
+
+template <int Dim>
+bool AirWatch<Dim>::is_due(const AirState& state) const {
+  return is_on() && (!has_looked_ || state.way >= way_between_looks * spacing_);
+}
+
+template <int Dim>
+void AirWatch<Dim>::forget() {
+  has_looked_ = false;
+  forget_responses();
+}
+
+/// Marks the cells near a row of a wall that are behind walls.
+template <int Dim>
+void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMarks& tested, CellMarks& solid) const {
+  const Boundary<Dim>& boundary = walls.boundary;
+  const Vec<Dim>& x = walls.particles.position[row];
+  const bool moves = boundary.walls[walls.particles.wall[row]].moves();
+  grid_->visit_ball(x, cover * spacing_, [&](int r, int begin, int end) {
+    for (int place = tested.next(r, begin, end, false); place < end; place = tested.next(r, place + 1, end, false)) {
+      const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
+      const NearestWall<Dim> nearest = boundary.nearest(centre, search_distance * spacing_);
+      if (nearest.face < 0) continue;
+      const WallProperties& wall = boundary.walls[boundary.faces[nearest.face].wall];
+      if ((wall.moves() && !moves) || wall.is_plate) {
+        // It is behind this row's wall only as far as the row itself is.
+        if ((centre - x).cwiseAbs().maxCoeff() <= 0.5 * spacing_) solid.mark(r, place, place + 1);
+        continue;
+      }
+      tested.mark(r, place, place + 1);
+      if (nearest.signed_distance <= -0.5 * grid_->edge().maxCoeff()) solid.mark(r, place, place + 1);
+    }
+  });
+}
+
+/// Marks the cells near a row of a plate that are so near to it that no step through the sides of cells passes it.
+template <int Dim>
+void AirWatch<Dim>::mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const {
+  const Boundary<Dim>& boundary = walls.boundary;
+  const double reach = 0.51 * std::sqrt(static_cast<double>(Dim)) * grid_->edge().maxCoeff();
+  grid_->visit_ball(walls.particles.position[row], cover * spacing_, [&](int r, int begin, int end) {
+    for (int place = plates.next(r, begin, end, false); place < end; place = plates.next(r, place + 1, end, false)) {
+      const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
+      for (const int s : boundary.screens_near(centre, reach)) {
+        const Screen<Dim>& screen = boundary.screens[s];
+        if (screen.distance(centre) <= reach) plates.mark(r, place, place + 1);
+      }
+    }
+  });
+}
+
+template <int Dim>
+void AirWatch<Dim>::mark_rows(const Walls<Dim>& walls, std::size_t from, std::size_t to, CellMarks& solid,
+                              CellMarks& plates) const {
+  CellMarks tested(grid_->rows(), grid_->length());
+  for (std::size_t row = from; row < to; ++row) {
+    if (walls.boundary.walls[walls.particles.wall[row]].is_plate) {
+      mark_plate(walls, row, plates);
+    } else {
+      mark_wall(walls, row, tested, solid);
+    }
+  }
+}
+
+template <int Dim>
+void AirWatch<Dim>::mark_resting(const Walls<Dim>& walls, const Communicator& ranks) {
+  resting_ = CellMarks(grid_->rows(), grid_->length());
+  resting_plates_ = resting_;
+  mark_rows(walls, walls.moving, walls.kept, resting_, resting_plates_);
+  ranks.unite(resting_.words());
+  ranks.unite(resting_plates_.words());
+  knows_walls_ = true;
+}
+
+template <int Dim>
+void AirWatch<Dim>::look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
+                         const Communicator& ranks, AirState& state) {
+  if (!knows_walls_) mark_resting(walls, ranks);
+  CellMarks solid = resting_;
+  CellMarks water = resting_plates_;
+  if (walls.moving > 0) mark_rows(walls, 0, walls.moving, solid, water);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: marks cells that others mark too
+    if (!particles.is_fluid(i)) continue;
+    grid_->visit_ball(particles.position[i], cover * spacing_,
+                      [&](int row, int begin, int end) { water.mark(row, begin, end); });
+  }
+  ranks.unite(water.words());
+  const Voids<Dim> voids(*grid_, water, solid);
+  std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, law_, state);
+  space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, found);
+  const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
+  wall_flow_ = space_.wall_flow(walls.boundary, velocity, ranks);
+  take_over(std::move(found), volumes, spacing_, law_, state);
+  has_looked_ = true;
+}
+
+template class AirWatch<2>;
+template class AirWatch<3>;
+
+}  // namespace tailwater

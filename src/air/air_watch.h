@@ -1,0 +1,102 @@
+// Looks for pockets of air every few steps, and tells particles what they see of them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "air/pocket_space.h"
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+/// Owned water that looks into pockets.
+template <int Dim>
+struct PocketSide {
+  std::size_t particle;
+  std::vector<PocketShare> shares;
+  double weight = 0.0;               ///< of the air in its row of the pressure equation, in the row's unit
+  Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; what air at 1 Pa all around pushes it with, per volume
+};
+
+/// The pockets in one step: where water looks into them, and what they do.
+template <int Dim>
+struct PocketSides {
+  std::vector<PocketSide<Dim>> water;
+  std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
+  std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
+  std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
+  int iterations = 0;               ///< of the solves for the responses
+  double work = 0.0;                ///< J; that the gas has done
+
+  /// Pa; of the air beside water.
+  double pressure_at(const PocketSide<Dim>& side) const {
+    double sum = 0.0;
+    for (const PocketShare& share : side.shares) sum += share.share * pressure[share.pocket];
+    return sum;
+  }
+};
+
+template <int Dim>
+class AirWatch {
+ public:
+  /// Of a case in which enclosed air is nothing.
+  AirWatch() = default;
+  /// Of walls that all are within `box` during the whole run.
+  AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim>& box, double spacing,
+           const PeriodicDomain<Dim>& domain);
+
+  bool is_on() const { return grid_ != nullptr; }
+  const GasLaw& law() const { return law_; }
+
+  /// Whether water may have gone far since the last look.
+  bool is_due(const AirState& state) const;
+
+  /// The velocity [m/s] of a wall at a place.
+  using WallVelocity = std::function<Vec<Dim>(int wall, const Vec<Dim>& x)>;
+
+  /// Looks for the pockets of this moment. Collective.
+  void look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
+            const Communicator& ranks, AirState& state);
+
+  /// Forgets what the last look has found, and the responses. Call when particles have been shared out and sorted.
+  void forget();
+
+  std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
+  /// m^Dim/s; by which moving walls make each pocket grow.
+  const std::vector<double>& wall_flow() const { return wall_flow_; }
+
+  /// The same of the responses alone. Call when the order of particles has changed otherwise.
+  void forget_responses() {
+    responses_.clear();
+    air_pressure_.clear();
+  }
+
+  /// The answer of the pressure to 1 Pa in a pocket, one entry per particle: for a guess of the next.
+  std::vector<double>& response(std::int64_t pocket) { return responses_[pocket]; }
+  /// Pa; what the air alone makes of the pressure, one entry per particle at the last solve: of all pockets their
+  /// pressure times the response.
+  std::vector<double>& air_pressure() { return air_pressure_; }
+  const std::vector<double>& air_pressure() const { return air_pressure_; }
+
+ private:
+  void mark_wall(const Walls<Dim>& walls, std::size_t row, CellMarks& tested, CellMarks& solid) const;
+  void mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const;
+  void mark_rows(const Walls<Dim>& walls, std::size_t from, std::size_t to, CellMarks& solid, CellMarks& plates) const;
+  void mark_resting(const Walls<Dim>& walls, const Communicator& ranks);
+
+  std::shared_ptr<const VoidGrid<Dim>> grid_;
+  GasLaw law_;
+  double spacing_ = 0.0;
+  bool knows_walls_ = false;
+  CellMarks resting_;         ///< behind walls that rest
+  CellMarks resting_plates_;  ///< beside plates that rest
+  bool has_looked_ = false;
+  PocketSpace<Dim> space_;
+  std::vector<double> wall_flow_;
+  std::map<std::int64_t, std::vector<double>> responses_;  ///< by the number of the pocket
+  std::vector<double> air_pressure_;
+};
+
+}  // namespace tailwater

@@ -1,0 +1,302 @@
+#include "air/pocket_space.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tailwater {
+namespace {
+
+/// Cells beside a pocket that its space holds: particles see air within 6 cells, and stand as far from it.
+constexpr int margin = 13;
+
+/// omega is the mean of four indicators: of what is within 3, 4, 5 and 6 cells of the pocket. They differ by the
+/// distance of two rows of particles, so the row in which they cut the water does not matter.
+constexpr int first_cut = 3;
+constexpr int last_cut = 6;
+
+double weight_of_layer(int layer) {
+  return static_cast<double>(last_cut + 1 - std::max(layer, first_cut)) / (last_cut + 1 - first_cut);
+}
+
+/// [dx]; within which a particle sees air.
+constexpr double sight = 3.0;
+
+/// That the cube of a particle can be in: three along each axis, or four where cells are a little smaller than dx/2.
+constexpr std::size_t most_cells = 64;
+
+}  // namespace
+
+template <int Dim>
+PocketSpace<Dim>::PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double spacing, const Voids<Dim>& voids,
+                              const CellMarks& walls, std::span<const FoundPocket> pockets)
+    : grid_(std::move(grid)), spacing_(spacing), pockets_(static_cast<int>(pockets.size())) {
+  if (pockets.empty()) return;
+  frame(pockets);
+  fill(voids, walls, pockets);
+  grow();
+}
+
+template <int Dim>
+void PocketSpace<Dim>::frame(std::span<const FoundPocket> pockets) {
+  Cell high{};
+  for (int d = 0; d < Dim; ++d) {
+    low_[d] = std::numeric_limits<int>::max();
+    for (const FoundPocket& found : pockets) {
+      for (const CellRun& run : found.pocket.cells) {
+        low_[d] = std::min(low_[d], grid_->cell(run.row, run.begin)[d]);
+        high[d] = std::max(high[d], grid_->cell(run.row, run.end - 1)[d]);
+      }
+    }
+    low_[d] = grid_->repeats(d) ? 0 : std::max(0, low_[d] - margin);
+    high[d] = grid_->repeats(d) ? grid_->count(d) - 1 : std::min(grid_->count(d) - 1, high[d] + margin);
+    count_[d] = high[d] - low_[d] + 1;
+  }
+}
+
+template <int Dim>
+std::int64_t PocketSpace<Dim>::place(const Cell& c) const {
+  std::int64_t place = 0;
+  for (int d = 0; d < Dim; ++d) {
+    const int k = c[d] - low_[d];
+    if (k < 0 || k >= count_[d]) return -1;
+    place = place * count_[d] + k;
+  }
+  return place;
+}
+
+/// Whether a place, in cells, is in this space. Nothing outside sees a pocket or counts in its volume.
+template <int Dim>
+bool PocketSpace<Dim>::is_inside(const Vec<Dim>& at) const {
+  for (int d = 0; d < Dim; ++d) {
+    if (!grid_->repeats(d) && (at[d] < low_[d] || at[d] > low_[d] + count_[d])) return false;
+  }
+  return true;
+}
+
+/// Calls visit(place, cell) for all cells in order.
+template <int Dim>
+template <class Visit>
+void PocketSpace<Dim>::visit_cells(Visit&& visit) const {
+  Cell c = low_;
+  for (std::size_t place = 0; place < owner_.size(); ++place) {
+    visit(static_cast<std::int64_t>(place), c);
+    for (int axis = Dim - 1; axis >= 0 && ++c[axis] == low_[axis] + count_[axis]; --axis) c[axis] = low_[axis];
+  }
+}
+
+/// Calls visit(place, cell) for the cells beside `c`.
+template <int Dim>
+template <class Visit>
+void PocketSpace<Dim>::visit_sides(const Cell& c, Visit&& visit) const {
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const int direction : {-1, 1}) {
+      Cell other = c;
+      if (!grid_->step(other, axis, direction)) continue;
+      const std::int64_t k = place(other);
+      if (k >= 0) visit(k, other);
+    }
+  }
+}
+
+template <int Dim>
+void PocketSpace<Dim>::set(const CellRun& run, std::int16_t owner) {
+  Cell c = grid_->cell(run.row, std::max<int>(run.begin, low_[Dim - 1]));
+  const int end = std::min<int>(run.end, low_[Dim - 1] + count_[Dim - 1]);
+  if (c[Dim - 1] >= end) return;
+  const std::int64_t first = place(c);
+  if (first >= 0) std::fill_n(owner_.begin() + first, end - c[Dim - 1], owner);
+}
+
+template <int Dim>
+void PocketSpace<Dim>::fill(const Voids<Dim>& voids, const CellMarks& walls, std::span<const FoundPocket> pockets) {
+  std::size_t cells = 1;
+  for (const int count : count_) cells *= static_cast<std::size_t>(count);
+  owner_.assign(cells, in_water);
+  layer_.assign(cells, 0);
+  visit_cells([&](std::int64_t k, const Cell& c) {
+    if (walls(grid_->row_of(c), c[Dim - 1])) owner_[k] = behind_wall;
+  });
+  for (const CellRun& run : voids.runs()) set(run, open_air);
+  for (std::size_t p = 0; p < pockets.size(); ++p) {
+    for (const CellRun& run : pockets[p].pocket.cells) set(run, static_cast<std::int16_t>(p + 1));
+  }
+}
+
+/// Gives the cells of the water to the air that is nearest, in steps through the sides of cells.
+template <int Dim>
+void PocketSpace<Dim>::grow() {
+  std::vector<Cell> front;
+  visit_cells([&](std::int64_t k, const Cell& c) {
+    if (owner_[k] < 0) return;
+    bool is_beside_water = false;
+    visit_sides(c, [&](std::int64_t other, const Cell&) { is_beside_water |= owner_[other] == in_water; });
+    if (is_beside_water) front.push_back(c);
+  });
+  std::vector<Cell> next;
+  for (int layer = 1; layer <= last_cut; ++layer, front.swap(next)) {
+    next.clear();
+    for (const Cell& c : front) {
+      const std::int16_t owner = owner_[place(c)];
+      visit_sides(c, [&](std::int64_t k, const Cell& other) {
+        if (owner_[k] != in_water) return;
+        owner_[k] = owner;
+        layer_[k] = static_cast<std::int8_t>(layer);
+        next.push_back(other);
+      });
+    }
+  }
+}
+
+template <int Dim>
+double PocketSpace<Dim>::in_front(const Cell& c, const Boundary<Dim>& boundary) const {
+  bool is_beside_wall = false;
+  Cell first;
+  for (int d = 0; d < Dim; ++d) first[d] = -1;
+  for (Cell way = first;;) {
+    Cell other = c;
+    bool is_cell = true;
+    for (int d = 0; d < Dim; ++d) {
+      other[d] += way[d];
+      is_cell = grid_->wrap(d, other[d]) && is_cell;
+    }
+    const std::int64_t k = is_cell ? place(other) : -1;
+    is_beside_wall = is_beside_wall || (k >= 0 && owner_[k] == behind_wall);
+    int axis = 0;
+    for (; axis < Dim && ++way[axis] > 1; ++axis) way[axis] = -1;
+    if (axis == Dim) break;
+  }
+  if (!is_beside_wall) return 1.0;
+  const NearestWall<Dim> nearest = boundary.nearest(grid_->centre(c), spacing_);
+  if (nearest.face < 0 || boundary.walls[boundary.faces[nearest.face].wall].is_plate) return 1.0;
+  return std::clamp(0.5 + nearest.signed_distance / grid_->edge().maxCoeff(), 0.0, 1.0);
+}
+
+template <int Dim>
+double PocketSpace<Dim>::weight_of(std::int64_t place) const {
+  return place >= 0 && owner_[place] > 0 ? weight_of_layer(layer_[place]) : 0.0;
+}
+
+/// Takes the water of one particle out of the volumes. What of its cube is behind walls is in front of them in truth.
+template <int Dim>
+void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const {
+  const Vec<Dim> at = grid_->in_cells(x);
+  if (!is_inside(at)) return;
+  Cell first;
+  Cell cells;
+  for (int d = 0; d < Dim; ++d) {
+    const double half = 0.5 * spacing_ / grid_->edge()[d];
+    first[d] = static_cast<int>(std::floor(at[d] - half + 0.5));
+    cells[d] = static_cast<int>(std::floor(at[d] + half + 0.5)) - first[d] + 1;
+  }
+  std::array<std::pair<int, double>, most_cells> taken;  // by pocket
+  std::size_t count = 0;
+  double all = 0.0;
+  Cell way{};
+  for (int axis = 0; axis < Dim;) {
+    Cell c;
+    double part = 1.0;
+    bool is_cell = true;
+    for (int d = 0; d < Dim; ++d) {
+      c[d] = first[d] + way[d];
+      const double half = 0.5 * spacing_ / grid_->edge()[d];
+      part *= std::max(0.0, std::min(c[d] + 0.5, at[d] + half) - std::max(c[d] - 0.5, at[d] - half));
+      is_cell = grid_->wrap(d, c[d]) && is_cell;
+    }
+    const std::int64_t k = is_cell ? place(c) : -1;
+    if (k < 0 || owner_[k] != behind_wall) all += part;
+    const double weight = weight_of(k);
+    if (weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
+    for (axis = 0; axis < Dim && ++way[axis] == cells[axis]; ++axis) way[axis] = 0;
+  }
+  for (std::size_t n = 0; n < count; ++n) volumes[taken[n].first] -= volume * taken[n].second / all;
+}
+
+template <int Dim>
+std::vector<double> PocketSpace<Dim>::volumes(const Boundary<Dim>& boundary, const Particles<Dim>& particles,
+                                              const Communicator& ranks) const {
+  std::vector<double> volumes(pockets_, 0.0);
+  if (pockets_ == 0) return volumes;
+  visit_cells([&](std::int64_t k, const Cell& c) {
+    const double weight = weight_of(k);
+    const bool is_mine = grid_->row_of(c) % ranks.size() == ranks.rank();
+    if (weight > 0.0 && is_mine) volumes[owner_[k] - 1] += weight * grid_->cell_volume() * in_front(c, boundary);
+  });
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: sums by pocket
+    if (particles.is_fluid(i)) take_water(particles.position[i], particles.volume[i], volumes);
+  }
+  ranks.sum_of_each(volumes);
+  for (double& volume : volumes) volume = std::max(volume, grid_->cell_volume());
+  return volumes;
+}
+
+template <int Dim>
+std::vector<double> PocketSpace<Dim>::wall_flow(const Boundary<Dim>& boundary,
+                                                const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
+                                                const Communicator& ranks) const {
+  std::vector<double> flow(pockets_, 0.0);
+  const bool moves = std::ranges::any_of(boundary.walls, [](const WallProperties& wall) { return wall.moves(); });
+  if (pockets_ == 0 || !moves) return flow;
+  visit_cells([&](std::int64_t k, const Cell& c) {
+    // Water covers a step more of a wall than it wets.
+    if (owner_[k] <= 0 || layer_[k] > 1 || grid_->row_of(c) % ranks.size() != ranks.rank()) return;
+    visit_sides(c, [&](std::int64_t other, const Cell& beside) {
+      if (owner_[other] != behind_wall) return;
+      const Vec<Dim> x = grid_->centre(c);
+      const NearestWall<Dim> nearest = boundary.nearest(x, spacing_);
+      if (nearest.face < 0 || !boundary.walls[boundary.faces[nearest.face].wall].moves()) return;
+      Vec<Dim> area = Vec<Dim>::Zero();  // of the side, towards the wall
+      for (int d = 0; d < Dim; ++d) {
+        const int way = beside[d] - c[d];
+        if (way != 0)
+          area[d] = (std::abs(way) == 1 ? way : -way / std::abs(way)) * grid_->cell_volume() / grid_->edge()[d];
+      }
+      flow[owner_[k] - 1] += area.dot(velocity(boundary.faces[nearest.face].wall, x));
+    });
+  });
+  ranks.sum_of_each(flow);
+  return flow;
+}
+
+template <int Dim>
+std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
+  std::vector<PocketShare> shares;
+  if (pockets_ == 0) return shares;
+  const Vec<Dim> at = grid_->in_cells(x);
+  if (!is_inside(at)) return shares;
+  double all = 0.0;
+  grid_->visit_ball(x, sight * spacing_, [&](int row, int begin, int end) {
+    Cell c = grid_->cell(row, begin);
+    double beside = 0.0;
+    for (int d = 0; d < Dim - 1; ++d) {
+      double way = (c[d] - at[d]) * grid_->edge()[d];
+      if (grid_->repeats(d)) way = std::remainder(way, grid_->count(d) * grid_->edge()[d]);
+      beside += way * way;
+    }
+    for (; c[Dim - 1] < end; ++c[Dim - 1]) {
+      const std::int64_t k = place(c);
+      if (k < 0 || owner_[k] < 0 || layer_[k] > 0) continue;
+      double way = (c[Dim - 1] - at[Dim - 1]) * grid_->edge()[Dim - 1];
+      if (grid_->repeats(Dim - 1)) way = std::remainder(way, grid_->length() * grid_->edge()[Dim - 1]);
+      const double weight = 1.0 - (beside + way * way) / (sight * spacing_ * sight * spacing_);
+      all += weight;
+      if (owner_[k] == open_air) continue;
+      const int pocket = owner_[k] - 1;
+      const auto known = std::ranges::find(shares, pocket, &PocketShare::pocket);
+      if (known == shares.end()) {
+        shares.push_back({pocket, weight});
+      } else {
+        known->share += weight;
+      }
+    }
+  });
+  for (PocketShare& share : shares) share.share /= all;
+  return shares;
+}
+
+template class PocketSpace<2>;
+template class PocketSpace<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,84 @@
+// The space in and around pockets, cell by cell: which air a cell is of, or of which it is the nearest. From it follow
+// the volume of a pocket, and how much of the air beside a particle is its.
+//
+// Water covers cells within 1.1 dx of its particles, so that it has no holes; it reaches some 0.5 dx beyond its surface
+// then. The volume of a pocket is therefore not that of its void cells. It is, with shares omega from 1 near the
+// pocket to 0 some 3 dx inside the water,
+//
+//   V = sum over cells c of omega_c |c| - sum over water j of w_j omega(j),
+//
+// where |c| is the part of the cell in front of walls, and omega(j) the mean over the cube of edge dx around j: a
+// lattice of such cubes leaves no gap, so V is exact above one. Cells between two pockets count for the nearer.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "air/pockets.h"
+#include "geometry/boundary.h"
+#include "parallel/communicator.h"
+#include "particles/particles.h"
+
+namespace tailwater {
+
+/// What a particle sees of a pocket.
+struct PocketShare {
+  int pocket;    ///< index
+  double share;  ///< of all air beside it
+};
+
+template <int Dim>
+class PocketSpace {
+ public:
+  PocketSpace() = default;
+  PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double spacing, const Voids<Dim>& voids,
+              const CellMarks& walls, std::span<const FoundPocket> pockets);
+
+  /// The volume of each pocket [m^Dim], that of a cell at least; collective.
+  std::vector<double> volumes(const Boundary<Dim>& boundary, const Particles<Dim>& particles,
+                              const Communicator& ranks) const;
+
+  /// By how much walls that move make each pocket grow [m^Dim/s], if velocity(wall, x) is that of a wall at x [m/s];
+  /// collective.
+  std::vector<double> wall_flow(const Boundary<Dim>& boundary,
+                                const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
+                                const Communicator& ranks) const;
+
+  /// Which share of the air near x is of which pocket; nothing where there is no pocket.
+  std::vector<PocketShare> shares_at(const Vec<Dim>& x) const;
+
+ private:
+  using Cell = typename VoidGrid<Dim>::Cell;
+
+  /// What a cell is of.
+  enum : std::int16_t { behind_wall = -2, in_water = -1, open_air = 0 };  // else 1 + index of the pocket
+
+  void frame(std::span<const FoundPocket> pockets);
+  void fill(const Voids<Dim>& voids, const CellMarks& walls, std::span<const FoundPocket> pockets);
+  void grow();
+  bool is_inside(const Vec<Dim>& at) const;
+  /// The place of a cell of the grid in this space; -1 if it is outside.
+  std::int64_t place(const Cell& c) const;
+  template <class Visit>
+  void visit_cells(Visit&& visit) const;
+  template <class Visit>
+  void visit_sides(const Cell& c, Visit&& visit) const;
+  void set(const CellRun& run, std::int16_t owner);
+  /// The part of a cell in front of walls, from 0 to 1.
+  double in_front(const Cell& c, const Boundary<Dim>& boundary) const;
+  double weight_of(std::int64_t place) const;
+  void take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const;
+
+  std::shared_ptr<const VoidGrid<Dim>> grid_;
+  double spacing_ = 0.0;
+  int pockets_ = 0;
+  Cell low_{};    ///< the first cell of this space
+  Cell count_{};  ///< its cells
+  std::vector<std::int16_t> owner_;
+  std::vector<std::int8_t> layer_;  ///< steps from the air that owns it
+};
+
+}  // namespace tailwater

@@ -1,0 +1,257 @@
+#include "pressure/pockets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "pressure/solve_rows.h"
+
+namespace tailwater {
+namespace {
+
+/// Newton's method on a convex law, which may not more than halve a volume in a step.
+constexpr int most_steps = 50;
+constexpr double settled = 1e-10;  // of the atmosphere
+
+template <int Dim>
+std::vector<std::size_t> particles_of(const PocketSides<Dim>& sides) {
+  std::vector<std::size_t> particles;
+  for (const PocketSide<Dim>& side : sides.water) particles.push_back(side.particle);
+  return particles;
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> gradient_at_sides(const Flow<Dim>& flow, const std::vector<double>& pressure) {
+  const std::vector<std::size_t> particles = particles_of(flow.sides);
+  std::vector<Vec<Dim>> gradient(particles.size());
+  flow.discretisation().find_gradient_at(flow, particles, pressure, gradient);
+  return gradient;
+}
+
+/// By how much a velocity of the water, velocity(n) at its n-th side, makes each pocket grow [m^Dim/s]; collective.
+template <int Dim, class Velocity>
+std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
+  std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
+  for (std::size_t n = 0; n < flow.sides.water.size(); ++n) {
+    const PocketSide<Dim>& side = flow.sides.water[n];
+    const double all = flow.state.particles.volume[side.particle] * side.push.dot(velocity(n));
+    for (const PocketShare& share : side.shares) growth[share.pocket] += share.share * all;
+  }
+  flow.setup.ranks.sum_of_each(growth);
+  return growth;
+}
+
+/// The pockets' part of one step: how far each grows, as a function of the pressures, and what the gas asks for.
+class GasStep {
+ public:
+  GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, bool with_mean, double dt)
+      : law_(law), pockets_(pockets), dt_(dt), share_(with_mean ? 0.5 : 1.0), mean_(with_mean ? 0.5 : 0.0) {}
+
+  /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
+  void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls) {
+    const auto count = static_cast<Eigen::Index>(now.size());
+    constant_.resize(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      constant_[k] = dt_ * (share_ * now[k] + (1.0 - share_) * before[k] + walls[k]);
+    }
+  }
+  void set_answers(const Eigen::MatrixXd& answers) { answers_ = dt_ * share_ * answers; }
+
+  /// The pressures [Pa] with which gas and water agree. The pressure in the step is between that of the gas at its
+  /// start and at its end: at the start (or in the middle, if the water moves with the mean of its old and new
+  /// velocity) a pulsation keeps its energy. The stiffer the gas, the nearer it is to that at the end.
+  std::vector<double> solve() const {
+    const Eigen::Index count = constant_.size();
+    const Eigen::VectorXd theta = blend();
+    Eigen::VectorXd start(count);
+    for (Eigen::Index k = 0; k < count; ++k) start[k] = law_.pressure(pockets_[k].gas, pockets_[k].volume);
+    Eigen::VectorXd pressure = start;
+    for (int step = 0; step < most_steps; ++step) {
+      const Eigen::VectorXd volume = volume_after(pressure);
+      Eigen::VectorXd missing(count);
+      Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const double gas = pockets_[k].gas;
+        missing[k] = pressure[k] - (1.0 - theta[k]) * start[k] - theta[k] * law_.pressure(gas, volume[k]);
+        slope.row(k) -= theta[k] * law_.slope(gas, volume[k]) * answers_.row(k);
+      }
+      if (missing.cwiseAbs().maxCoeff() <= settled * law_.atmosphere) break;
+      Eigen::VectorXd way = -slope.partialPivLu().solve(missing);
+      while ((volume_after(pressure + way).array() < 0.5 * volume.array()).any()) way *= 0.5;
+      pressure += way;
+    }
+    return {pressure.data(), pressure.data() + count};
+  }
+
+ private:
+  /// How much of the pressure is that at the end of the step. With the square s of a pulsation's frequency times dt,
+  /// s/(4 + s) is enough damping for any s, and damps what is resolved by some s^1.5 per period.
+  Eigen::VectorXd blend() const {
+    Eigen::VectorXd theta(constant_.size());
+    for (Eigen::Index k = 0; k < theta.size(); ++k) {
+      const double square = -law_.slope(pockets_[k].gas, pockets_[k].volume) * std::max(0.0, answers_(k, k)) / share_;
+      theta[k] = mean_ + (1.0 - mean_) * square / (4.0 + square);
+    }
+    return theta;
+  }
+  /// A pocket that the water would close within the step is left a tenth.
+  Eigen::VectorXd volume_after(const Eigen::VectorXd& pressure) const {
+    Eigen::VectorXd volume = constant_ + answers_ * pressure;
+    for (Eigen::Index k = 0; k < volume.size(); ++k) {
+      volume[k] = std::max(pockets_[k].volume + volume[k], 0.1 * pockets_[k].volume);
+    }
+    return volume;
+  }
+
+  const GasLaw& law_;
+  const std::vector<AirPocket>& pockets_;
+  double dt_;
+  double share_;  ///< of the new velocity in that which moves the water
+  double mean_;   ///< share of the pressure at the end with which a slow pulsation keeps its energy
+  Eigen::VectorXd constant_;
+  Eigen::MatrixXd answers_;
+};
+
+template <int Dim>
+void find_sides(Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<PocketSide<Dim>>& water = flow.sides.water;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
+    if (flow.role[i] != Role::water || flow.here.interior[i] >= 1.0) continue;
+    std::vector<PocketShare> shares = flow.air.shares_at(particles.position[i]);
+    if (!shares.empty()) water.push_back({.particle = i, .shares = std::move(shares)});
+  }
+  const std::vector<std::size_t> beside = particles_of(flow.sides);
+  std::vector<double> weight(beside.size());
+  flow.discretisation().find_air_weights(flow, beside, weight);
+  const std::vector<Vec<Dim>> push = gradient_at_sides(flow, std::vector<double>(particles.size(), 1.0));
+  for_each(water.size(), [&](std::size_t n) {
+    water[n].push = push[n];
+    water[n].weight = weight[n];
+  });
+}
+
+/// q_k: the answer of the pressure to 1 Pa in pocket k, up to date on ghosts.
+template <int Dim>
+void find_response(Flow<Dim>& flow, int pocket) {
+  for_each(flow.state.particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, 0.0); });
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) {
+      if (share.pocket == pocket) flow.pressure_rows.set_rhs(side.particle, share.share * side.weight);
+    }
+  }
+  std::vector<double>& response = flow.air.response(flow.state.air.pockets[pocket].number);
+  response.resize(flow.state.particles.size(), 0.0);
+  flow.sides.iterations += solve_rows(flow, response, flow.pressure_solver.tolerance()).iterations;
+  flow.halo().exchange(response);
+}
+
+/// By how much [m^Dim/s per Pa] each pocket (row) grows within dt under the pressure of each (column). Collective.
+template <int Dim>
+Eigen::MatrixXd find_answers(Flow<Dim>& flow, double dt) {
+  const auto count = static_cast<Eigen::Index>(flow.state.air.pockets.size());
+  const double unit = dt / flow.setup.density;
+  Eigen::MatrixXd answers(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, flow.air.response(flow.state.air.pockets[k].number));
+    const std::vector<double> answer = growth(flow, [&](std::size_t n) {
+      const PocketSide<Dim>& side = flow.sides.water[n];
+      double seen = 0.0;
+      for (const PocketShare& share : side.shares) seen += share.pocket == k ? share.share : 0.0;
+      return Vec<Dim>(unit * (seen * side.push - slope[n]));
+    });
+    answers.col(k) = Eigen::Map<const Eigen::VectorXd>(answer.data(), count);
+  }
+  return answers;
+}
+
+}  // namespace
+
+template <int Dim>
+void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) {
+  PocketSides<Dim>& sides = flow.sides;
+  sides = {};
+  const auto pockets = static_cast<int>(flow.state.air.pockets.size());
+  if (pockets == 0) return;
+  find_sides(flow);
+  const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
+  for (int k = 0; k < pockets; ++k) find_response(flow, k);
+  std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
+  const Vec<Dim> gravity =
+      flow.setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : flow.setup.gravity;
+  sides.flow = growth(flow, [&](std::size_t n) { return Vec<Dim>(predicted[sides.water[n].particle] + dt * gravity); });
+  sides.flow_before =
+      growth(flow, [&](std::size_t n) { return flow.state.particles.velocity[sides.water[n].particle]; });
+}
+
+template <int Dim>
+void take_out_air(Flow<Dim>& flow) {
+  const std::vector<double>& air = flow.air.air_pressure();
+  std::vector<double>& pressure = flow.state.particles.pressure;
+  for_each(std::min(air.size(), flow.state.particles.owned), [&](std::size_t i) { pressure[i] -= air[i]; });
+}
+
+template <int Dim>
+void put_back_air(Flow<Dim>& flow) {
+  const std::vector<double>& air = flow.air.air_pressure();
+  if (flow.state.air.pockets.empty()) return;
+  std::vector<double>& pressure = flow.state.particles.pressure;
+  for_each(std::min(air.size(), flow.state.particles.owned), [&](std::size_t i) { pressure[i] += air[i]; });
+  flow.halo().exchange(pressure);
+}
+
+template <int Dim>
+void add_air(Flow<Dim>& flow, double dt) {
+  PocketSides<Dim>& sides = flow.sides;
+  std::vector<double>& air = flow.air.air_pressure();
+  air.clear();
+  const std::vector<AirPocket>& pockets = flow.state.air.pockets;
+  if (pockets.empty()) return;
+  std::vector<double>& pressure = flow.state.particles.pressure;
+  const double unit = dt / flow.setup.density;
+  const std::vector<Vec<Dim>> gradient = gradient_at_sides(flow, pressure);
+  std::vector<double> now = growth(flow, [&](std::size_t n) { return Vec<Dim>(-unit * gradient[n]); });
+  for (std::size_t k = 0; k < now.size(); ++k) now[k] += sides.flow[k];
+  GasStep step(flow.air.law(), pockets, flow.setup.formulation.moves_with_mean_velocity, dt);
+  step.set_flow(now, sides.flow_before, flow.air.wall_flow());
+  step.set_answers(find_answers(flow, dt));
+  sides.pressure = step.solve();
+  air.assign(pressure.size(), 0.0);
+  for (std::size_t k = 0; k < pockets.size(); ++k) {
+    const std::vector<double>& response = flow.air.response(pockets[k].number);
+    for_each(air.size(), [&](std::size_t i) { air[i] += sides.pressure[k] * response[i]; });
+  }
+  for_each(air.size(), [&](std::size_t i) { pressure[i] += air[i]; });
+}
+
+template <int Dim>
+void push_by_pockets(Flow<Dim>& flow, double dt) {
+  PocketSides<Dim>& sides = flow.sides;
+  if (sides.pressure.empty()) return;
+  std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
+  for_each(sides.water.size(), [&](std::size_t n) {
+    const PocketSide<Dim>& side = sides.water[n];
+    velocity[side.particle] += dt / flow.setup.density * sides.pressure_at(side) * side.push;
+  });
+  const std::vector<double> flow_after = growth(flow, [&](std::size_t n) { return velocity[sides.water[n].particle]; });
+  const double share = flow.setup.formulation.moves_with_mean_velocity ? 0.5 : 1.0;
+  for (std::size_t k = 0; k < flow_after.size(); ++k) {
+    AirPocket& pocket = flow.state.air.pockets[k];
+    const double before = flow.air.law().energy(pocket.gas, pocket.volume);
+    const double rate = share * flow_after[k] + (1.0 - share) * sides.flow_before[k] + flow.air.wall_flow()[k];
+    pocket.volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
+    sides.work += before - flow.air.law().energy(pocket.gas, pocket.volume);
+  }
+}
+
+#define TAILWATER_INSTANTIATE(Dim)                                                \
+  template void pose_pockets<Dim>(Flow<Dim>&, std::span<const Vec<Dim>>, double); \
+  template void take_out_air<Dim>(Flow<Dim>&);                                    \
+  template void put_back_air<Dim>(Flow<Dim>&);                                    \
+  template void add_air<Dim>(Flow<Dim>&, double);                                 \
+  template void push_by_pockets<Dim>(Flow<Dim>&, double);
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
+
+}  // namespace tailwater

@@ -1,0 +1,45 @@
+// Pockets of enclosed air in the pressure equation (docs/theory/air.md). Beside a pocket missing neighbours count as
+// air at its pressure P_k instead of 0. With the share chi_ik of the air around particle i that is pocket k,
+//
+//   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i the weight of the air in the row (robust/rows.cpp)
+//   water at i:  grad p_i - sum_k P_k chi_ik grad 1_i
+//   pocket k:    dV_k/dt = sum_i w_i chi_ik grad 1_i . u_i + what moving walls sweep
+//
+// The last two are adjoint, so the gas does on the water the work P dV. The pressure is linear in P,
+//
+//   p = p_w + sum_k P_k q_k,
+//
+// where p_w is what the water has under air at 0, and q_k answers to 1 Pa in pocket k, from 0 to 1 in space. Suction is
+// that of p_w: what pulls is what is below the pressure that the air alone makes.
+#pragma once
+
+#include "flow/flow.h"
+#include "flow/step.h"
+#include "pressure/verbs.h"
+
+namespace tailwater {
+
+/// Finds the flow's `sides` and the responses q_k, with the matrix of the pressure equation, whose sources of
+/// the water are not yet set. Collective.
+template <int Dim>
+void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt);
+
+/// Takes out of the pressure of owned particles what the air alone made of it.
+template <int Dim>
+void take_out_air(Flow<Dim>& flow);
+
+/// Puts it back, and brings ghosts up to date. Collective.
+template <int Dim>
+void put_back_air(Flow<Dim>& flow);
+
+/// Finds the pressures of the pockets, for a step of dt from where p_w has been solved for, and adds them to the
+/// water's. The pressure is up to date on walls and ghosts before and after. Collective.
+template <int Dim>
+void add_air(Flow<Dim>& flow, double dt);
+
+/// The force of the pockets on the water during dt, after that of the water's pressure; the pockets grow with the new
+/// velocity, or with the mean of the old and the new, as the water moves. Collective.
+template <int Dim>
+void push_by_pockets(Flow<Dim>& flow, double dt);
+
+}  // namespace tailwater
