@@ -24,9 +24,6 @@ constexpr double reach_of_piece = 0.75;
 /// a box, where it is the mean of three, it is 0.577.
 constexpr double least_facing = 0.5;
 
-/// Nothing is solved for, as in the end stretch of an outlet.
-constexpr Role held = Role::open_end;
-
 /// [dx]; pieces so near are beside each other.
 constexpr double reach_of_neighbours = 1.6;
 
@@ -162,7 +159,7 @@ void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
     if (flow.role[i] != Role::water) return;
     const std::int32_t n = piece_at(flow.state.particles.position[i]);
     if (n < 0 || pieces_[n].gap >= closed_gap * flow.setup.spacing) return;
-    flow.role[i] = held;
+    flow.role[i] = Role::held;
     flow.state.particles.velocity[i].setZero();
     rows.divide_diagonal(i, 0.0);
     rows.rhs()[i] = p[n];

@@ -10,6 +10,7 @@ enum class Role : std::uint8_t {
   open_end,       ///< water in the end stretch of an outlet, where nothing is solved for: the flow beyond is assumed
   level_end,      ///< the same, where a level is prescribed
   fed_end,        ///< the same, where a discharge or a velocity is
+  held,           ///< water in a gap that is too narrow for it: rests, with a known pressure (bodies/narrow_gaps.h)
   wall,           ///< its row says how its pressure follows from the water's (walls/wall_model.h)
   solved_on_wall  ///< wall particle on the wall, where the water's equation is solved too
 };

@@ -14,10 +14,6 @@ constexpr double cell_edge = 2.0;
 /// behind a wall; elsewhere, and as long as there is no water inside, it is hydrostatic.
 template <int Dim>
 void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
-  if (flow.end_of[i] < 0) {  // held in a narrow gap: nothing corrects its pressure
-    flow.pressure_rows.row(i).finish_as_zero();
-    return;
-  }
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
@@ -61,6 +57,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   flow.wall_model().assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (is_in_end_stretch(flow.role[i])) assemble_end_row(flow, i);
+    if (flow.role[i] == Role::held) flow.pressure_rows.row(i).finish_as_zero();  // later passes correct no pressure
   });
   return flow.discretisation().write_rows(flow);
 }

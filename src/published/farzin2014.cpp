@@ -141,7 +141,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     Particles<Dim>& particles = flow.state.particles;
     const std::size_t capped = find_published_shifts<Dim>(shifting_, dt, flow.pairs(), particles, flow.here, shifts);
     for_each(particles.owned, [&](std::size_t i) {
-      if (is_in_end_stretch(flow.role[i])) shifts[i].setZero();
+      if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::held) shifts[i].setZero();
     });
     show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
     carry_fields_along<Dim>(flow.pairs(), *tensors_, flow.here, shifts, particles);
