@@ -7,7 +7,7 @@ import { measured, press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
   await withProgram(context, async (place, open) => {
-    const run = place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "output.view_interval=0.05");
+    const run = place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "particles.spacing=0.02", "--set", "output.view_interval=0.25");
     await place.written(run, "run/view/00001.frame");
     const page = await open(await place.view("run"));
     await until(page, "app.player.following && app.view?.eye && app.shownRuns()[0].frames.list.length > 2");
@@ -27,8 +27,8 @@ test("a live run on two ranks: its frames are on the screen within a second; sto
     const took = shown.at - statSync(place.path("run/view", `${String(shown.index).padStart(5, "0")}.frame`)).mtimeMs;
     assert.ok(took < (await allowed(page, 1000)), `a frame is on the screen within 1 s; here ${took} ms`);
     assert.equal(await camera(page), before);
-    // The run goes on for longer than the measurement; how far it is from what it has reached is told meanwhile.
-    await page.waitForFunction("/against lab.csv, 3 samples of 0 to 0.2 s: rms [\\d.e-]+ m, bias/.test(document.querySelector('.gauge .score')?.textContent)");
+    // How far it is from what was measured is told while it goes on; a fast machine may be past the last point, at 100 s.
+    await page.waitForFunction("/against lab.csv, [34] samples of 0 to (0.2|100) s: rms [\\d.e-]+ m, bias/.test(document.querySelector('.gauge .score')?.textContent)");
     assert.deepEqual(((await measured(page)) as [number[][]])[0], [[0, 0.4], [0.1, 0.395], [0.2, 0.38], [100, 0.133]]);
     await until(page, "app.shownRuns()[0].table('gauge')?.rows > 3");
 
