@@ -8,15 +8,10 @@ import os
 import sys
 from pathlib import Path
 
+from .command_line import Parser, complain
 from .errors import DataError
 from .netcdf import EPOCH
 from .run import Run
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        print(f"error: {message}; see: tailwater export --help", file=sys.stderr)
-        sys.exit(2)
 
 
 def moment(text):
@@ -58,11 +53,9 @@ def main(arguments=None):
         if options.vtkhdf:
             run.to_vtkhdf(options.vtkhdf)
     except DataError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(error, 4)
     except KeyboardInterrupt:
         return 130
     return 0

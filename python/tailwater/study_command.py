@@ -9,13 +9,9 @@ import re
 import sys
 import tomllib
 
+from .command_line import Parser, complain
+
 UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        print(f"error: {message}; see: tailwater study --help", file=sys.stderr)
-        sys.exit(2)
 
 
 def seconds(text):
@@ -78,11 +74,6 @@ def parser():
     command.add_argument("-n", dest="ranks", type=count, default=1, metavar="N", help="ranks of each run (1)")
     command.add_argument("--quiet", action="store_true", help="no progress")
     return command
-
-
-def complain(what, code):
-    print(f"error: {what}", file=sys.stderr)
-    return code
 
 
 def main():

@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.command_line import complain
 from tailwater.whole_file import write_whole
 
-from .command import PlainParser, complain, number
+from .command import PlainParser, number
 from .curves import DataError
 
 LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands

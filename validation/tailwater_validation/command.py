@@ -7,6 +7,8 @@ import signal
 import sys
 from pathlib import Path
 
+from tailwater import command_line
+
 from .checks import runs_of
 from .curves import DataError
 from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
@@ -20,18 +22,14 @@ def number(text):
     return value
 
 
-class PlainParser(argparse.ArgumentParser):
-    """The options that all commands have; errors read like those of the rest of the program."""
+class PlainParser(command_line.Parser):
+    """The options that all commands have."""
 
     def __init__(self, name, what, out):
         super().__init__(prog=name, description=what, allow_abbrev=False)
         self.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
         self.add_argument("--out", type=Path, default=Path(out), metavar="DIR",
                           help=f"folder for runs and results ({out})")
-
-    def error(self, message):
-        print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
-        sys.exit(2)
 
 
 class Parser(PlainParser):
@@ -71,11 +69,6 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
-def complain(what, code):
-    print(f"error: {what}", file=sys.stderr)
-    return code
-
-
 def execute(options, choose_groups, score):
     """Makes the runs of the groups that `choose_groups()` returns, then prints what `score(groups, program, options)`
     returns. The exit code: 0 whatever the verdicts are; 2 for bad input, also if the program refuses every run; 4 if a
@@ -95,9 +88,9 @@ def execute(options, choose_groups, score):
         if options.settings:
             require_accepted(runs[0], program, options.out)
     except DataError as error:
-        return complain(error, 2)
+        return command_line.complain(error, 2)
     except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}", 4)
+        return command_line.complain(f"{error.filename}: {error.strerror}", 4)
     print(f"{len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all", file=sys.stderr)
     try:
         make(runs, program, options.out, options.jobs)
@@ -106,9 +99,9 @@ def execute(options, choose_groups, score):
         return INTERRUPTED
     ends = [outcome(options.out / "runs" / run.name) for run in runs]
     if all(end["exit_code"] == 2 for end in ends):
-        return complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
+        return command_line.complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
     try:
         print(score(groups, program, options))
     except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}", 4)
+        return command_line.complain(f"{error.filename}: {error.strerror}", 4)
     return 0

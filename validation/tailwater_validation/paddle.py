@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.command_line import complain
 from tailwater.whole_file import write_whole
 
 from .command import PlainParser, number
@@ -204,11 +205,9 @@ def main(arguments):
         time, stroke = motion(waves, options.depth, options.distance, options.flap)
         write_motion(options.to, time, stroke, options.depth, options.flap)
     except DataError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return complain(error, 2)
     except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 4
+        return complain(error, 4)
     print(f"{options.to}: {time.size} lines, {time[-1]:.4g} s; stroke {stroke.min():.4g} to {stroke.max():.4g} m at the still "
           f"water's level\nwaves: Hm0 {waves.height:.4g} m, peak {waves.peak:.4g} Hz, between {waves.frequency[0]:.4g} and "
           f"{waves.frequency[-1]:.4g} Hz, which leaves out {100 * waves.lost:.1f} % of the energy")

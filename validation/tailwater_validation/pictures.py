@@ -11,11 +11,12 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from tailwater.command_line import complain
 from tailwater.fields import list_frames, read_frame
 from tailwater.whole_file import write_whole
 
 from . import plots
-from .command import PlainParser, complain, number
+from .command import PlainParser, number
 from .curves import DataError
 from .run_folder import RunFolder
 

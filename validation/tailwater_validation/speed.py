@@ -17,6 +17,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from tailwater.command_line import complain
+
 from . import command, speed_profile, speed_report, speed_rooms
 from .curves import DataError
 from .metric import Metric
@@ -252,9 +254,9 @@ def main(arguments=None):
         result = measure(options, parts, say)
         speed_report.write(result, options.out)
     except DataError as error:
-        return command.complain(error, 2)
+        return complain(error, 2)
     except OSError as error:
-        return command.complain(f"{error.filename}: {error.strerror}", 4)
+        return complain(f"{error.filename}: {error.strerror}", 4)
     except KeyboardInterrupt:
         return INTERRUPTED
     print(text_table(speed_report.COLUMNS, speed_report.rows(result)))

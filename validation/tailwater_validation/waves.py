@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.command_line import complain
 from tailwater.whole_file import write_whole
 
-from .command import PlainParser, complain, number
+from .command import PlainParser, number
 from .curves import DataError
 from .run_folder import RunFolder
 
