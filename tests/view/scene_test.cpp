@@ -21,6 +21,14 @@ spacing = 0.1
 end = 2
 )";
 
+const std::string tank = R"(
+[[fluid]]
+min = [0, 0]
+max = [1, 0.5]
+[[wall]]
+points = [[0, 2], [0, 0], [4, 0], [4, 2]]
+)";
+
 template <int Dim>
 Json scene_of(const std::string& text) {
   const CaseSpec spec = read_case_text(start + text, "case");
@@ -93,13 +101,7 @@ at = [0.5, 0]
 TEST(Scene, HoldsWhatWasMeasuredWithinTheTimeOfTheRun) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "lab.csv") << "t [s], depth [mm]\n-1, 9\n0, 400\n0.5, 380\n2, 300\n3, 9\n";
-  const Json scene = scene_of<2>(R"(
-[[fluid]]
-min = [0, 0]
-max = [1, 0.5]
-[[wall]]
-points = [[0, 2], [0, 0], [4, 0], [4, 2]]
-[[probe]]
+  const Json scene = scene_of<2>(tank + R"([[probe]]
 name = "all"
 type = "energy"
 [[probe]]
@@ -116,13 +118,7 @@ file = ")" + (folder.path() / "lab.csv").string() +
 }
 
 TEST(Scene, APlateIsDrawnOnce) {
-  const Json scene = scene_of<2>(R"(
-[[fluid]]
-min = [0, 0]
-max = [1, 0.5]
-[[wall]]
-points = [[0, 2], [0, 0], [4, 0], [4, 2]]
-[[wall]]
+  const Json scene = scene_of<2>(tank + R"([[wall]]
 name = "sheet"
 shape = "plate"
 points = [[2, 0], [2, 0.5], [2.5, 0.8]]
