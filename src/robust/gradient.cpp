@@ -54,40 +54,42 @@ void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> v
   });
 }
 
-template <int Dim>
-void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
-                              const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) {
-  const Pairs<Dim>& pairs = flow.pairs();
+namespace {
+
+/// What pairs push each of these owned particles with, over its volume. weight(several, pair) says how much of each
+/// neighbour counts, as a volume.
+template <int Dim, class Weight>
+void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                          const std::vector<double>& pressure, std::span<Vec<Dim>> pushes, Weight&& weight) {
   const std::vector<double>& volume = flow.state.particles.volume;
-  for_each(walls.size(), [&](std::size_t n) {
-    const std::size_t i = walls[n];
+  for_each(particles.size(), [&](std::size_t n) {
+    const std::size_t i = particles[n];
     VecSum<Dim> sum;
     const Lanes own_volume = in_all_lanes(volume[i]);
     const Lanes own = in_all_lanes(pressure[i]);
-    for_each_pair(pairs, i, [&](const auto& several) {
+    for_each_pair(flow.pairs(), i, [&](const auto& several) {
       const PairVectorLanes<Dim> pair = flow.here.pair_vectors(several);
-      sum += own_volume * pair.place.volume_of_fluid() * (own + several.of(pressure)) * pair.a;
+      sum += own_volume * weight(several, pair) * (own + several.of(pressure)) * pair.a;
     });
     pushes[n] = sum.total() / volume[i];
   });
+}
+
+}  // namespace
+
+template <int Dim>
+void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                              const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) {
+  find_pushes_of_pairs(flow, walls, pressure, pushes,
+                       [](const auto& /*several*/, const auto& pair) { return pair.place.volume_of_fluid(); });
 }
 
 template <int Dim>
 void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
                                        std::span<const double> share, const std::vector<double>& pressure,
                                        std::span<Vec<Dim>> pushes) {
-  const std::vector<double>& volume = flow.state.particles.volume;
-  for_each(water.size(), [&](std::size_t n) {
-    const std::size_t i = water[n];
-    VecSum<Dim> sum;
-    const Lanes own_volume = in_all_lanes(volume[i]);
-    const Lanes own = in_all_lanes(pressure[i]);
-    for_each_pair(flow.pairs(), i, [&](const auto& several) {
-      const PairVectorLanes<Dim> pair = flow.here.pair_vectors(several);
-      sum += several.of(share) * (own_volume * pair.place.volume() * (own + several.of(pressure)) * pair.a);
-    });
-    pushes[n] = sum.total() / volume[i];
-  });
+  find_pushes_of_pairs(flow, water, pressure, pushes,
+                       [&](const auto& several, const auto& pair) { return several.of(share) * pair.place.volume(); });
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                   \
