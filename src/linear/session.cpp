@@ -33,6 +33,28 @@ struct IgnoreLeaks {
 #endif
 };
 
+/// Lets a process that was started without mpirun start MPI by itself. It never starts others through MPI, so it needs
+/// neither the daemon that Open MPI would start for it nor a folder for messages, which programs that start at the same
+/// time dispute. What it starts later, mpirun too, must not see these settings.
+class StartAlone {
+ public:
+  StartAlone() : alone_(std::getenv("PMIX_RANK") == nullptr) {
+    if (!alone_) return;
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 1);
+  }
+  ~StartAlone() {
+    if (!alone_) return;
+    unsetenv("OMPI_MCA_ess_singleton_isolated");
+    unsetenv("OMPI_MCA_orte_create_session_dirs");
+  }
+  StartAlone(const StartAlone&) = delete;
+  StartAlone& operator=(const StartAlone&) = delete;
+
+ private:
+  bool alone_;
+};
+
 /// What PETSc says where an error arises; its functions pass on only the code.
 std::string& last_reason() {
   static std::string reason;
@@ -64,6 +86,7 @@ LinearSession::LinearSession() {
   // Open MPI's hwloc looks for graphics cards by asking every X server of this machine, also where DISPLAY is not set.
   // If one ends just then, as those of pictures do, Xlib ends the whole program.
   setenv("HWLOC_COMPONENTS", "-gl", 0);
+  const StartAlone alone;
   // Signals stay ours: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
   check_petsc(PetscInitializeNoArguments());
