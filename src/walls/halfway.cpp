@@ -108,11 +108,8 @@ void follow_turning_walls(const WallScene<Dim>& scene, const WallTurns<Dim>& tur
     const Vec<Dim> relative = velocity[i] - entry_of<Dim>(V, scene.particles.wall_row[i]);
     const Vec<Dim> t = relative - walls.particles.blocked[row] * relative;
     const double c = t.dot(turn_of_normal(walls, turns, row, t));
-    if (turns.comes_from_chord) {
-      acceleration[i] = -c / turns.dt * n;
-    } else {
-      velocity[i] -= 2.0 * c * n;
-    }
+    if (turns.comes_from_chord) acceleration[i] = -2.0 * c / turns.dt * n;
+    velocity[i] += (turns.comes_from_chord ? 2.0 : -2.0) * c * n;  // mirrored at V + c n, at V - c n
   });
 }
 

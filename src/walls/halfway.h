@@ -8,10 +8,11 @@
 // S        its curvature: the normal turns by S d over a way d along the wall
 // Q        its rotation in the step
 //
-// At the end of the chord it is +c. So water that comes from a chord has to be turned by 2 c: by c in the rows of the
-// dummies, as an acceleration of the wall, and by c as the images show it, which mirror it at the wall's velocity.
-// Water that comes tangentially, from a second projection, has to be turned by c; its images show all of it. With more
-// in the rows water that circles in a polygon gains energy.
+// At the end of the chord it is +c. So water that comes from a chord has to be turned by 2 c: by an acceleration of the
+// wall, in the rows of the dummies. The images mirror the water at V + c n, the velocity that it comes with, so they
+// ask for none of the turn: what they ask for is spread over the rows of water in reach, and the first one gets too
+// little. Water that comes tangentially, from a second projection, has to be turned by c; its images show all of it.
+// With more in the rows water that circles in a polygon gains energy.
 #pragma once
 
 #include <span>
