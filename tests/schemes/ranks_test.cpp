@@ -10,9 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
 #include "support/rounding.h"
@@ -119,6 +122,47 @@ TYPED_TEST(RanksTest, PublishedFormulations) {
   spec.scheme.name = SchemeName::farmani2020;
   apply_formulation(spec.scheme);
   expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
+// Half of the force of a pair acts through its water particle, which may be of another rank than its wall particle. The
+// cut between two ranks passes through the corner in which the walls meet.
+TEST(RanksTest, ForcesOnWallsThatMeetAreTheSame) {
+  CaseSpec spec = jittered_tank<2>();
+  spec.walls.clear();
+  spec.probes.clear();
+  const Coordinates corner{0.5, 0.0};
+  const std::array<std::vector<Coordinates>, 2> walls{{{{0.0, 0.6}, corner}, {corner, {1.0, 0.6}}}};
+  for (const auto& points : walls) {
+    WallTable wall;
+    wall.name = spec.walls.empty() ? "down" : "up";
+    wall.points = points;
+    spec.walls.push_back(wall);
+    spec.probes.push_back(force_probe(corner, {wall.name}));
+  }
+  FluidTable water;
+  water.shape = BlockShape::fill;
+  water.seed = {0.5, 0.2};
+  water.level = 0.4;
+  spec.fluid = {water};
+  spec.pressure_solver.tolerance = tau;
+  for (const bool moves : {false, true}) {  // walls at rest keep what they have found once
+    for (WallTable& wall : spec.walls) {
+      if (moves) wall.displacement = {"0.1*t", "0"};
+    }
+    Flow<2> alone = make_flow<2>(spec);
+    Flow<2> shared = make_flow<2>(spec, Communicator::world());
+    run(alone, 2);
+    run(shared, 2);
+    // An error dp of the pressure everywhere turns into less than 2 dp on each unit of a wall.
+    const double P = 1000.0 * (g * 0.4 + (std::sqrt(2.0 * g * 0.4) + 1.0) * (std::sqrt(2.0 * g * 0.4) + 1.0));
+    const double unknowns = static_cast<double>(alone.state.particles.owned);
+    const double dp = (granted * (tau * std::sqrt(unknowns) + single_eps) + std::sqrt(tau)) * P;
+    for (std::size_t k = 0; k < spec.walls.size(); ++k) {
+      const Vec<2> expected = Reader<2>(spec, alone, k).force();
+      EXPECT_GT(expected.norm(), 400.0);
+      EXPECT_LT((Reader<2>(spec, shared, k).force() - expected).norm(), 2.0 * dp) << spec.walls[k].name;
+    }
+  }
 }
 
 // The cut between ranks and the plate are at the same place.
