@@ -39,8 +39,7 @@ install(FILES ${help}/tailwater.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-c
 install(FILES ${help}/_tailwater DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(FILES ${help}/tailwater.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 
-# The same program for processors with AVX2, built by itself (scripts/package.sh), which the installed one becomes.
-set(TAILWATER_FASTER_PROGRAM "" CACHE FILEPATH "Program built for x86-64-v3 to be installed beside this one")
+# Where src/app/fastest_build.cpp looks for it.
 if(TAILWATER_FASTER_PROGRAM)
   install(PROGRAMS ${TAILWATER_FASTER_PROGRAM} DESTINATION lib/tailwater RENAME tailwater-v3 COMPONENT program)
 endif()
