@@ -19,7 +19,7 @@
 namespace tailwater {
 namespace {
 
-constexpr const char* python = "/usr/bin/python3";
+constexpr const char* python = TAILWATER_PYTHON_PROGRAM;
 
 // Below the prefix of an installation, or in the build tree.
 constexpr const char* validation = "share/tailwater/validation";
