@@ -52,11 +52,11 @@ void put_first(const std::string& folders) {
   }
 }
 
-/// The command line of a module that is a program.
+/// The command line of a module that is a program, started by one that tells what is missing for it.
 std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
   const std::filesystem::path prefix = prefix_with(module);
   put_first((prefix / validation).string() + ":" + (prefix / package).string());
-  std::vector<std::string> words{python, "-m", module, "--program", this_program()};
+  std::vector<std::string> words{python, "-m", "tailwater_validation.launch", module, "--program", this_program()};
   words.insert(words.end(), options.begin(), options.end());
   return words;
 }
@@ -101,11 +101,12 @@ void run_python(const std::string& module, const std::vector<std::string>& optio
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (status == 0) return;
-  // Of a traceback the last line says what is wrong.
+  // The last line says what is wrong, of a traceback too.
   const std::size_t last = told.find_last_not_of(" \n");
-  const std::size_t begin = last == std::string::npos ? 0 : told.rfind('\n', last) + 1;
-  throw IoError(last == std::string::npos ? fmt::format("{} ended with status {}", module, status)
-                                          : told.substr(begin, last + 1 - begin));
+  if (last == std::string::npos) throw IoError(fmt::format("{} ended with status {}", module, status));
+  const std::size_t begin = told.rfind('\n', last) + 1;
+  const std::string line = told.substr(begin, last + 1 - begin);
+  throw IoError(line.starts_with("error: ") ? line.substr(7) : line);
 }
 
 }  // namespace tailwater

@@ -127,11 +127,13 @@ class Pictures(PicturesTest):
     def test_only_pictures_in_3d_need_vtk(self):
         flat = shutil.move(self.run_of(2), Path(self.folder).parent / f"{Path(self.folder).name}-flat")
         self.addCleanup(shutil.rmtree, flat)
-        program = ("import sys; sys.modules['vtkmodules'] = None; from tailwater_validation import pictures, validate; "
-                   "sys.exit(pictures.main(['--program', 'tailwater', sys.argv[1]]))")
+        program = ("import sys; sys.modules['vtkmodules'] = None; from tailwater_validation import launch, validate; "
+                   "launch.main()")
         for folder, code in ((flat, 0), (self.run_of(3), 2)):
-            ended = subprocess.run([sys.executable, "-B", "-c", program, folder], capture_output=True, text=True, check=False)
+            ended = subprocess.run([sys.executable, "-B", "-c", program, "tailwater_validation.pictures", "--program", "tailwater",
+                                    folder], capture_output=True, text=True, check=False)
             self.assertEqual((ended.returncode, "install python3-vtk9" in ended.stderr), (code, code == 2), ended.stderr)
+            self.assertEqual(len(ended.stderr.splitlines()), code // 2, "one line")
 
     def test_what_cannot_be_drawn_is_told(self):
         code, _, err = self.command(Path(self.folder) / "nothing")
@@ -139,7 +141,7 @@ class Pictures(PicturesTest):
         folder = self.run_of(3)
         with unittest.mock.patch.object(scene, "_has_display", False), unittest.mock.patch("shutil.which", lambda _: None):
             code, _, err = self.command(folder)
-        self.assertEqual((code, "remedy: install xvfb" in err), (2, True), err)
+        self.assertEqual((code, "remedy: apt install xvfb" in err), (2, True), err)
 
 
 class Bounds(unittest.TestCase):

@@ -82,16 +82,15 @@ def draw_2d(run, chosen, folder):
 
 
 def draw_3d(run, frames, chosen, folder, look_from):
-    try:
-        from . import pictures_3d  # VTK, which pictures in 2D do without
-    except ImportError as error:
-        raise DataError(f"pictures in 3D need VTK ({error}); remedy: install python3-vtk9 and xvfb") from error
+    from . import pictures_3d  # VTK, which pictures in 2D do without
+
     pictures_3d.write_surfaces(run, frames)
     pictures_3d.draw(run, chosen, folder, look_from)
 
 
 def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
-    """Leaves the files; returns the folder of the pictures. Throws DataError, also where a run in 3D finds no VTK; OSError."""
+    """Leaves the files; returns the folder of the pictures. Throws DataError; OSError; ImportError where a run in 3D finds no
+    VTK."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")

@@ -36,7 +36,7 @@ def start_display():
         return
     program = shutil.which("Xvfb")
     if program is None:
-        raise DataError("pictures in 3D need Xvfb; remedy: install xvfb (scripts/install.sh pictures)")
+        raise DataError("pictures in 3D need Xvfb; remedy: apt install xvfb")
     read, write = os.pipe()
     os.set_inheritable(write, True)
     quiet = [(os.POSIX_SPAWN_OPEN, stream, os.devnull, os.O_WRONLY, 0) for stream in (1, 2)]
