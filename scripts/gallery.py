@@ -5,7 +5,7 @@ Usage: scripts/gallery.py [TEMPLATE ...]    runs those that are named, or all, w
        scripts/gallery.py --coarse ...      the same with twice the spacing, where there is no run yet; the page says so
 
 What a template shows is told by the head of its case, what it costs by its run. The pictures go to docs/images/gallery.
-All need about ten minutes of CPU time.
+All need about ten minutes of CPU time. Exit code 1 if a run of a template as it stands has warned.
 """
 import pathlib
 import re
@@ -128,7 +128,9 @@ def main(arguments):
     text = HEAD.format(processor=processor) + "".join(section(*run) for run in runs.items())
     PAGE.write_text(text, encoding="utf-8")
     print(f"gallery.py: {PAGE}, {sum(run.summary['cost']['cpu_s'] for run in runs.values()):.0f} s of CPU time")
-    return 0
+    warned = [f"{name}: {warning}" for name, run in runs.items() if run.path.name == name for warning in run.summary["warnings"]]
+    print("".join(f"gallery.py: {line}\n" for line in warned), end="")
+    return 1 if warned else 0
 
 
 if __name__ == "__main__":
