@@ -20,9 +20,10 @@ incompressible smoothed particle hydrodynamics. A case is one text file; a run
 leaves tables, particle fields for ParaView and a summary.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tailwater)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-pil")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-vtk9, xvfb, python3-h5py")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview, tailwater-doc")
+# What each of these brings is in docs/install.md. A command that misses one says so (launch.py).
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, python3-scipy")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-vtk9, xvfb, python3-h5py, python3-rasterio, paraview, tailwater-doc")
 
 # The compiled module, and what scripts need: what is plain Python of the package is in the program's, which draws and
 # validates by it without pandas, whose recommended packages would be a quarter of all that apt installs.
