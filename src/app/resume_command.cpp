@@ -70,7 +70,7 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
-                            "Number of ranks; default: as many as wrote the checkpoint");
+                            "Number of ranks; default: as many as the run had");
   add_jobs_option(*command, arguments->jobs);
   add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");

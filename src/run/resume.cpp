@@ -154,7 +154,7 @@ int ranks_of_run(const fs::path& run) {
   } catch (const IoError&) {
     // `resume_run` tells what is wrong with it.
   }
-  return 1;
+  return ranks_named_in(run / summary_name);
 }
 
 }  // namespace tailwater

@@ -21,7 +21,8 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
 /// The first key in which two cases differ: "it has [time] end = 1 instead of [time] end = 2".
 std::string first_difference(const CaseSpec& wanted, const CaseSpec& found);
 
-/// The number of ranks that wrote the newest checkpoint in the folder of a run; 1 if there is none to tell.
+/// The number of ranks that wrote the newest checkpoint in the folder of a run, or of the run as long as there is none;
+/// 1 if nothing tells.
 int ranks_of_run(const std::filesystem::path& run);
 
 }  // namespace tailwater

@@ -1,5 +1,6 @@
 #include "run/summary_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -41,6 +42,12 @@ std::filesystem::path case_named_in(const std::filesystem::path& summary) {
   const nlohmann::ordered_json json = parse_summary(summary);
   const bool names_one = json.is_object() && json.contains("case") && json["case"].is_string();
   return names_one ? json["case"].get<std::string>() : std::string();
+}
+
+int ranks_named_in(const std::filesystem::path& summary) {
+  const nlohmann::ordered_json json = parse_summary(summary);
+  const nlohmann::ordered_json::json_pointer count("/ranks/count");
+  return json.contains(count) && json[count].is_number_integer() ? std::max(1, json[count].get<int>()) : 1;
 }
 
 }  // namespace tailwater

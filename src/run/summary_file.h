@@ -19,4 +19,7 @@ void mark_as_failed(const std::filesystem::path& summary, ExitCode code, const s
 /// The case file that a summary names; empty if there is no summary of a run.
 std::filesystem::path case_named_in(const std::filesystem::path& summary);
 
+/// The number of ranks that a summary tells; 1 if there is none to tell.
+int ranks_named_in(const std::filesystem::path& summary);
+
 }  // namespace tailwater

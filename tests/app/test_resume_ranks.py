@@ -1,6 +1,7 @@
 """resume on several ranks."""
 
 import os
+import shutil
 import signal
 import unittest
 
@@ -53,6 +54,17 @@ class Resumed(ProgramTest):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
         self.assertEqual(self.summary("run")["ranks"]["count"], 2)
+
+    def test_before_there_is_a_checkpoint_too(self):
+        out = self.folder / "run"
+        process = self.start("run", "small.toml", "--out", out, *CASE, "--set", "time.end=1000", "-n", "2")
+        self.wait_for((out / "fields/fields_00000.vtp").exists, process)
+        process.kill()
+        process.wait()
+        self.wait_for(lambda: not processes_of(out))
+        shutil.rmtree(out / "checkpoints")  # the ranks have written one when they lost their launcher
+        self.call("resume", out, "--quiet", "--set", "time.end=0.01")
+        self.assertEqual((self.summary("run")["status"], self.summary("run")["ranks"]["count"]), ("done", 2))
 
     def test_to_the_tolerance_of_the_solver_on_others(self):
         self.call("run", "small.toml", "--out", "whole", *WHOLE, *CASE)
