@@ -23,7 +23,8 @@ def sisph(dx, end, folder):
 
 
 def tailwater(program, dx, end, settings, folder):
-    command = [program, "run", ROOT / "cases/zhou1999/case.toml", "--out", f"{folder}/run", "--force", "--quiet"]
+    command = [program, "run", ROOT / "cases/zhou1999/case.toml", "--out", f"{folder}/run", "--force", "--quiet",
+               "-n", "1"]
     for setting in (f"particles.spacing={dx}", f"time.end={end}", "wall.tank.slip=free", *settings):
         command += ["--set", setting]
     subprocess.run(command, check=True)

@@ -175,7 +175,7 @@ def study(body, cells, options, folder):
     case = folder / "case.toml"
     case.write_text(case_text(body, wall, dimension, cells, options.end))
     settings = [f"particles.jitter={options.jitter}", *options.set]
-    subprocess.run([options.program, "run", case, "--out", folder / "run", "--force", "--quiet",
+    subprocess.run([options.program, "run", case, "--out", folder / "run", "--force", "--quiet", "-n", "1",
                     *(word for setting in settings for word in ("--set", setting))], check=True)
     up, across = ("y", "x") if dimension == 2 else ("z", "x")
     unit = "N_per_m" if dimension == 2 else "N"

@@ -50,7 +50,7 @@ TWO_STEP_VARIANTS = {
 
 
 def run(settings, spacing, out):
-    command = [PROGRAM, "run", CASE, "--out", out, "--force", "--quiet", "--set", f"particles.spacing={spacing}"]
+    command = [PROGRAM, "run", CASE, "--out", out, "--force", "--quiet", "-n", "1", "--set", f"particles.spacing={spacing}"]
     for setting in ("wall[0].slip=free", *settings):
         command += ["--set", setting]
     subprocess.run(command, check=False, stderr=subprocess.DEVNULL)

@@ -62,7 +62,7 @@ def main():
             path = pathlib.Path(folder) / "case.toml"
             path.write_text(case or CHANNEL.read_text())
             options = [part for setting in settings for part in ("--set", setting)]
-            subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/run", "--force", "--quiet", *options], check=True)
+            subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/run", "--force", "--quiet", "-n", "1", *options], check=True)
             values = tables.frame(f"{folder}/run/probes/{probe}.csv").iloc[:, 0]
             shown = ", ".join(f"{values[t - 0.25:t + 0.25].mean():.3f} at {t} s" for t in times)
             second_half = values[values.index[-1] / 2:].mean()

@@ -94,7 +94,7 @@ def watch(program, out, minutes, period):
     """Runs the tank; the samples of it."""
     case = out.parent / f"{out.name}.toml"
     case.write_text(CASE)
-    command = [program, "run", case, "--out", out, "--quiet", "--wall-time", f"{60 * minutes:.0f}s"]
+    command = [program, "run", case, "--out", out, "--quiet", "-n", "1", "--wall-time", f"{60 * minutes:.0f}s"]
     process = subprocess.Popen(command)
     samples = []
     while process.poll() is None:

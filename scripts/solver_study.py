@@ -45,7 +45,7 @@ def first_steps(case, depth, settings, preconditioner, out):
         "output.fields_interval": 2 * end,
         "pressure_solver.preconditioner": preconditioner,
     }
-    command = [PROGRAM, "run", case, "--out", out, "--force", "--quiet"]
+    command = [PROGRAM, "run", case, "--out", out, "--force", "--quiet", "-n", "1"]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     subprocess.run(command, check=True)

@@ -25,7 +25,7 @@ def seconds_per_step(case, settings, short, long):
         for _ in range(3):
             runs = []
             for end in (short, long):
-                command = [PROGRAM, "run", case, "--out", f"{folder}/run", "--force", "--quiet",
+                command = [PROGRAM, "run", case, "--out", f"{folder}/run", "--force", "--quiet", "-n", "1",
                            "--set", f"time.end={end}", "--set", "output.fields_interval=1e6"]
                 for setting in settings:
                     command += ["--set", setting]

@@ -216,8 +216,8 @@ class Case:
         """Runs the case in the folder `out`, which is made; `force` replaces an earlier run. Ctrl-C ends the run in
         order. Throws InputError and IoError before anything is written, SolverError if a step fails; what the run warns
         of becomes a RunWarning."""
-        words = ["run", *self.words(), "--out", out, *(["-n", ranks] if ranks != 1 else []),
-                 *(["--force"] if force else []), *([] if progress else ["--quiet"])]
+        words = ["run", *self.words(), "--out", out, "-n", ranks, *(["--force"] if force else []),
+                 *([] if progress else ["--quiet"])]
         call(*words, progress=progress)
         run = Run(out)
         if not progress:

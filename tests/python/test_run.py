@@ -152,6 +152,10 @@ class Runs(PackageTest):
 
     def test_ranks(self):
         self.assertEqual(self.case.run("out", ranks=2).summary["ranks"]["count"], 2)
+        with unittest.mock.patch("tailwater.case.call") as program, unittest.mock.patch("tailwater.case.Run"):
+            self.case.run("one", progress=True)
+        words = program.call_args.args
+        self.assertEqual(words[words.index("-n") + 1], 1)  # whatever the program does by default
 
     def test_interrupt_ends_the_run_in_order(self):
         self.case["time.end"] = 1e6
