@@ -127,8 +127,8 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   }
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
   fmt::print(
-      "time:      about {:.0f} steps, {} on this machine, from trial steps of {} (violent flow takes more and "
-      "smaller steps)\n",
+      "time:      about {:.0f} steps, {} on one core of this machine, from trial steps of {} (violent flow takes more "
+      "and smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
       !estimate.is_from_tank ? "the case"
       : estimate.grows_much ? "a tank of about 10000 particles, because most of the water comes in later: a first guess"

@@ -137,7 +137,7 @@ void add_time(const CaseSpec& spec, Json& answer) {
   answer["cost"].update(
       {{"steps", estimate.steps}, {"seconds", estimate.seconds}, {"is_first_guess", estimate.is_from_tank}});
   answer["summary"].push_back(fmt::format(
-      "About {:.0f} steps, {} on this machine{}", estimate.steps, readable_duration(estimate.seconds),
+      "About {:.0f} steps, {} on one core of this machine{}", estimate.steps, readable_duration(estimate.seconds),
       estimate.is_from_tank ? ": a first guess, from another flow" : "; violent flow takes more and smaller steps"));
 }
 

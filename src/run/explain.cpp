@@ -161,7 +161,8 @@ std::string about_cost(const CaseSpec& spec, const RunEstimate& estimate) {
           ? fmt::format(" With what comes in there will be about {:.2g} particles of water.", estimate.largest_fluid)
           : "";
   return fmt::format(
-      "It ends at {:.4g} s: about {:.0f} steps, {} on this machine and {:.0f} MB; fields are written every {:.3g} s.{}",
+      "It ends at {:.4g} s: about {:.0f} steps, {} on one core of this machine and {:.0f} MB; fields are written every "
+      "{:.3g} s.{}",
       spec.time.end, estimate.steps, readable_duration(estimate.seconds), estimate.memory / 1e6, interval, growth);
 }
 

@@ -243,7 +243,7 @@ class Check(ProgramTest):
         self.assertRegex(result.stdout, r"memory: +about \d+ MB")
         # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms, and a flow this slow
         # takes no smaller ones: 0.1 s are 5.69 steps. How long they take depends on what else the machine does.
-        self.assertRegex(result.stdout, r"time: +about [67] steps, (under )?\d+ s on this machine")
+        self.assertRegex(result.stdout, r"time: +about [67] steps, (under )?\d+ s on one core of this machine")
 
     def test_the_preview_is_an_svg_with_every_fluid_particle(self):
         self.call("check", "small.toml")

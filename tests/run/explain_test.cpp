@@ -32,7 +32,7 @@ TEST(ExplainCase, TellsWaterWallsMeasurementsAndCost) {
        {"there are 0.5 m^3 of water per metre of width (500 kg), in 1 box: 200 particles, 0.05 m apart",
         "Walls are 'tank' (polyline of 4 points, rough).", "Gravity is 9.81 m/s^2", "Measured are depth ('a').",
         "The scheme is farzin2014 (robust, explicit",
-        "It ends at 10 s: about 640 steps, 3 s on this machine and 50 MB"}) {
+        "It ends at 10 s: about 640 steps, 3 s on one core of this machine and 50 MB"}) {
     EXPECT_TRUE(tells(sentences, text)) << text;
   }
 }
