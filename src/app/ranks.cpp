@@ -1,24 +1,30 @@
 #include "app/ranks.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "app/processes.h"
+#include "geometry/from_spec.h"
 #include "io/messages.h"
+#include "parallel/cores.h"
 #include "parallel/process_limits.h"
+#include "run/inflow_estimate.h"
 #include "run/requests.h"
+#include "run/run_case.h"
+#include "sampling/particle_count.h"
 
 namespace tailwater {
 namespace {
@@ -41,14 +47,31 @@ bool is_in_batch_job() {
   return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
 }
 
-std::string find_mpirun() {
+/// That of the MPI with which this program was built, or one that is in PATH.
+std::optional<std::string> find_mpirun() {
   if (access(TAILWATER_MPIRUN, X_OK) == 0) return TAILWATER_MPIRUN;
-  return "mpirun";  // looked for in PATH
+  const char* path = std::getenv("PATH");
+  for (std::string_view places = path == nullptr ? "" : path; !places.empty();) {
+    const std::size_t end = std::min(places.find(':'), places.size());
+    const std::filesystem::path file = std::filesystem::path(places.substr(0, end)) / "mpirun";
+    if (access(file.c_str(), X_OK) == 0) return file.string();
+    places.remove_prefix(std::min(end + 1, places.size()));
+  }
+  return std::nullopt;
+}
+
+/// Fluid particles that a run has in the mean.
+template <int Dim>
+double particles_of_water(const CaseSpec& spec) {
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  const double of_a_particle = std::pow(spec.particles.spacing, Dim);
+  const double at_start = expected_particle_count(spec, boundary).fluid;
+  return estimate_water(spec, boundary, at_start * of_a_particle).mean / of_a_particle;
 }
 
 std::vector<std::string> mpirun_command(int count, const std::vector<std::string>& arguments) {
   // Quiet: that a rank ended with an exit code is ours to tell.
-  std::vector<std::string> command{find_mpirun(), "--quiet", "-n", std::to_string(count)};
+  std::vector<std::string> command{find_mpirun().value_or("mpirun"), "--quiet", "-n", std::to_string(count)};
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
   // Ranks of two runs at once would be bound to the same cores.
   if (!is_in_batch_job())
@@ -86,14 +109,23 @@ int ranks_in_environment() {
   return std::max(0, number_in_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}));
 }
 
-int usable_cores() {
-  cpu_set_t cores;
-  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
-}
+int usable_cores() { return static_cast<int>(usable_processors().size()); }
 
 int most_ranks_here() {
   constexpr int ranks_per_core = 8;
   return is_in_batch_job() ? std::numeric_limits<int>::max() : ranks_per_core * usable_cores();
+}
+
+int ranks_by_default(const CaseSpec& spec) {
+  if (ranks_in_environment() > 0 || is_in_batch_job()) return 1;
+  const int cores = cores_of(usable_processors());
+  if (cores == 1 || !find_mpirun()) return 1;
+  // docs/scaling.md has what a second rank gains with so many particles each.
+  const bool is_2d = spec.general.dimension == 2;
+  const double of_a_rank = is_2d ? 50e3 : 20e3;
+  const double water =
+      with_places(spec, [&] { return is_2d ? particles_of_water<2>(spec) : particles_of_water<3>(spec); });
+  return static_cast<int>(std::clamp(water / of_a_rank, 1.0, static_cast<double>(cores)));
 }
 
 bool is_root_in_environment() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "case/spec.h"
 #include "parallel/communicator.h"
 
 namespace tailwater {
@@ -14,11 +15,16 @@ namespace tailwater {
 /// did. As the environment says: MPI need not be running.
 int ranks_in_environment();
 
-/// Cores that this process may use.
+/// Processors that this process may use.
 int usable_cores();
 
 /// Most ranks that this program starts: a few per core. No limit in a batch job, whose system knows other machines.
 int most_ranks_here();
+
+/// Ranks of a run of which nobody says how many: as many as there are cores to have (parallel/cores.h) and as the case
+/// has water for. One where somebody else decides: in a batch job, or where the ranks of mpirun or srun are there; and
+/// where there is no mpirun. Throws InputError for shapes that cannot be.
+int ranks_by_default(const CaseSpec& spec);
 
 /// Is this the rank that speaks? As above.
 bool is_root_in_environment();

@@ -13,6 +13,7 @@
 #include "app/sweep.h"
 #include "case/help.h"
 #include "case/reader.h"
+#include "io/messages.h"
 #include "linear/session.h"
 #include "run/run_case.h"
 
@@ -63,10 +64,12 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
                       .wall_time = arguments.run.wall_time});
   }
   if (arguments.jobs) throw InputError("--jobs is for sweeps; remedy: leave it out, or add --sweep KEY=VALUE,VALUE");
-  if (const std::optional<int> count = arguments.ranks.count) {
-    if (*count > 1 && ranks.is_alone()) return launch_ranks(*count, words, arguments.run.out);
-  }
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
+  if (ranks.is_alone()) {
+    const int count = arguments.ranks.count ? *arguments.ranks.count : ranks_by_default(spec);
+    if (count > 1 && !arguments.ranks.count) tell(fmt::format("on {} ranks; -n 1 for one", count));
+    if (count > 1) return launch_ranks(count, words, arguments.run.out);
+  }
   std::optional<LinearSession> session;  // several ranks have one already
   if (ranks.is_alone()) session.emplace();
   const ExitCode code = run_case(spec, arguments.run, ranks);
@@ -92,8 +95,9 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE,...");
   add_jobs_option(*command, arguments->jobs);
-  add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
-                            "Number of ranks, which this program starts by mpirun; default 1");
+  add_rank_and_time_options(
+      *command, arguments->ranks, arguments->wall_time,
+      "Number of ranks, which this program starts by mpirun; default: 1, in large cases one for each core");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
   add_pictures_option(*command, arguments->pictures);
   command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");

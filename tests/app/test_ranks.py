@@ -1,13 +1,15 @@
 """Several ranks: how a run gets them and how they end, by themselves or not."""
 
 import os
+import pathlib
 import signal
 import subprocess
 import unittest
+import unittest.mock
 
 from frames import read_frames
 from processes import command_line, processes_of
-from program import PATIENCE, PROGRAM, ProgramTest, environment
+from program import PATIENCE, PROGRAM, SMALL_CASE, ProgramTest, environment
 
 MPIRUN = os.environ["MPIRUN"]
 
@@ -168,6 +170,59 @@ end = 0.02
         process.kill()
         process.wait()
         self.wait_for(lambda: not self.processes())
+
+
+def cores():
+    """Of those that this test may use, two threads of a core counting once."""
+    topology = "/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list"
+    return len({pathlib.Path(topology.format(processor)).read_text() for processor in os.sched_getaffinity(0)})
+
+
+def is_limited():
+    """Whether a control group grants less time than the processors have."""
+    limit = pathlib.Path("/sys/fs/cgroup/cpu.max")
+    return limit.exists() and not limit.read_text().startswith("max")
+
+
+class RanksByDefault(ProgramTest):
+    """Water for two ranks is in large.toml. It is there twice in wrong.toml, which ends a run before it makes a flow."""
+
+    TOLD = "on 2 ranks; -n 1 for one"
+
+    def setUp(self):
+        super().setUp()
+        large = SMALL_CASE.replace("spacing = 0.1", 'spacing = "1/450"').replace("end = 0.1", "end = 1e-6")
+        (self.folder / "large.toml").write_text(large)
+        (self.folder / "wrong.toml").write_text(large + '[[fluid]]\nname = "again"\nmin = [0, 0]\nmax = [1, 0.5]\n')
+
+    def told(self, *words, case="wrong.toml", **options):
+        return self.call("run", case, "--out", "out", *words, expect=2, errors_only=False, **options).stderr
+
+    @unittest.skipIf(cores() < 2 or is_limited(), "one core")
+    def test_are_as_many_as_cores(self):
+        self.assertIn(self.TOLD, self.call("run", "large.toml", "--out", "out").stderr)
+        self.assertEqual(self.summary("out")["ranks"]["count"], 2)
+        self.assertIn(self.TOLD, self.told())
+        self.assertNotIn("ranks", self.told("--quiet"))
+
+    def test_are_one_where_that_was_asked_for(self):
+        self.assertNotIn("ranks", self.told("-n", "1"))
+
+    def test_are_one_for_little_water(self):
+        self.assertNotIn("ranks", self.told("--set", "particles.spacing=0.005"))
+
+    def test_are_no_more_than_the_cores_that_the_program_may_use(self):
+        one = min(os.sched_getaffinity(0))
+        self.assertNotIn("ranks", self.told(preexec_fn=lambda: os.sched_setaffinity(0, {one})))
+
+    def test_are_one_where_somebody_else_starts_them(self):
+        for variable in ("OMPI_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS", "SLURM_JOB_ID"):
+            with self.subTest(variable), unittest.mock.patch.dict(os.environ, {variable: "1"}):
+                self.assertNotIn("ranks", self.told())
+
+    def test_are_one_for_a_member_of_a_sweep(self):
+        self.call("run", "large.toml", "--out", "sweep", "--sweep", "particles.seed=1", "--jobs", "1", "--quiet")
+        self.assertEqual(self.summary("sweep/particles.seed=1")["ranks"]["count"], 1)
 
 
 if __name__ == "__main__":
