@@ -20,9 +20,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 
 import numpy  # noqa: E402
-from tailwater_validation import martin_moyce1952, zhou1999  # noqa: E402
-from tailwater_validation.curves import Curve  # noqa: E402
+from tailwater.curves import Curve  # noqa: E402
 from tailwater_validation.metric import Metric  # noqa: E402
+from tailwater_validation.studies import martin_moyce1952, zhou1999  # noqa: E402
 
 OPENFOAM = "/usr/share/openfoam"  # where Debian has what its programs read
 THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM wants in two dimensions
@@ -36,7 +36,7 @@ def header(kind, name):
 
 class Case:
     """The parts of a case that all dam breaks share. A subclass has `size` and `column` (length, height, m), `end` (s),
-    `gauges` (names of probes: field and places), and what `scores` needs of a run: `probe` and `spacing`."""
+    `gauges` (names of probes: field and places), and what `scores` needs of a run: `curve` and `spacing`."""
 
     def __init__(self, options):
         self.options = options
@@ -202,7 +202,7 @@ class Zhou(Case):
         wires = {name: ("alpha.water", self.column_of_cells(x, self.size[1])) for name, x in self.wires.items()}
         return wires | {"floor": self.floor(), "wall": ("p", self.column_of_cells(self.size[0], 0.4))}
 
-    def probe(self, name, _column):
+    def curve(self, name, _column):
         if name in self.wires:
             return self.wet_length(name)
         if name == "front":
@@ -213,9 +213,9 @@ class Zhou(Case):
         return Curve(times, numpy.array([numpy.interp(places, heights, row).mean() for row in pressure]))
 
     def scores(self):
-        yield from zhou1999.score_impact(self)
-        yield from (metric for metric in zhou1999.score_curves(self)
-                    if "joined" not in metric.what and "highest" not in metric.what)
+        yield from zhou1999.impact(self)
+        for reading in zhou1999.DIGITISATIONS:
+            yield from zhou1999.distances(self, (reading,))
         late = zhou1999.pressure(self, zhou1999.READ_AT).window(*self.second_impact_within)
         if late.time.size:
             yield Metric("second_impact", "second impact, z = 0.12 m", "T", "about 5.9",
@@ -236,13 +236,11 @@ class MartinMoyce(Case):
     def gauges(self):
         return {"height": ("alpha.water", self.column_of_cells(0, self.size[1])), "floor": self.floor()}
 
-    def probe(self, name, _column):
+    def curve(self, name, _column):
         return self.front() if name == "front" else self.wet_length(name)
 
     def scores(self):
-        yield from martin_moyce1952.score_speed(self)
-        yield from martin_moyce1952.score_fronts(self)
-        yield from martin_moyce1952.score_height(self)
+        yield from martin_moyce1952.of_laboratory(self)
 
 
 CASES = {"zhou1999": Zhou, "martin_moyce1952": MartinMoyce}

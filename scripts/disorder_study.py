@@ -14,7 +14,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater.fields import list_frames, read_frame  # noqa: E402
-from tailwater_validation.run_folder import RunFolder  # noqa: E402
+from tailwater.run import Run  # noqa: E402
 
 SUPPORT = 3.0  # dx
 SAMPLE = 1000
@@ -46,7 +46,7 @@ def lattice(jitter, rows=40):
 
 def frame(run, time):
     """Points of the run in dx at about `time`, and those whose neighbours are all inside and out of the walls' reach."""
-    folder = RunFolder(run)
+    folder = Run(run)
     data = read_frame(*min(list_frames(run), key=lambda entry: abs(entry[0] - time)))
     points = data.position[:, :2] / folder.spacing
     off_walls = (points[:, 1] > 3.5) & (points[:, 0] > 3.5) & (points[:, 0] < points[:, 0].max() - 3.5)

@@ -14,9 +14,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
-from tailwater_validation.curves import DataError
-from tailwater_validation.run_folder import RunFolder
+sys.path.insert(0, str(ROOT / "python"))
+from tailwater import DataError, Run
 
 PARTS = 10
 
@@ -28,7 +27,7 @@ def limit(spacing, value):
 
 def member(run, options):
     """(spacing, mean, standard error) of one run."""
-    curve = run.probe(options.probe, options.column)
+    curve = run.curve(options.probe, options.column)
     value = curve.value[curve.time >= options.start] - options.minus
     if run.summary.get("status") != "done" or value.size < PARTS:
         raise DataError(f"{run.path}: has not ended, or has fewer than {PARTS} readings from {options.start:g} s on")
@@ -45,7 +44,7 @@ def main():
     parser.add_argument("--minus", type=float, default=0.0, metavar="VALUE", help="taken off all values")
     options = parser.parse_args()
     try:
-        runs = [RunFolder(case.parent) for case in options.sweep.glob("*/case.effective.toml")]
+        runs = [Run(case.parent) for case in options.sweep.glob("*/case.effective.toml")]
         members = sorted((member(run, options) for run in runs), reverse=True)
         if len(members) < 3:
             raise DataError(f"{options.sweep}: has {len(members)} runs; three spacings are needed")

@@ -13,7 +13,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
-from tailwater_validation import zhou1999  # noqa: E402
+from tailwater import Run  # noqa: E402
+from tailwater_validation.studies import zhou1999  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"
 CASE = ROOT / "cases/zhou1999/case.toml"
@@ -58,8 +59,7 @@ def run(settings, spacing, out):
 
 
 def number(metrics, name, digits):
-    value = metrics[name]["value"]
-    return "-" if value is None else f"{value:.{digits}f}"
+    return "-" if metrics[name] is None else f"{metrics[name]:.{digits}f}"
 
 
 def main():
@@ -71,7 +71,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name, settings in variants.items():
             summary = run(settings, spacing, f"{folder}/run")
-            metrics = {metric["name"]: metric for metric in zhou1999.score(f"{folder}/run")["metrics"]}
+            metrics = {metric.name: metric.value for metric in zhou1999.metrics(Run(f"{folder}/run"))}
             reached = summary["time_s"]["reached"] / zhou1999.TIME_SCALE
             energy, volume = summary["energy"], summary["volume"]
             cells = [name, f"{reached:.2f}", f"{energy['end_J'] / energy['start_J']:.3f}",

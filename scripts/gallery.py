@@ -14,12 +14,11 @@ import tempfile
 import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "build/release/lib/python3/dist-packages")]
+sys.path.insert(0, str(ROOT / "build/release/lib/python3/dist-packages"))
 import tailwater as tw  # noqa: E402
 from PIL import Image  # noqa: E402
+from tailwater import pictures  # noqa: E402
 from tailwater.program import call  # noqa: E402
-from tailwater_validation import pictures  # noqa: E402
-from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 PAGE = ROOT / "docs" / "gallery.md"
 IMAGES = ROOT / "docs" / "images" / "gallery"
@@ -62,7 +61,7 @@ def what_it_shows(name):
 
 
 def is_whole(folder):
-    return (folder / "summary.json").is_file() and RunFolder(folder).summary.get("status") == "done"
+    return (folder / "summary.json").is_file() and tw.Run(folder).summary.get("status") == "done"
 
 
 def finished(name, may_be_coarse):
@@ -70,14 +69,14 @@ def finished(name, may_be_coarse):
     folders = [RUNS / name, RUNS / f"{name}-coarse"]
     for folder in folders[:2 if may_be_coarse else 1]:
         if is_whole(folder):
-            return RunFolder(folder)
+            return tw.Run(folder)
     print(f"gallery.py: {name}", flush=True)
     case = tw.Case.template(name)
     if may_be_coarse:
         case["particles.spacing"] = f"2*({case['particles.spacing']})"
     folder = folders[may_be_coarse]
     case.run(folder, force=folder.exists())
-    return RunFolder(folder)
+    return tw.Run(folder)
 
 
 def draw(name, run):

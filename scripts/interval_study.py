@@ -17,7 +17,6 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 import tailwater as tw  # noqa: E402
 from tailwater_validation import exact_flows  # noqa: E402
-from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 
 def error_of(flow, name):
@@ -64,7 +63,7 @@ def study(name, options):
     case = tw.Case(ROOT / "cases" / f"{case}.toml")
     case["particles.spacing"] = f"{coarsest}/{2 * options.finer:g}"
     found = tw.study(case, out=options.out / name, jobs=options.jobs,
-                     quantities=lambda run: {(name, "over the truth"): (read(RunFolder(run.path)), "")})
+                     quantities=lambda run: {(name, "over the truth"): (read(run), "")})
     return found.rows[0]
 
 

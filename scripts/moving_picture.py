@@ -11,7 +11,7 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
+sys.path.insert(0, str(ROOT / "python"))
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
@@ -19,9 +19,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from tailwater_validation import plots  # noqa: E402
+from tailwater import Run, plots  # noqa: E402
 from tailwater.fields import list_frames, read_frame  # noqa: E402
-from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 WIDTH, DPI, COLOURS = 7.6, 100, 48  # inches, dots per inch, of the whole picture
 SLOWER = 2.0  # than the water
@@ -47,7 +46,7 @@ def main(arguments):
     if len(arguments) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    run = RunFolder(arguments[0])
+    run = Run(arguments[0])
     frames = [read_frame(time, path) for time, path in list_frames(run.path)]
     largest = np.percentile(np.concatenate([frame.fields["pressure"] for frame in frames]), 99)
     view = plots.View(run, frames)

@@ -17,6 +17,7 @@ Numbers are in SI units; in 2D forces, masses and discharges are those of a metr
 docs/guide/python.md."""
 
 from .case import Case, Check
+from .curves import Curve
 from .errors import DataError, Error, InputError, IoError, RunWarning, SolverError
 from .fields import Frame
 from .program import program, version
@@ -25,5 +26,5 @@ from .study import Study, study
 from .sweep import Sweep, sweep
 from .view import View
 
-__all__ = ["Case", "Check", "DataError", "Error", "Frame", "InputError", "IoError", "Probes", "Run", "RunWarning",
+__all__ = ["Case", "Check", "Curve", "DataError", "Error", "Frame", "InputError", "IoError", "Probes", "Run", "RunWarning",
            "SolverError", "Study", "Sweep", "View", "program", "study", "sweep", "version"]

@@ -1,17 +1,32 @@
-"""What the package's commands share: errors that read like those of the program."""
+"""What the package's commands share: options, and errors that read like those of the program."""
 
 import argparse
+import math
 import sys
+from pathlib import Path
 
-__all__ = ["Parser", "complain"]
+__all__ = ["Parser", "complain", "number"]
 
 
 class Parser(argparse.ArgumentParser):
-    """Wrong options end it with exit code 2."""
+    """Of a command that the program hands over, telling by `--program` where it is. Wrong options end it with exit code
+    2."""
+
+    def __init__(self, prog: str, needs_program: bool = False, **words):
+        super().__init__(prog=prog, allow_abbrev=False, **words)
+        self.add_argument("--program", type=Path, required=needs_program, help=argparse.SUPPRESS)
 
     def error(self, message):
         print(f"error: {message}; see: {self.prog} --help", file=sys.stderr)
         sys.exit(2)
+
+
+def number(text: str) -> float:
+    """A finite number, for an option."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text}: not a finite number")
+    return value
 
 
 def complain(what, code: int) -> int:

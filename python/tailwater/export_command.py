@@ -22,10 +22,9 @@ def moment(text):
 
 
 def parser():
-    command = Parser(prog="tailwater export", allow_abbrev=False)
+    command = Parser("tailwater export")
     command.description = "Write a run in the formats of others. What is there already is replaced."
     command.epilog = "Example: tailwater export my_run --vtkhdf water.vtkhdf --netcdf gauges.nc --paraview state.py"
-    command.add_argument("--program", help=argparse.SUPPRESS)
     command.add_argument("run", metavar="DIR", help="folder of a run, which may go on")
     command.add_argument("--vtkhdf", type=Path, metavar="FILE", help="the water with all its fields and times as one VTKHDF "
                          "file, for ParaView 5.12 or newer (needs python3-h5py)")
@@ -43,7 +42,7 @@ def main(arguments=None):
     if not (options.vtkhdf or options.netcdf or options.paraview):
         command.error("give one of --vtkhdf FILE, --netcdf FILE and --paraview FILE")
     if options.program:
-        os.environ["TAILWATER"] = options.program
+        os.environ["TAILWATER"] = str(options.program)
     try:
         run = Run(options.run)
         if options.netcdf:

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from . import tables
+from .curves import Curve, read_curve
 from .errors import DataError, RunWarning
 from .fields import Frame, list_frames, nearest_frames
 from .netcdf import EPOCH, write_netcdf
@@ -104,6 +105,14 @@ class Run:
         """steps.csv as a pandas.DataFrame over `time_s`."""
         return tables.frame(self.path / "steps.csv")
 
+    def curve(self, probe: str, column: str) -> Curve:
+        """A column of a probe over time, as `curve("gauge", "highest_m")`; without pandas. Throws DataError."""
+        return read_curve(self.path / "probes" / f"{probe}.csv", column)
+
+    def step_curve(self, column: str) -> Curve:
+        """A column of steps.csv over time. Throws DataError."""
+        return read_curve(self.path / "steps.csv", column)
+
     @property
     def times(self) -> list:
         """s; of the field files."""
@@ -142,6 +151,18 @@ class Run:
     @property
     def dimension(self) -> int:
         return self.case["case"]["dimension"]
+
+    @property
+    def integrator(self) -> str:
+        """"two-step" for the scheme that knows no other."""
+        return self.case["scheme"].get("integrator", "two-step")
+
+    @property
+    def fluid_particles(self) -> int:
+        """How many there are at the end. Throws DataError if the run has not ended."""
+        if "particles" not in self.summary:
+            raise DataError(f"{self.path}: the run has not ended")
+        return self.summary["particles"]["fluid"]
 
     @property
     def density(self) -> float:

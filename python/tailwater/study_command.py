@@ -54,13 +54,12 @@ def change(text):
 
 
 def parser():
-    command = Parser(prog="tailwater study", allow_abbrev=False)
+    command = Parser("tailwater study")
     command.description = ("Run a case at several spacings, from other starts and with half of the time step, and say "
                            "for each number of its probes how well it is known: value, interval, limit, order "
                            "(docs/theory/uncertainty.md).")
     command.epilog = ("Called again it goes on with what is not done. DIR/study.csv, study.json and study.txt have the "
                       "table. Example: tailwater study my.toml --out my_study --budget 20min --jobs 2")
-    command.add_argument("--program", help=argparse.SUPPRESS)
     command.add_argument("case", help="case file")
     command.add_argument("--out", required=True, metavar="DIR", help="folder of the study")
     command.add_argument("--set", action="append", type=change, default=[], metavar="KEY=VALUE",
@@ -79,7 +78,7 @@ def parser():
 def main():
     options = parser().parse_args()
     if options.program:
-        os.environ["TAILWATER"] = options.program
+        os.environ["TAILWATER"] = str(options.program)
     import tailwater as tw  # not before it is known which program it is to call
 
     try:

@@ -53,7 +53,7 @@ void draw_pictures(const std::filesystem::path& run, int count, const Communicat
   if (!ranks.is_root()) return;
   tell("drawing pictures");
   try {
-    run_python("tailwater_validation.pictures", {"--count", fmt::format("{}", count), run.string()});
+    run_python("tailwater.pictures", {"--count", fmt::format("{}", count), run.string()});
   } catch (const IoError& error) {
     warn(fmt::format("no pictures: {}; later: tailwater pictures {}", error.what(), run.string()));
   }
@@ -80,7 +80,7 @@ void draw_start(const std::filesystem::path& image, const std::string& title, do
   for (const Vec<3>& x : marks) {
     options.push_back(fmt::format("--mark={},{},{}", x[0], x[1], x[2]));
   }
-  run_python("tailwater_validation.start_picture", options);
+  run_python("tailwater.start_picture", options);
 }
 
 }  // namespace tailwater

@@ -34,6 +34,12 @@ class Runs(PackageTest):
         self.assertEqual(depth.attrs["units"], {"time_s": "s", "connected_m": "m", "highest_m": "m", "wet_m": "m"})
         with self.assertRaisesRegex(KeyError, "the case has depth"):
             run.probes["dept"]
+        curve = run.curve("depth", "highest_m")
+        self.assertEqual([curve.time.tolist(), curve.value.tolist()], [depth.index.tolist(), depth["highest_m"].tolist()])
+        with self.assertRaisesRegex(tw.DataError, "has no column lowest_m; it has time_s, "):
+            run.curve("depth", "lowest_m")
+        self.assertEqual(run.step_curve("kinetic_J").value.size, run.summary["steps"]["count"])
+        self.assertEqual([run.fluid_particles, run.integrator], [50, run.case["scheme"]["integrator"]])
 
     def test_fields_are_arrays(self):
         run = self.case.run("out")

@@ -10,15 +10,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from tailwater_validation import compare, laboratory_picture, plots, zhou1999
-from tailwater_validation.run_folder import RunFolder
+from tailwater.run import Run
+from tailwater_validation.studies import zhou1999
 
 SAMPLING = 0.001  # s
 ARRIVAL = 0.59  # s: before the window in which noise is scored
@@ -138,14 +137,15 @@ class CaseTest(unittest.TestCase):
         self.addCleanup(parent.cleanup)
         self.folder = Path(parent.name) / "run"
 
-    def assert_recognised_and_drawn(self, name):
-        self.assertEqual(compare.recognise(self.folder), name)
-        compare.draw(name, RunFolder(self.folder), self.folder / "picture.png")
-        pixels = matplotlib.image.imread(self.folder / "picture.png")
-        self.assertEqual(pixels.shape[1], plots.WIDTH * laboratory_picture.DPI)
-        # The computed curves' blue, #0072B2, is on the page.
-        blue = np.abs(pixels[:, :, :3] - np.array([0x00, 0x72, 0xB2]) / 255).max(axis=2) < 1e-6
-        self.assertGreater(np.count_nonzero(blue), 100)
+    def assert_drawn(self, module, kinds=frozenset({"run", "measured"})):
+        """Each panel has curves of these kinds, and each curve points."""
+        panels = module.draw(Run(self.folder))
+        self.assertTrue(panels)
+        for panel in panels:
+            self.assertLessEqual(kinds, {curve["kind"] for curve in panel["curves"]}, panel["title"])
+            for curve in panel["curves"]:
+                self.assertGreater(len(curve["x"]), 0, f"{panel['title']}, {curve['label']}")
+        json.dumps(panels, allow_nan=False)
 
 
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):

@@ -7,8 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater_validation.curves import (Curve, DataError, arrival_time, best_shift, first_peak, noise, passage_time,
-                                         read_curve, read_table, rms_difference, running_median)
+from tailwater.curves import Curve, read_curve
+from tailwater.errors import DataError
+from tailwater.tables import read_table
+from tailwater_validation.curves import (arrival_time, best_shift, first_peak, noise, passage_time, rms_difference,
+                                         running_median)
 
 
 class Reading(unittest.TestCase):

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 
 import synthetic_run
+from tailwater.errors import DataError
+from tailwater.run import Run
+from tailwater.tables import read_table
 from tailwater_validation import exact_flows, shallow_water
-from tailwater_validation.curves import DataError, read_table
-from tailwater_validation.run_folder import RunFolder
 
 FLOAT32 = 2.0**-23  # relative spacing of what field files hold
 
@@ -40,7 +41,7 @@ class RunTest(unittest.TestCase):
         for name, columns in (tables or {}).items():
             np.savetxt(folder / name, np.stack(list(columns.values()), axis=1), delimiter=",", header=",".join(columns),
                        comments="")
-        return RunFolder(folder)
+        return Run(folder)
 
 
 def lattice(low, high, dx):

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.errors import DataError
+from tailwater.run import Run
 from tailwater_validation import floating
-from tailwater_validation.curves import DataError
-from tailwater_validation.run_folder import RunFolder
 
 G = 9.81
 BOX = floating.Tank(width=0.42, depth=0.375, breadth=0.3, height=0.15, mass=22.5, inertia=22.5 * 0.1125 / 12,
@@ -62,7 +62,7 @@ class Runs(unittest.TestCase):
         time = np.linspace(0, 4, 4001)
         (path / "probes" / "box.csv").write_text("time_s,displacement_y_m,angle_rad\n" + "".join(
             f"{t:.9g},{y:.9g},{y:.9g}\n" for t, y in zip(time, place(time))))
-        return RunFolder(path)
+        return Run(path)
 
     def test_a_box_that_obeys_has_no_error(self):
         period, _ = floating.theory(BOX, False, 4.0)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.errors import DataError
+from tailwater.run import Run
 from tailwater_validation import flume
-from tailwater_validation.curves import DataError
-from tailwater_validation.run_folder import RunFolder
 
 G = 9.81
 END = 8.0
@@ -32,7 +32,7 @@ class SteadyFlows(unittest.TestCase):
                 for t in np.linspace(0, END, 801)))
         if profiles:
             (path / "probes" / "surface.csv").write_text(profiles)
-        return RunFolder(path)
+        return Run(path)
 
     def test_a_weir_that_obeys_rehbock_has_no_error(self):
         # he = 0.09, he/P = 0.45: (1.782 + 0.108) 0.027
@@ -93,7 +93,7 @@ class SteadyFlows(unittest.TestCase):
             rows = "".join(f"6.0,{height},{u},0,{behind},{after / behind},0\n" for height, u in profile)
             (run.path / "probes/velocity_behind.csv").write_text(
                 "time_s,height_m,u_m_s,v_m_s,depth_m,mean_u_m_s,mean_v_m_s\n" + rows)
-            return flume.hydraulic_jump(RunFolder(run.path))
+            return flume.hydraulic_jump(Run(run.path))
 
         even = after / behind
         numbers = jump_with(((0.25 * behind, even), (0.75 * behind, even)))
@@ -136,7 +136,7 @@ class SteadyFlows(unittest.TestCase):
         effective = run.path / "case.effective.toml"
         effective.write_text(effective.read_text().replace(
             "[physics]", "[physics]\nchannel_width = 0.05\nchannel_roughness = 0.002\nviscosity = 1e-6"))
-        numbers = flume.backwater(RunFolder(run.path))
+        numbers = flume.backwater(Run(run.path))
         self.assertAlmostEqual(numbers["level_error_dx"], 0.3, places=6)
         self.assertAlmostEqual(numbers["discharge_error"], 0.01, places=9)
 
@@ -149,7 +149,7 @@ class SteadyFlows(unittest.TestCase):
         (run.path / "summary.json").write_text(json.dumps({"water_balance": {
             "start": {"particles": 400}, "inside": {"particles": 390}, "outside": {"particles": 1},
             "inlets": [{"steps_short_of_water": 3}], "outlets": [{"waiting": {"particles": 60}}]}}))
-        numbers = flume.circulation(RunFolder(run.path))
+        numbers = flume.circulation(Run(run.path))
         self.assertEqual((numbers["lost_particles"], numbers["steps_short_of_water"]), (1, 3))
         for name in ("discharge_error", "discharge_drift", "level_error_dx", "level_drift_dx"):
             self.assertAlmostEqual(numbers[name], 0.0, places=7)
@@ -179,7 +179,7 @@ class SteadyFlows(unittest.TestCase):
         for name, (column, value) in waves.items():
             (run.path / "probes" / f"{name}.csv").write_text(f"time_s,{column}\n" + "".join(
                 f"{time:.9g},{z:.9g}\n" for time, z in zip(t, value)))
-        numbers = flume.solitary_wave(RunFolder(run.path))
+        numbers = flume.solitary_wave(Run(run.path))
         self.assertAlmostEqual(numbers["force_error"], 0.02, delta=2e-3)
         self.assertAlmostEqual(numbers["pressure_error"], 0.05, delta=2e-3)
         near = exact.force[np.abs(exact.time) < flume.WALL_WINDOW]

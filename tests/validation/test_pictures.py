@@ -14,10 +14,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import synthetic_run
-from tailwater_validation import pictures, pictures_3d, scene, start_picture, surface
-from tailwater_validation.curves import DataError
+from tailwater import pictures, pictures_3d, scene, start_picture, surface
+from tailwater.errors import DataError
 from tailwater.fields import Frame, list_frames, read_polydata
-from tailwater_validation.run_folder import RunFolder
+from tailwater.run import Run
 
 DX = 0.1
 CASE = """\
@@ -130,7 +130,7 @@ class Pictures(PicturesTest):
         program = ("import sys; sys.modules['vtkmodules'] = None; from tailwater_validation import launch, validate; "
                    "launch.main()")
         for folder, code in ((flat, 0), (self.run_of(3), 2)):
-            ended = subprocess.run([sys.executable, "-B", "-c", program, "tailwater_validation.pictures", "--program", "tailwater",
+            ended = subprocess.run([sys.executable, "-B", "-c", program, "tailwater.pictures", "--program", "tailwater",
                                     folder], capture_output=True, text=True, check=False)
             self.assertEqual((ended.returncode, "install python3-vtk9" in ended.stderr), (code, code == 2), ended.stderr)
             self.assertEqual(len(ended.stderr.splitlines()), code // 2, "one line")
@@ -168,7 +168,7 @@ class Bounds(unittest.TestCase):
 class Scene(PicturesTest):
     def test_shows_water_faces_that_look_here_and_marks_on_top(self):
         folder = self.run_of(3, frames=1)
-        walls = pictures_3d.walls_at(RunFolder(folder), 0.0)
+        walls = pictures_3d.walls_at(Run(folder), 0.0)
         water = surface.water_surface(Frame(0.0, block(6, 5, 4) + (0.5, 0.5, 0), {}), DX)
         bounds = (0, 4, 0, 4, 0, 1)
 

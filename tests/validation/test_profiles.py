@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 import synthetic_run
-from tailwater_validation.curves import DataError
+from tailwater.errors import DataError
+from tailwater.run import Run
 from tailwater_validation.profiles import Profile, profile_at, rms, single_valued, vertical_differences
-from tailwater_validation.run_folder import RunFolder
 
 
 class SingleValued(unittest.TestCase):
@@ -68,10 +68,10 @@ class Profiles(unittest.TestCase):
             synthetic_run.write_probe(run, "surface", {
                 "time_s": np.repeat([1.001, 2.002], 3), "x_m": np.tile([0.1, 0.2, 0.3], 2), "bed_m": np.zeros(6),
                 "connected_m": np.arange(6.0), "highest_m": np.arange(6.0)})
-            profile = profile_at(RunFolder(run), "surface", 2.0)
+            profile = profile_at(Run(run), "surface", 2.0)
             self.assertEqual((profile.time, list(profile.connected)), (2.002, [3, 4, 5]))
             with self.assertRaisesRegex(DataError, "no profile at 1.500 s"):
-                profile_at(RunFolder(run), "surface", 1.5)
+                profile_at(Run(run), "surface", 1.5)
 
 
 if __name__ == "__main__":

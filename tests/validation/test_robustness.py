@@ -13,8 +13,8 @@ import tomllib
 import unittest
 
 from fake_program import ProgramTest
+from tailwater.errors import DataError
 from tailwater_validation import reading, robustness, runs
-from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric
 
 

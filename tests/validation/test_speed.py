@@ -15,8 +15,8 @@ import unittest.mock
 from pathlib import Path
 
 from fake_program import ProgramTest
+from tailwater.errors import DataError
 from tailwater_validation import speed, speed_profile, speed_report, speed_rooms, speed_runs
-from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric
 
 PROVENANCE = {"version": "1", "commit": "abc", "compiler": "GNU 12", "options": "-O3", "libraries": "PETSc",

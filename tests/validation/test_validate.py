@@ -10,13 +10,15 @@ import numpy as np
 
 import synthetic_run
 from fake_program import ProgramTest
-from tailwater_validation import panels, plots, runs, study, validate, zhou1999
+from tailwater import plots
+from tailwater.errors import DataError
+from tailwater.run import Run
+from tailwater_validation import panels, runs, study, validate
 from tailwater_validation.checks import Check
-from tailwater_validation.curves import DataError
 from tailwater_validation.metric import Metric, shown
 from tailwater_validation.particles import detached
 from tailwater_validation.study import LEVELS, Plan
-from tailwater_validation.studies import operators, studies
+from tailwater_validation.studies import operators, studies, zhou1999
 
 DEPTH_ERROR = 0.03  # of H: between the bars of the depths and nothing
 
@@ -73,8 +75,7 @@ class Scores(ValidateTest):
         self.assertEqual(code, 0, err)
         result, metrics = self.result(), self.metrics()
         # The depths are one reading of the laboratory's, DEPTH_ERROR too high; the other reading is a few hundredths away.
-        apart = zhou1999.score(synthetic_folder())["metrics"]
-        other, = (m["value"] for m in apart if m["name"] == "rms H2 T 0..6 fluidity")
+        other = zhou1999.distance(Run(synthetic_folder()), "H2", (0.0, 6.0), readings=("fluidity",))["value"]
         self.assertAlmostEqual(metrics["zhou1999.H2.T6"]["value"], 0.5 * (DEPTH_ERROR + other), places=9)
         self.assertEqual(metrics["zhou1999.H2.T6"]["verdict"], "met")
         self.assertEqual(metrics["zhou1999.noise"]["verdict"], "missed")  # the sawtooth is 0.02 rho g H
@@ -248,9 +249,8 @@ class Checks(unittest.TestCase):
 
     def test_all_numbers_of_a_module_come_with_its_name(self):
         made = (runs.Run("r", Path("case")),)
-        found = {"a": {"name": "a", "what": "  deep", "unit": "m", "against": "b", "low": None, "high": 1.0, "value": 2.0,
-                       "verdict": "missed"}, "z": {"name": "z"}}
-        checks = study.ModuleChecks("case", None, made, lambda name: name == "a", (("a", 9.24),))
+        found = {"a": Metric("a", "deep", "m", "b", high=1.0, value=2.0), "z": Metric("z", "far", "m", "b")}
+        checks = study.AllChecks("case", None, made, lambda name: name == "a", (("a", 9.24),))
         with unittest.mock.patch.object(study, "finished"), unittest.mock.patch.object(study, "scores", lambda *_: found):
             metric, = checks.scores(None)
         self.assertEqual((metric.name, metric.what, metric.paper, metric.verdict), ("case.a", "deep", 9.24, "missed"))

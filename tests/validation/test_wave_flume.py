@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tailwater.run import Run
+from tailwater.waves import wave_numbers
 from tailwater_validation import wave_flume
-from tailwater_validation.run_folder import RunFolder
-from tailwater_validation.waves import wave_numbers
 
 DEPTH, LENGTH, HEIGHT, G = 0.2, 1.25, 0.08, 9.81
 PERIOD = 2 * np.pi / (G * 2 * np.pi / LENGTH * np.tanh(2 * np.pi / LENGTH * DEPTH)) ** 0.5
@@ -43,7 +43,7 @@ class WaveFlume(unittest.TestCase):
         (path / "case.effective.toml").write_text(
             f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {22 * PERIOD}\n"
             f"[parameters]\nh = {DEPTH}\nL = {LENGTH}\nT = {PERIOD}\nH = {HEIGHT}\n{tables}")
-        return RunFolder(path)
+        return Run(path)
 
     def test_waves_that_neither_decay_nor_come_back(self):
         numbers = wave_flume.wave_flume(self.run_with(0.0, 0.0))
@@ -84,7 +84,7 @@ class IrregularWaves(unittest.TestCase):
         (path / "case.effective.toml").write_text(
             f"[case]\ndimension = 2\n[physics]\ngravity = [0.0, -{G}]\n[time]\nend = {end}\n"
             f"[parameters]\nh = {DEPTH}\nT = {PERIOD}\nH = {HEIGHT}\nwindow = {start}\n{tables}")
-        return RunFolder(path)
+        return Run(path)
 
     def test_the_sea_that_was_made(self):
         numbers = wave_flume.irregular_waves(self.run_with())

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater_validation import waves
-from tailwater_validation.curves import DataError
-from tailwater_validation.run_folder import RunFolder
+from tailwater import waves
+from tailwater.errors import DataError
+from tailwater.run import Run
 
 DEPTH = 0.4
 GRAVITY = 9.81
@@ -41,7 +41,7 @@ class WaveGauges(unittest.TestCase):
             depth = DEPTH + elevation(x, t, components)
             (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
                 f"{time:.9g},{value:.9g}\n" for time, value in zip(t, depth)))
-        return RunFolder(path)
+        return Run(path)
 
     def test_the_wave_number_solves_the_dispersion_relation(self):
         k = waves.wave_numbers([0.1, 0.8, 3.0], DEPTH, GRAVITY)

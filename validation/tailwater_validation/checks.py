@@ -9,8 +9,9 @@ from .runs import finished
 
 @dataclass(frozen=True)
 class Check:
-    """One number: `compute` takes what `runs` left. With `also_failed` it takes the runs themselves and the folder of
-    the whole instead, whatever became of them. In a comparison `variant` is what is compared."""
+    """One number: `compute` takes what `runs` left, and returns the value, or several fields of the metric. With
+    `also_failed` it takes the runs themselves and the folder of the whole instead, whatever became of them. In a
+    comparison `variant` is what is compared."""
 
     metric: Metric
     runs: tuple
@@ -23,8 +24,8 @@ class Check:
 
     def score(self, out):
         if self.also_failed:
-            return measure(self.metric, value=lambda: self.compute(self.runs, out))
-        return measure(self.metric, value=lambda: self.compute(*(finished(run, out) for run in self.runs)))
+            return measure(self.metric, lambda: self.compute(self.runs, out))
+        return measure(self.metric, lambda: self.compute(*(finished(run, out) for run in self.runs)))
 
 
 def runs_of(parts):

@@ -1,42 +1,31 @@
 """What the commands that make and score runs share: options, error messages, and the order of their work."""
 
-import argparse
 import difflib
-import math
 import signal
 import sys
 from pathlib import Path
 
-from tailwater import command_line
+from tailwater.command_line import Parser, complain
+from tailwater.errors import DataError
 
 from .checks import runs_of
-from .curves import DataError
 from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
 
 
-def number(text):
-    """A finite number, for an option."""
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text}: not a finite number")
-    return value
+class OutParser(Parser):
+    """Of commands that make runs by the program and leave their results in a folder."""
 
-
-class PlainParser(command_line.Parser):
-    """The options that all commands have."""
-
-    def __init__(self, name, what, out):
-        super().__init__(prog=name, description=what, allow_abbrev=False)
-        self.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
+    def __init__(self, prog, what, out):
+        super().__init__(prog, needs_program=True, description=what)
         self.add_argument("--out", type=Path, default=Path(out), metavar="DIR",
                           help=f"folder for runs and results ({out})")
 
 
-class Parser(PlainParser):
+class RunsParser(OutParser):
     """Of commands whose runs are made once, several at a time, and kept."""
 
-    def __init__(self, name, what, out, jobs):
-        super().__init__(name, what, out)
+    def __init__(self, prog, what, out, jobs):
+        super().__init__(prog, what, out)
         self.epilog = "Finished runs are not repeated. Verdicts do not change the exit code."
         self.set_defaults(ranks=1, settings=[])
         self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
@@ -88,9 +77,9 @@ def execute(options, choose_groups, score):
         if options.settings:
             require_accepted(runs[0], program, options.out)
     except DataError as error:
-        return command_line.complain(error, 2)
+        return complain(error, 2)
     except OSError as error:
-        return command_line.complain(f"{error.filename}: {error.strerror}", 4)
+        return complain(f"{error.filename}: {error.strerror}", 4)
     print(f"{len(runs)} runs, about {duration(seconds_of(runs) / options.jobs)} in all", file=sys.stderr)
     try:
         make(runs, program, options.out, options.jobs)
@@ -99,9 +88,9 @@ def execute(options, choose_groups, score):
         return INTERRUPTED
     ends = [outcome(options.out / "runs" / run.name) for run in runs]
     if all(end["exit_code"] == 2 for end in ends):
-        return command_line.complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
+        return complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
     try:
         print(score(groups, program, options))
     except OSError as error:
-        return command_line.complain(f"{error.filename}: {error.strerror}", 4)
+        return complain(f"{error.filename}: {error.strerror}", 4)
     return 0

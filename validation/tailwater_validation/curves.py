@@ -1,57 +1,14 @@
-"""Curves over time: reading them, and the numbers that compare them.
-
-A curve is a quantity at strictly increasing times. Times and values carry the unit that their owner gave them; every
-function here keeps it.
-"""
-
-from dataclasses import dataclass
+"""The numbers that compare curves over time. Times and values carry the unit that their owner gave them; every function
+here keeps it."""
 
 import numpy as np
 
 from tailwater.errors import DataError
-from tailwater.tables import read_table
 
 # Share of a window that two curves must both cover to be compared over it. Less would compare other events.
 LEAST_COVERAGE = 0.95
 # Samples inside the running median's width below which it follows the noise itself.
 LEAST_MEDIAN_SAMPLES = 5
-
-
-@dataclass(frozen=True)
-class Curve:
-    time: np.ndarray
-    value: np.ndarray
-
-    @classmethod
-    def from_samples(cls, time, value, name="curve"):
-        """Sorts by time; samples at the same time become their mean (digitised curves step back and repeat)."""
-        time, value = np.asarray(time, dtype=float), np.asarray(value, dtype=float)
-        if time.size == 0:
-            raise DataError(f"{name}: has no samples")
-        if not (np.isfinite(time).all() and np.isfinite(value).all()):
-            raise DataError(f"{name}: holds a number that is not finite")
-        unique, owner = np.unique(time, return_inverse=True)
-        return cls(unique, np.bincount(owner, weights=value) / np.bincount(owner))
-
-    def scaled(self, time=1.0, value=1.0):
-        return Curve(self.time * time, self.value * value)
-
-    def shifted(self, delay):
-        """The same curve, `delay` later."""
-        return Curve(self.time + delay, self.value)
-
-    def window(self, start, end):
-        inside = (self.time >= start) & (self.time <= end)
-        return Curve(self.time[inside], self.value[inside])
-
-
-def read_curve(path, value_column, time_column="time_s"):
-    """One column of a CSV over its time column. The defaults fit a run's probes; laboratory files name both columns."""
-    table = read_table(path)
-    for column in (time_column, value_column):
-        if column not in table:
-            raise DataError(f"{path}: has no column {column}; it has {', '.join(table)}")
-    return Curve.from_samples(table[time_column], table[value_column], name=f"{path}, {value_column}")
 
 
 def differences(a, b, start, end, step):
@@ -77,6 +34,13 @@ def best_shift(measured, computed, start, end, step, limit, trials=121):
     scores = [rms_difference(measured, computed.shifted(-delay), start, end, step) for delay in delays]
     best = int(np.argmin(scores))
     return float(delays[best]), scores[best]
+
+
+def compare(measured, computed, window, step, limit):
+    """{value, shifted_value, shift}, as a Metric has them: the RMS difference over the window (times of the measured curve)
+    as published, and with the shift within the data's own uncertainty of time that fits best."""
+    shift, shifted = best_shift(measured, computed, *window, step, limit)
+    return {"value": rms_difference(measured, computed, *window, step), "shifted_value": shifted, "shift": shift}
 
 
 def arrival_time(pressure, threshold, not_before=-np.inf):

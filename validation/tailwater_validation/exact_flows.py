@@ -1,27 +1,22 @@
 """Errors of runs of cases/robustness, cases/verification and cases/flume against what theory says.
 
-Each function takes a RunFolder and returns its numbers by name; all are without unit unless the name ends in one. They
+Each function takes a Run and returns its numbers by name; all are without unit unless the name ends in one. They
 throw DataError where the run does not have what they need.
-
-Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
 """
 
-import argparse
 import cmath
-import json
 import math
-import sys
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+from tailwater.errors import DataError
 from tailwater.fields import list_frames, read_frame
+from tailwater.tables import read_table
 
 from . import flume, shallow_water
-from .curves import DataError, read_table
 from .profiles import rms
-from .run_folder import RunFolder
 
 REST = 5.0  # s from which a tank counts as at rest; at most half the run
 BOTTOM_LAYER = 4  # dx
@@ -86,7 +81,7 @@ def tank(run):
     kinetic = run.step_curve("kinetic_J")
     rest = min(REST, 0.5 * kinetic.time[-1])
     mass = run.density * dx**run.dimension * run.fluid_particles
-    level = run.probe("level", "connected_m").window(rest, math.inf).value + run.parameters.get("bed", 0.0)
+    level = run.curve("level", "connected_m").window(rest, math.inf).value + run.parameters.get("bed", 0.0)
     return {
         "u_rms": math.sqrt(2 * kinetic.window(rest, math.inf).value.max() / mass / (run.gravity * depth)),
         "pressure_error": float(np.sqrt(np.mean((pressure - hydrostatic) ** 2))) / scale,
@@ -116,7 +111,7 @@ def taylor_green(run):
     velocity, pressure = fields(run, last, "velocity", "pressure")
     exact_velocity, exact_pressure = taylor_green_field(last.position.astype(float), last.time, parameters["U"],
                                                         parameters["L"], viscosity, run.density)
-    kinetic = run.probe("energy", "kinetic_J")
+    kinetic = run.curve("energy", "kinetic_J")
     rate = math.log(kinetic.value[0] / kinetic.value[-1]) / kinetic.time[-1]
     exact_rate = 4 * viscosity * (2 * math.pi / parameters["L"]) ** 2
     return {
@@ -225,7 +220,7 @@ def drop(run):
     x, y = (last.position.astype(float) - last.position.astype(float).mean(axis=0))[:, :2].T
     velocity, pressure = fields(run, last, "velocity", "pressure")
     centre_pressure = run.density * s**2 * (a * b) ** 2 / (a**2 + b**2)
-    kinetic = run.probe("energy", "kinetic_J")
+    kinetic = run.curve("energy", "kinetic_J")
     return {
         "axes_error": float(max(axes)),
         "velocity_error": relative_error(velocity[:, :2], np.stack([s * x, -s * y], axis=1)),
@@ -338,10 +333,10 @@ def jet(run):
     for probe in run.case["probe"]:
         if probe["type"] != "wall-pressure":
             continue
-        pressure = run.probe(probe["name"], "pressure_Pa").window(5 * b / U, 8 * b / U).value / stagnation
+        pressure = run.curve(probe["name"], "pressure_Pa").window(5 * b / U, 8 * b / U).value / stagnation
         errors.append(float(pressure.mean() - jet_pressure(probe["at"][0] / b)))
         noise.append(float(pressure.std()))
-    middle = run.probe(run.case["probe"][0]["name"], "pressure_Pa")
+    middle = run.curve(run.case["probe"][0]["name"], "pressure_Pa")
     impulse = float(middle.value[1] * (middle.time[1] - middle.time[0]))  # the pressure of a step stands at its end
     return {"pressure_error": rms(errors), "stagnation_error": errors[0], "noise": max(noise),
             "impulse_error": impulse / (JET_IMPULSE * run.case["physics"]["density"] * U * b) - 1}
@@ -364,7 +359,7 @@ def water_wedge(run):
     x, pressure = theory["x_over_Ut"], theory["pressure"]
 
     def late(name, column):
-        return run.probe(name, column).window(0.8 * D / U, D / U)
+        return run.curve(name, column).window(0.8 * D / U, D / U)
 
     errors = []
     for probe in run.case["probe"]:
@@ -390,7 +385,7 @@ ENTRY_FORCE = 14.139
 def wedge_entry(run):
     """force_error: mean force per length of the second half of the run, over that of the similarity solution, less 1."""
     D, V = run.parameters["D"], run.parameters["V"]
-    force = run.probe("force", "force_y_N_per_m").window(0.5 * D / V, D / V)
+    force = run.curve("force", "force_y_N_per_m").window(0.5 * D / V, D / V)
     impulse = float(np.trapz(force.value, force.time))
     exact = ENTRY_FORCE * run.density * V**3 * (force.time[-1] ** 2 - force.time[0] ** 2) / 2
     return {"force_error": impulse / exact - 1}
@@ -399,21 +394,3 @@ def wedge_entry(run):
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
          "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet,
          "water-wedge": water_wedge, "wedge-entry": wedge_entry, **shallow_water.FLOWS, **flume.FLOWS}
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="tailwater_validation.exact_flows",
-                                     description="Errors of a run against theory, as JSON.")
-    parser.add_argument("flow", choices=FLOWS)
-    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote")
-    options = parser.parse_args(arguments)
-    try:
-        print(json.dumps(FLOWS[options.flow](RunFolder(options.run)), indent=2))
-    except DataError as error:
-        print(f"exact_flows: {error}", file=sys.stderr)
-        return 4
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .curves import DataError
+from tailwater.errors import DataError
 
 CELLS = (10, 20)  # of half the box's breadth
 CORNER_ORDER = 4 / 3  # of the kinetic energy's error: the potential goes like r^(2/3) at the box's right-angled corners
@@ -134,7 +134,7 @@ def floating_box(run):
     tank, body = tank_of(run), run.case["body"][0]
     rolls = body["free"] == ["rotation"]
     end = run.case["time"]["end"]
-    curve = run.probe("box", "angle_rad" if rolls else "displacement_y_m")
+    curve = run.curve("box", "angle_rad" if rolls else "displacement_y_m")
     p = run.parameters
     # Where it comes to rest; what it displaces there stands around it.
     rest = 0.0 if rolls else p["up"] * (p["B"] / p["W"] - 1)

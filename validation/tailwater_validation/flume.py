@@ -1,9 +1,7 @@
 """Flows in a flume against the formulas of hydraulics: runs of cases/flume.
 
-Each function takes a RunFolder and returns its numbers by name; all are relative unless the name ends in a unit. They
+Each function takes a Run and returns its numbers by name; all are relative unless the name ends in a unit. They
 throw DataError where the run does not have what they need.
-
-Usage: python -m tailwater_validation.exact_flows FLOW RUN_DIR
 """
 
 import math
@@ -11,12 +9,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from tailwater.errors import DataError
+from tailwater.waves import crest, solitary
+
 from . import potential_wave
-from .curves import DataError
 from .floating import floating_box
-from .profiles import profile_at, rms
+from .profiles import profile_at, profile_table, rms
 from .wave_flume import irregular_waves, wave_flume
-from .waves import crest, solitary
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
 CONTRACTION = 0.61  # of the water behind a sluice gate
@@ -25,7 +24,7 @@ SURFACE_TENSION_HEAD = 0.0011  # m, Rehbock's, of surface tension and viscosity
 
 def steady(run, probe, column):
     """The curve of a column of a probe from STEADY on."""
-    curve = run.probe(probe, column)
+    curve = run.curve(probe, column)
     end = run.case["time"]["end"]
     inside = curve.window(STEADY * end, end)
     if inside.time.size < 2 or curve.time[-1] < 0.98 * end:
@@ -45,7 +44,7 @@ def steady_discharge(run, probe):
 
 def drift(run, probe, column):
     """How much the mean of the last quarter differs from that of the quarter before."""
-    curve = run.probe(probe, column)
+    curve = run.curve(probe, column)
     end = run.case["time"]["end"]
     before, after = curve.window(0.5 * end, 0.75 * end), curve.window(0.75 * end, end)
     return float(after.value.mean() - before.value.mean())
@@ -122,7 +121,7 @@ def sluice_gate(run):
 def uneven_momentum(run, probe):
     """Flux of momentum over the density (m^3/s^2) through a velocity profile beyond that of even flow of the same depth
     and discharge, the integral of u^2 less q^2/h. It is the same for an observer that moves."""
-    columns = run.profile_table(probe)
+    columns = profile_table(run, probe)
     depth, discharge, squares = [], [], []
     for time in np.unique(columns["time_s"][columns["time_s"] >= STEADY * run.case["time"]["end"]]):
         rows = columns["time_s"] == time
@@ -145,7 +144,7 @@ def hydraulic_jump(run):
     before = steady_mean(run, "before", "connected_m")
     behind = steady_mean(run, "behind", "connected_m")
     discharge = run.parameters["q"]
-    times = [t for t in np.unique(run.profile_table("surface")["time_s"]) if t >= STEADY * run.case["time"]["end"]]
+    times = [t for t in np.unique(profile_table(run, "surface")["time_s"]) if t >= STEADY * run.case["time"]["end"]]
     if len(times) < 3:
         raise DataError(f"{run.path}: has {len(times)} profiles of the steady flow, too few for the jump's speed")
     profiles = [profile_at(run, "surface", time) for time in times]
@@ -215,7 +214,7 @@ def circulation(run):
     inlet, = run.case["inlet"]
     there = balance["start"]["particles"] + round(inlet["reserve"] / run.spacing**run.dimension)
     kept = sum(balance[place]["particles"] for place in ("inside", "outside")) + balance["outlets"][0]["waiting"]["particles"]
-    volume = run.probe("discharge", "volume_m3")
+    volume = run.curve("discharge", "volume_m3")
     quarters = np.interp(np.array([0.5, 0.75, 1.0]) * volume.time[-1], volume.time, volume.value)
     before, after = np.diff(quarters) / (0.25 * volume.time[-1])
     drifts = [drift(run, name, "connected_m") for name in ("depth_upstream", "depth_downstream")]
@@ -230,8 +229,8 @@ def run_up(run):
 
     Synolakis C.E. (1987), The runup of solitary waves, J. Fluid Mech. 185, 523-545."""
     depth = run.parameters["h"]
-    _, height = crest(run.probe("gauge", "highest_m"))
-    beach = run.probe("beach", "connected_m")
+    _, height = crest(run.curve("gauge", "highest_m"))
+    beach = run.curve("beach", "connected_m")
     highest = int(np.argmax(beach.value))
     if highest > 0.98 * beach.value.size:
         raise DataError(f"{run.path}: the water still runs up when the run ends, at {beach.time[-1]:.4g} s")
@@ -255,12 +254,12 @@ def wall_load_errors(run, height):
     depth = run.parameters["h"]
     scale, weight = math.sqrt(depth / run.gravity), run.density * run.gravity
     exact = wall_history(height)
-    force = run.probe("force", "force_x_N_per_m")
+    force = run.curve("force", "force_x_N_per_m")
     load = force.value / (weight * depth**2) - 0.5
     peak, exact_peak = load.max(), exact.force.max()
     time = (force.time - force.time[int(np.argmax(load))]) / scale + exact.time[int(np.argmax(exact.force))]
     near = np.abs(time) < WALL_WINDOW
-    pressures = [abs((run.probe(name, "pressure_Pa").value.max() / weight / depth - (1 - z)) / exact.pressure[z].max() - 1)
+    pressures = [abs((run.curve(name, "pressure_Pa").value.max() / weight / depth - (1 - z)) / exact.pressure[z].max() - 1)
                  for name, z in GAUGE_HEIGHTS.items()]
     return {"force_error": peak / exact_peak - 1, "pressure_error": max(pressures),
             "force_rms": rms(load[near] - np.interp(time[near], exact.time, exact.force)) / exact_peak}
@@ -281,7 +280,7 @@ def solitary_wave(run):
     heights = [gauge["height_m"] for gauge in found["gauges"].values()]
     depth = run.parameters["h"]
     e = heights[-1] / depth
-    wall = run.probe("wall", "connected_m")
+    wall = run.curve("wall", "connected_m")
     reached = float(wall.value.max() - wall.value[0]) / depth
     if int(np.argmax(wall.value)) > 0.98 * wall.value.size:
         raise DataError(f"{run.path}: the water still rises at the wall when the run ends, at {wall.time[-1]:.4g} s")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from .curves import DataError
+from tailwater.errors import DataError
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,11 @@ def bar(low, high):
     return f"<= {high:g}" if high is not None else f">= {low:g}" if low is not None else ""
 
 
-def measure(metric, **values):
-    """The metric with its values, each given as a function; with the reason instead where one cannot be computed."""
+def measure(metric, compute):
+    """The metric with the value that `compute()` returns, or with several fields, if that is a dict of them; with the reason
+    instead where it cannot be had."""
     try:
-        return replace(metric, **{field: compute() for field, compute in values.items()})
+        found = compute()
     except DataError as error:
         return replace(metric, note=str(error))
+    return replace(metric, **(found if isinstance(found, dict) else {"value": found}))

@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from tailwater.tables import read_table
+
 BINS = 300  # of a curve, each with its least and its largest value: what a plot half a page wide can show
 DIGITS = 7  # of small changes of large numbers
 MOST_RUNS = 8  # in one plot
@@ -74,7 +76,7 @@ WATER_INSIDE = {"water inside, of the start":
 def histories(runs, names=None):
     """Energies, the volume's error by the density and, if water leaves, what is inside, over time, of several runs;
     `names` as in `labels`."""
-    told = [(label, run, run.step_table()) for run, label in zip(runs, labels(runs, names))]
+    told = [(label, run, read_table(run.path / "steps.csv")) for run, label in zip(runs, labels(runs, names))]
     leaves = any(steps["volume_out_m3"].any() for _, _, steps in told)
     return [panel(title, "t (s)", "", [curve(label, steps["time_s"], history(run, steps)) for label, run, steps in told])
             for title, history in (HISTORIES | (WATER_INSIDE if leaves else {})).items()]

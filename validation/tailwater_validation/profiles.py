@@ -5,10 +5,14 @@ Only the places where it has one are compared.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from .curves import LEAST_COVERAGE, DataError
+from tailwater.errors import DataError
+from tailwater.tables import read_table
+
+from .curves import LEAST_COVERAGE
 
 # s: how late a profile may be where a run does not tell its longest step
 LATEST = 0.004
@@ -48,10 +52,21 @@ def cut(x, y, start, end):
             np.concatenate([[np.interp(start, x, y)], y[inside], [np.interp(end, x, y)]]))
 
 
+@lru_cache(maxsize=8)
+def table_of(path, _changed):
+    return read_table(path)
+
+
+def profile_table(run, probe):
+    """Columns of a profile probe's CSV, by name; kept, since one file holds the profiles of all times."""
+    path = run.path / "probes" / f"{probe}.csv"
+    return table_of(path, path.stat().st_mtime_ns if path.exists() else 0)
+
+
 def profile_at(run, probe, time):
     """The profile that a probe of a run took at `time` (s): at the first step at or after it. Throws DataError if there is
     none."""
-    table = run.profile_table(probe)
+    table = profile_table(run, probe)
     taken = np.unique(table["time_s"])
     latest = time + run.summary.get("steps", {}).get("dt_largest_s", LATEST)
     due = taken[(taken > time - ROUND_OFF) & (taken < latest + ROUND_OFF)]

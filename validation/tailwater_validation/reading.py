@@ -4,19 +4,21 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import exact_flows, zhou1999
-from .curves import DataError
+from tailwater.errors import DataError
+from tailwater.run import Run
+
+from . import exact_flows
 
 
 @lru_cache(maxsize=None)
 def flow_numbers(flow, path):
-    return exact_flows.FLOWS[flow](exact_flows.RunFolder(path))
+    return exact_flows.FLOWS[flow](Run(path))
 
 
 @lru_cache(maxsize=None)
-def scores(score, path):
-    """What a laboratory case's `score` finds in the folder of a run, by name."""
-    return {metric["name"]: metric for metric in score(path)["metrics"]}
+def scores(metrics, path):
+    """{name: Metric} of what a laboratory's `metrics` find in the folder of a run."""
+    return {metric.name: metric for metric in metrics(Run(path))}
 
 
 def signed(flow, name, run):
@@ -28,15 +30,11 @@ def exact(flow, name, run):
     return abs(signed(flow, name, run))
 
 
-def scored(score, name, run, field="value"):
-    metric = scores(score, run.path)[name]
-    if metric[field] is None:
-        raise DataError(f"{run.path.name}: {metric['note']}")
-    return metric[field]
-
-
-def zhou(name, run, field="value"):
-    return scored(zhou1999.score, name, run, field)
+def scored(metrics, name, run):
+    metric = scores(metrics, run.path)[name]
+    if metric.value is None:
+        raise DataError(f"{run.path.name}: {metric.note}")
+    return metric.value
 
 
 def summary(block, name, run):
@@ -51,18 +49,6 @@ def interventions(run, *kinds):
     counts = {kind: count for kind, count in run.summary["interventions"].items() if isinstance(count, int)}
     return (sum(counts[kind] for kind in kinds or counts)
             / (run.fluid_particles * run.summary["steps"]["count"]))
-
-
-def energy_at(T, run):
-    """Total energy at a time T over that of the start."""
-    kinetic, potential = run.step_curve("kinetic_J"), run.step_curve("potential_J")
-    return float(np.interp(T * zhou1999.TIME_SCALE, kinetic.time, kinetic.value + potential.value)
-                 / run.summary["energy"]["start_J"])
-
-
-def divergence(positions, run):
-    """Rms over the run, in sqrt(g/H), at the "old" or "new" positions."""
-    return run.summary["divergence"][f"rms_at_{positions}_positions_per_s"] * zhou1999.TIME_SCALE
 
 
 def order(errors):

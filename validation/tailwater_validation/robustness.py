@@ -14,12 +14,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-from . import command, validate, zhou1999
+from tailwater.errors import DataError
+
+from . import command, validate
 from .checks import Check
-from .curves import DataError
 from .metric import Metric
-from .reading import divergence, energy_at, exact, interventions, mean_level, observed_order, summary, zhou
+from .reading import exact, interventions, mean_level, observed_order, summary
 from .runs import finished, outcome
+from .studies import zhou1999
+from .studies.zhou1999 import energy_at, wall_noise
 from .study import Plan, Study
 
 INVISCID = ("scheme.noise_viscosity=0",)
@@ -130,7 +133,7 @@ def slip_gate(bench):
             checks += [number(f"{label}.finished", f"reaches T = {T}, {text}", "of 1", run, count_finished, low=1,
                               also_failed=True),
                        number(f"{label}.delay", f"front at the wall later than with free slip, {text}", "s", (run, free),
-                              lambda run, free: zhou("arrival_front", run) - zhou("arrival_front", free))]
+                              lambda run, free: zhou1999.front_arrival(run) - zhou1999.front_arrival(free))]
     return gate("slip", f"no slip and partial slip, Zhou to T = {T}", checks)
 
 
@@ -164,11 +167,11 @@ def pressure_gate(bench):
         run = bench.zhou(0.015, 8, integrator=integrator)
         checks += [
             number(f"noise.{integrator}", f"wall pressure noise, z = 0.16 m, {integrator}", "rho g H", run,
-                   partial(zhou, "noise"), "SISPH 0.015-0.020, DFSPH 0.04, SPHinXsys 0.17, DualSPHysics 0.22", high=6e-3),
+                   wall_noise, "SISPH 0.015-0.020, DFSPH 0.04, SPHinXsys 0.17, DualSPHysics 0.22", high=6e-3),
             number(f"arrival.{integrator}", f"arrival at the wall, z = 0.12 m, {integrator}", "s", run,
-                   partial(zhou, f"arrival_{zhou1999.READ_AT}"), "SISPH 0.62", 0.61, 0.64),
+                   zhou1999.arrival_at, "SISPH 0.62", 0.61, 0.64),
             number(f"arrival.front.{integrator}", f"arrival, front at the wall, {integrator}", "s", run,
-                   partial(zhou, "arrival_front")),
+                   zhou1999.front_arrival),
             number(f"interventions.{integrator}", f"clamps, limiters, fallbacks per particle and step, {integrator}", "", run,
                    interventions, high=1e-5),
             *(number(f"interventions.{kind}.{integrator}", f"of these, {kind.replace('_', ' ')}, {integrator}", "", run,
@@ -180,14 +183,13 @@ def pressure_gate(bench):
     return gate("noise", "noise, arrival, interventions and cost of the dam break, dx = 0.015", checks)
 
 
-READINGS = {"z = 0.06 m": "point z = 0.06 m", "z = 0.115 m": "point z = 0.115 m", "z = 0.12 m": "point z = 0.12 m",
-            "z = 0.16 m": "point z = 0.16 m", "mean of 0.115..0.205 m": "P2"}
+READINGS = {"z = 0.06 m": "P060", "z = 0.115 m": "P115", "z = 0.12 m": "P120", "z = 0.16 m": "P160",
+            "mean of 0.115..0.205 m": "P2"}
 
 
-def laboratory_rms(reading, run):
-    """RMS difference from the laboratory at the best shift, T = 2.4..7; the mean of both digitisations."""
-    return sum(zhou(f"rms {reading} T 2.4..7 {digitisation}", run, "shifted_value")
-               for digitisation in zhou1999.DIGITISATIONS) / len(zhou1999.DIGITISATIONS)
+def laboratory_rms(probe, run):
+    """RMS difference from the laboratory at the best shift, T = 2.4..7."""
+    return zhou1999.rms(run, probe, field="shifted_value")
 
 
 def laboratory_gate(bench):
@@ -307,13 +309,18 @@ def implicit_gate(bench):
     return gate("implicit", "divergence left and energy lost, Zhou, dx = 0.015", checks)
 
 
+def divergence(positions, run):
+    """Rms over the run, in sqrt(g/H), at the "old" or "new" positions."""
+    return run.summary["divergence"][f"rms_at_{positions}_positions_per_s"] * zhou1999.TIME_SCALE
+
+
 # At its own, larger time step an implicit run costs about as much as an explicit one; the gate shows the ratio.
 EQUAL_COST_SPACING = 0.015
 
 
 def wins(ours, other):
     """In how many of noise, volume and energy `ours` is better."""
-    return (int(zhou("noise", ours) < zhou("noise", other))
+    return (int(wall_noise(ours) < wall_noise(other))
             + int(summary("volume", "density_error_rms", ours) < summary("volume", "density_error_rms", other))
             + int(energy_at(4, ours) > energy_at(4, other)))
 
@@ -325,7 +332,7 @@ def equal_cost_gate(bench):
             bench.run(f"wet-bed_dx{EQUAL_COST_SPACING:g}_{name}", "robustness/wet_bed.toml",
                       (f"particles.spacing={EQUAL_COST_SPACING:g}", f"scheme.integrator={name}"), 35)
             for name in bench.integrators)
-    read = {"noise": ("rho g H", partial(zhou, "noise")),
+    read = {"noise": ("rho g H", wall_noise),
             "rms density error": ("", partial(summary, "volume", "density_error_rms")),
             "energy at T = 4": ("of the start", partial(energy_at, 4))}
     checks = []
@@ -363,7 +370,7 @@ def gates(bench):
 
 
 def main(arguments=None):
-    parser = command.Parser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
+    parser = command.RunsParser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
                         help="quick: a part of the gates' runs, about ten minutes; full: all of them, many hours")
     parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")

@@ -17,8 +17,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from .curves import DataError
-from .run_folder import RunFolder
+from tailwater.errors import DataError
+from tailwater.run import Run as RunFolder
 
 INTERRUPTED = 130
 # A run that takes this many times what it was estimated at, and so much longer at least, is stopped.

@@ -9,8 +9,9 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from .curves import DataError
-from .profiles import profile_at, rms
+from tailwater.errors import DataError
+
+from .profiles import profile_at, profile_table, rms
 
 LATE = 3.0  # T = t sqrt(g/h0) from which a dam break is compared with shallow-water theory
 TIP = 0.1  # of h0: depth whose place counts as the front; the tip itself is thinner than a particle
@@ -163,7 +164,7 @@ def time_unit(run):
 def late_profiles(run):
     """[(T, x/h0, depth/h0)] of a dam break from LATE on."""
     scale = time_unit(run)
-    times = np.unique(run.profile_table("surface")["time_s"])
+    times = np.unique(profile_table(run, "surface")["time_s"])
     taken = [profile_at(run, "surface", time) for time in times]
     depth = run.parameters["h0"]
     return [(profile.time / scale, profile.x / depth, profile.connected / depth) for profile in taken
@@ -253,7 +254,7 @@ def front_history(run):
     """[(T, computed front, that of theory)] at the profiles of a run over a rough dry bed."""
     depth, scale = run.parameters["h0"], time_unit(run)
     times = [T for T, _, _ in late_profiles(run)]
-    front = run.probe("front", "front_m")
+    front = run.curve("front", "front_m")
     states, _ = rough_states(run, times)
     return [(T, float(np.interp(T * scale, front.time, front.value)) / depth, front_of(x, h))
             for T, (x, h, _) in zip(times, states)]

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tailwater.command_line import complain
+from tailwater.errors import DataError
 
 from . import command, speed_profile, speed_report, speed_rooms
-from .curves import DataError
 from .metric import Metric
 from .runs import INTERRUPTED
 from .speed_runs import WATERS, ZHOU, Runner, box_of_rows, exponent, least, step_cost
@@ -222,7 +222,7 @@ def say(text):
 
 
 def make_parser():
-    parser = command.PlainParser("tailwater bench speed", "Measures what cases, steps and rooms cost in CPU time and "
+    parser = command.OutParser("tailwater bench speed", "Measures what cases, steps and rooms cost in CPU time and "
                                  "memory.", "speed")
     parser.epilog = ("Times are CPU times, which a busy machine still disturbs: measure both sides of a comparison in "
                      "the same minutes. Verdicts do not change the exit code.")

@@ -5,7 +5,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from .curves import DataError
+from tailwater.errors import DataError
+
 from .metric import Metric
 
 LEAST_SHARE = 1.0  # %; of what is shown

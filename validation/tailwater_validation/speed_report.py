@@ -3,7 +3,8 @@
 import csv
 import json
 
-from .curves import DataError
+from tailwater.errors import DataError
+
 from .metric import Metric, bar
 from .text_table import markdown_table, text_table
 

@@ -3,7 +3,8 @@
 import json
 import subprocess
 
-from .curves import DataError
+from tailwater.errors import DataError
+
 from .metric import Metric
 from .speed_runs import WATERS, exponent
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .curves import DataError
+from tailwater.errors import DataError
+
 
 ROOT = Path(__file__).resolve().parents[2]
 ZHOU = ROOT / "cases" / "zhou1999" / "case.toml"

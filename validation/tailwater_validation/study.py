@@ -1,14 +1,13 @@
 """A study: which runs it needs, what is read from them, what it is held against, and what is drawn."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from tailwater.errors import DataError
 from tailwater.uncertainty import extrapolate
 
 from .checks import Check, runs_of
-from .curves import DataError
 from .metric import Metric, measure
 from .reading import order, scores
 from .runs import Run, finished
@@ -84,17 +83,6 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class CurveCheck(Check):
-    """A difference of curves, also at the best shift: `compute` takes the name of the metric's field, too."""
-
-    def score(self, out):
-        def read(field):
-            return self.compute(*(finished(run, out) for run in self.runs), field=field)
-
-        return measure(self.metric, **{field: partial(read, field) for field in ("value", "shifted_value", "shift")})
-
-
-@dataclass(frozen=True)
 class OrderCheck(Check):
     """An error on the last of the runs, and its observed order over all of them if there are several; `compute` takes
     one run. Of three runs or more also its uncertainty (docs/theory/uncertainty.md), from what `interval_of` reads of
@@ -103,26 +91,26 @@ class OrderCheck(Check):
     interval_of: Callable | None = None
 
     def score(self, out):
-        def of_all(read):
-            return {run.spacing: read(run) for run in (finished(run, out) for run in self.runs)}
+        return measure(self.metric, lambda: self.fields([finished(run, out) for run in self.runs]))
 
-        def uncertainty():
-            errors = of_all(self.interval_of or self.compute)
-            return extrapolate(list(errors), list(errors.values())).uncertainty
-
-        more = {"order": lambda: order(of_all(self.compute))} if len(self.runs) > 1 else {}
-        if len(self.runs) > 2:
-            more["uncertainty"] = uncertainty
-        return measure(self.metric, value=lambda: self.compute(finished(self.runs[-1], out)), **more)
+    def fields(self, left):
+        errors = {run.spacing: self.compute(run) for run in left}
+        found = {"value": errors[left[-1].spacing]}
+        if len(left) > 1:
+            found["order"] = order(errors)
+        if len(left) > 2:
+            signed = [(self.interval_of or self.compute)(run) for run in left]
+            found["uncertainty"] = extrapolate(list(errors), signed).uncertainty
+        return found
 
 
 @dataclass(frozen=True)
-class ModuleChecks:
-    """All numbers that a laboratory case's own module finds in one run and whose names `keep` accepts; `paper` has what
-    the paper reports for its own code, by name. Of a run that did not reach its end: that it did not."""
+class AllChecks:
+    """All numbers that `metrics` finds in one run, [Metric], and whose names `keep` accepts; `paper` has what the paper
+    reports for its own code, by name. Of a run that did not reach its end: that it did not."""
 
     name: str
-    module_score: Callable
+    metrics: Callable
     runs: tuple
     keep: Callable = lambda name: True
     paper: tuple = ()
@@ -132,10 +120,8 @@ class ModuleChecks:
     def scores(self, out):
         run, = self.runs
         try:
-            found = scores(self.module_score, finished(run, out).path)
+            found = scores(self.metrics, finished(run, out).path)
         except DataError as error:
             return [Metric(f"{self.name}.finished", f"the run reaches its end{self.suffix}", "of 1", "", low=1, value=0, note=str(error))]
-        return [Metric(**{key: value for key, value in metric.items() if key != "verdict"}
-                       | {"name": f"{self.name}.{name}", "what": metric["what"].strip() + self.suffix,
-                          "paper": dict(self.paper).get(name)})
+        return [replace(metric, name=f"{self.name}.{name}", what=metric.what + self.suffix, paper=dict(self.paper).get(name))
                 for name, metric in found.items() if self.keep(name)]

@@ -16,10 +16,10 @@ import platform
 import subprocess
 import sys
 
+from tailwater.errors import DataError
 from tailwater.whole_file import write_whole
 
 from . import command, panels
-from .curves import DataError
 from .metric import bar, shown
 from .runs import TestRun, finished
 from .studies import studies
@@ -165,7 +165,7 @@ def score(chosen, program, options):
 
 
 def main(arguments=None):
-    parser = command.Parser("tailwater validate", "Runs the papers' cases and the exact solutions, scores them against "
+    parser = command.RunsParser("tailwater validate", "Runs the papers' cases and the exact solutions, scores them against "
                             "measurements and theory, and writes a report.", "validation", max(1, os.cpu_count() or 1))
     parser.epilog += " Examples: tailwater validate --list; tailwater validate zhou1999 drop --level paper --out my_validation"
     parser.add_argument("cases", nargs="*", metavar="CASE", help="only these (default: all; --list names them)")

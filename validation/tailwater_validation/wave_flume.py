@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from .curves import DataError
-from .waves import BAND, Gauges, separate as separate_spectrum, single_waves, wave_numbers
+from tailwater.errors import DataError
+from tailwater.waves import BAND, Gauges, separate as separate_spectrum, single_waves, wave_numbers
 
 PERIODS = 5  # at the end of the run, in which waves are read
 # Waves of finite height are longer than linear theory has them. The wave number is looked for within these shares of it.
@@ -46,7 +46,7 @@ class Group:
         self.place = np.array([gauge["at"][0] for gauge in gauges])
         amplitudes, heights = [], []
         for gauge in gauges:
-            curve = run.probe(gauge["name"], "highest_m")
+            curve = run.curve(gauge["name"], "highest_m")
             if curve.time[-1] < end - 0.1 * period:
                 raise DataError(f"{run.path}: its gauge '{gauge['name']}' ends at {curve.time[-1]:.4g} s, the run at {end:.4g} s")
             curve = curve.window(end - PERIODS * period, end)

@@ -1,9 +1,11 @@
 """Every study of `tailwater validate`, one function of a Plan each."""
 
-from . import comparisons, exact, flume, laboratory, operators, shallow, zhou
+from . import (comparisons, exact, flume, janosi2004, kleefsman2005, martin_moyce1952, operators, ozmen_cagatay2014, shallow,
+               soares_frazao2002, zhou1999)
 
-FUNCTIONS = (zhou.study, laboratory.martin_moyce, laboratory.janosi, laboratory.ozmen_cagatay,
-             laboratory.soares_frazao, laboratory.kleefsman, operators.operators, operators.poisson, exact.tank,
+LABORATORIES = (zhou1999, martin_moyce1952, janosi2004, ozmen_cagatay2014, soares_frazao2002, kleefsman2005)
+
+FUNCTIONS = (*(laboratory.study for laboratory in LABORATORIES), operators.operators, operators.poisson, exact.tank,
              exact.taylor_green, exact.standing_wave, exact.drop, exact.poiseuille, exact.couette, exact.uniform_flow,
              exact.jet, exact.water_wedge, exact.wedge_entry, shallow.ritter, shallow.stoker, shallow.rough_dry_bed,
              shallow.rough_wet_bed, flume.weir, flume.broad_weir, flume.ogee, flume.sluice_gate, flume.hydraulic_jump,

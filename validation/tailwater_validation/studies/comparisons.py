@@ -3,13 +3,13 @@
 from dataclasses import replace
 from functools import partial
 
-from .. import janosi2004, soares_frazao2002, zhou1999
 from ..checks import Check
 from ..metric import Metric
-from ..reading import energy_at, scored, summary, zhou
+from ..reading import scored, summary
 from ..study import COMPARISON, Plot, Study
-from .laboratory import case_run, surface_distance
-from .zhou import FREE_SLIP, mean_of_readings, zhou_run
+from . import janosi2004, soares_frazao2002, zhou1999
+from .laboratory import case_run
+from .zhou1999 import FREE_SLIP, READ_AT, energy_at, rms, zhou_run
 
 
 def milliseconds(run):
@@ -25,17 +25,17 @@ GENERAL = {
     "cost": ("CPU time per simulated second", "s", partial(summary, "cost", "cpu_s_per_simulated_s")),
 }
 ZHOU = {
-    "H2": ("depth H2, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H2 T 0..6")),
-    "H1": ("depth H1, RMS over T = 0..6", "H", partial(mean_of_readings, "rms H1 T 0..6")),
+    "H2": ("depth H2, RMS over T = 0..6", "H", lambda run: rms(run, "H2", (0.0, 6.0))),
+    "H1": ("depth H1, RMS over T = 0..6", "H", lambda run: rms(run, "H1", (0.0, 6.0))),
     "pressure": ("wall pressure, z = 0.12 m, RMS over T = 2.4..7, best shift", "rho g H",
-                 partial(mean_of_readings, "rms point z = 0.12 m T 2.4..7", field="shifted_value")),
-    "noise": ("noise of the wall pressure, z = 0.16 m", "rho g H", partial(zhou, "noise")),
-    "front": ("front at the wall", "s", partial(zhou, "arrival_front")),
+                 lambda run: rms(run, READ_AT, field="shifted_value")),
+    "noise": ("noise of the wall pressure, z = 0.16 m", "rho g H", zhou1999.wall_noise),
+    "front": ("front at the wall", "s", zhou1999.front_arrival),
     "energy": ("energy at T = 8", "of the start", partial(energy_at, 8)),
 } | GENERAL
 JANOSI = {
     **{f"rms_{instant:g}": (f"surface at t = {instant:g} s, RMS distance", "mm",
-                            partial(scored, janosi2004.score, f"rms {instant:g}"))
+                            partial(scored, janosi2004.metrics, f"rms {instant:g}"))
        for instant in janosi2004.INSTANTS if instant >= janosi2004.TARGET_FROM},
 } | GENERAL
 UNCERTAINTY = ("The variants differ only in what is compared. A dam break is chaotic after the impact: differences smaller than those "
@@ -133,8 +133,8 @@ def sill_time_step(plan):
     claims = tuple(Check(Metric(f"sill-time-step.{instant:g}.{variant}",
                                 f"surface at t = {instant:g} s, RMS distance from that of courant 0.125, {variant}", "mm",
                                 "the paper: largest error 21 % with 3 ms, 10.2 % with 1.4 ms"), (run, reference),
-                         partial(surface_distance, k))
-                   for k, instant in enumerate(soares_frazao2002.INSTANTS) for variant, run in variants.items()
+                         partial(soares_frazao2002.surface_distance, instant))
+                   for instant in soares_frazao2002.INSTANTS for variant, run in variants.items()
                    if run is not reference)
     return comparison("sill-time-step", "Time step on the sill", "Farmani et al. find their scheme sensitive to the time step in the dam break over "
                       "a sill of Soares-Frazao (2002). Here the step is halved and doubled.", variants, GENERAL, (), claims)

@@ -11,7 +11,7 @@ from ..study import EXACT, LABORATORY, OrderCheck, Plot, Study
 
 def draw_gauge(probe, *runs):
     """The depth at a gauge over time."""
-    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(f"dx = {run.spacing:.3g} m", run.probe(probe, "connected_m"))
+    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(f"dx = {run.spacing:.3g} m", run.curve(probe, "connected_m"))
                                                     for run in runs))]
 
 
@@ -198,7 +198,7 @@ def irregular_waves(plan):
 
 
 def draw_waves(run, names=("a1", "b1")):
-    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(name, run.probe(name, "highest_m")) for name in names))]
+    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time(name, run.curve(name, "highest_m")) for name in names))]
 
 
 LIGHT = ("parameters.H=B", "parameters.share=0.1")
@@ -212,7 +212,7 @@ def draw_boxes(*runs):
     def those(rolls):
         return [run for run in runs if (run.case["body"][0]["free"] == ["rotation"]) == rolls]
 
-    return [panels.panel(title, "t (s)", y, (panels.over_time(run.path.name, run.probe("box", column)) for run in those(rolls)))
+    return [panels.panel(title, "t (s)", y, (panels.over_time(run.path.name, run.curve("box", column)) for run in those(rolls)))
             for title, y, column, rolls in (("Heave", "displacement (m)", "displacement_y_m", False),
                                             ("Roll", "angle (rad)", "angle_rad", True)) if those(rolls)]
 

@@ -2,9 +2,10 @@
 
 from functools import partial
 
+from tailwater.errors import DataError
+
 from .. import panels
 from ..checks import Check
-from ..curves import DataError
 from ..metric import Metric
 from ..reading import order
 from ..runs import TestRun

@@ -11,14 +11,12 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
-from tailwater.command_line import complain
-from tailwater.fields import list_frames, read_frame
-from tailwater.whole_file import write_whole
-
 from . import plots
-from .command import PlainParser, number
-from .curves import DataError
-from .run_folder import RunFolder
+from .command_line import Parser, complain, number
+from .errors import DataError
+from .fields import list_frames, read_frame
+from .run import Run
+from .whole_file import write_whole
 
 COUNT = 6
 DPI = 100
@@ -106,7 +104,7 @@ def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
 
 
 def main(arguments):
-    parser = PlainParser("tailwater pictures", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser = Parser("tailwater pictures", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("run", type=Path, metavar="DIR", help="folder of a run")
     parser.add_argument("--count", type=int, default=COUNT, metavar="N", help=f"pictures, at equal times ({COUNT})")
     parser.add_argument("--times", type=number, nargs="+", metavar="S", help="or of the field files nearest to these times, s")
@@ -119,7 +117,7 @@ def main(arguments):
     if not any(options.look_from):
         parser.error("--from 0 0 0: is no direction")
     try:
-        print(f"pictures: {draw(RunFolder(options.run), options.times, options.count, options.look_from)}")
+        print(f"pictures: {draw(Run(options.run), options.times, options.count, options.look_from)}")
     except DataError as error:
         return complain(error, 2)
     except OSError as error:

@@ -3,7 +3,6 @@
 Prints, for each gauge, the mean depth, heights and periods, and with three or more gauges along one line the waves that
 run along it and back. RUN/waves.json holds the same numbers, RUN/waves_spectrum.csv the spectra.
 
-Usage: python -m tailwater_validation.waves --program FILE RUN [GAUGE...] [--from S] [--to S] [--depth M] [--solitary]
 Exit codes: 0 done; 2 bad input, 4 a file cannot be written.
 """
 
@@ -13,12 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater.command_line import complain
-from tailwater.whole_file import write_whole
-
-from .command import PlainParser, number
-from .curves import DataError
-from .run_folder import RunFolder
+from .command_line import Parser, complain, number
+from .errors import DataError
+from .run import Run
+from .whole_file import write_whole
 
 # Frequencies between these multiples of the peak's count as waves in a separation of waves and reflected waves.
 BAND = (0.5, 1.8)
@@ -128,7 +125,7 @@ class Gauges:
             if name not in probes:
                 raise DataError(f"{run.path}: has no depth probe '{name}'; it has {', '.join(probes) or 'none'}")
         self.place = np.array([probes[name]["at"][:run.dimension - 1] for name in self.names])
-        curves = [run.probe(name, "highest_m") for name in self.names]
+        curves = [run.curve(name, "highest_m") for name in self.names]
         first = max([start if start is not None else 0.0] + [curve.time[0] for curve in curves])
         last = min([end if end is not None else np.inf] + [curve.time[-1] for curve in curves])
         if last <= first:
@@ -191,7 +188,7 @@ def solitary(run, names=()):
     found = {}
     for name, position in zip(gauges.names, gauges.position()):
         try:
-            time, height = crest(run.probe(name, "highest_m"))
+            time, height = crest(run.curve(name, "highest_m"))
         except DataError as error:
             raise DataError(f"gauge '{name}' {error}") from error
         found[name] = {"position_m": float(position), "time_s": float(time), "height_m": float(height)}
@@ -239,7 +236,7 @@ def write_spectra(path, spectra):
 
 
 def main(arguments):
-    parser = PlainParser("tailwater waves", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser = Parser("tailwater waves", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
     parser.add_argument("gauges", nargs="*", metavar="GAUGE", help="depth probes, in order along the waves (all)")
     parser.add_argument("--from", type=number, dest="start", metavar="S", help="begin of the window, s (the run's)")
@@ -250,7 +247,7 @@ def main(arguments):
     if options.depth is not None and options.depth <= 0:
         parser.error(f"--depth {options.depth:g}: a depth is above 0 m")
     try:
-        run, spectra = RunFolder(options.run), None
+        run, spectra = Run(options.run), None
         if options.solitary:
             numbers = solitary(run, options.gauges)
         else:

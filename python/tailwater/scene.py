@@ -17,7 +17,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkCoordinate, vtkLightKit, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                                          vtkWindowToImageFilter)
 
-from .curves import DataError
+from .errors import DataError
 from .plots import LOOK_FROM
 
 WATER, WALL, EDGE, MARK = (0.22, 0.52, 0.80), (0.86, 0.84, 0.80), (0.35, 0.35, 0.35), (0.84, 0.10, 0.10)

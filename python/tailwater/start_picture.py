@@ -1,19 +1,18 @@
 """The picture in perspective that `tailwater check` leaves: walls, water, and places that are wrong."""
 
-import argparse
 import sys
 from pathlib import Path
 
 import matplotlib
 
-from tailwater.fields import read_polydata, to_frame
-from tailwater.whole_file import write_whole
-
 from . import plots, scene
-from .curves import DataError
+from .command_line import Parser
+from .errors import DataError
+from .fields import read_polydata, to_frame
 from .pictures import DPI, plain
 from .pictures_3d import bounds_of, show_image
 from .surface import water_surface
+from .whole_file import write_whole
 
 
 def point(text):
@@ -22,8 +21,7 @@ def point(text):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="tailwater_validation.start_picture", description=__doc__)
-    parser.add_argument("--program", help=argparse.SUPPRESS)
+    parser = Parser("tailwater.start_picture", description=__doc__)
     parser.add_argument("--walls", type=Path, required=True, help="VTP file of faces")
     parser.add_argument("--water", type=Path, required=True, help="VTP file of particles")
     parser.add_argument("--spacing", type=float, required=True, help="m")

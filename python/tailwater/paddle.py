@@ -14,12 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater.command_line import complain
-from tailwater.whole_file import write_whole
-
-from .command import PlainParser, number
-from .curves import DataError
+from .command_line import Parser, complain, number
+from .errors import DataError
 from .waves import wave_numbers
+from .whole_file import write_whole
 
 UNITS = {"t": {"s": 1, "ms": 1e-3, "min": 60}, "f": {"Hz": 1, "1/s": 1},
          "eta": {"m": 1, "cm": 1e-2, "mm": 1e-3},
@@ -176,7 +174,7 @@ def write_motion(path, time, stroke, depth, is_flap):
 
 
 def options_of(arguments):
-    parser = PlainParser("tailwater paddle", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser = Parser("tailwater paddle", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.epilog = "Example: tailwater paddle gauge.csv --to paddle.csv --depth 0.4 --distance 5"
     parser.add_argument("file", type=Path, help='CSV: a surface ("t [s], eta [mm]") or a spectrum ("f [Hz], S [m^2/Hz]")')
     parser.add_argument("--to", type=Path, required=True, metavar="FILE", help="the motion, for a wall")

@@ -3,8 +3,6 @@
 Reads a GeoTIFF or any other raster that rasterio knows, or a text file of x, y and z, and writes an STL mesh whose front
 is its upper side. Coordinates become those of the case: the origin is the lower left corner, or that of --origin.
 
-Usage: python -m tailwater_validation.bed --program FILE TERRAIN --to BED.stl [--box X0 Y0 X1 Y1] [--origin X Y] [--datum Z]
-       [--step M]
 Exit codes: 0 done; 2 bad input, 4 a file cannot be read or written.
 """
 
@@ -13,11 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater.command_line import complain
-from tailwater.whole_file import write_whole
-
-from .command import PlainParser, number
-from .curves import DataError
+from .command_line import Parser, complain, number
+from .errors import DataError
+from .whole_file import write_whole
 
 LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands
 
@@ -176,7 +172,7 @@ def report(options, terrain, origin, low, high):
 
 
 def main(arguments):
-    parser = PlainParser("tailwater bed", __doc__.split("\n\n", maxsplit=1)[0], ".")
+    parser = Parser("tailwater bed", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("terrain", type=Path, metavar="TERRAIN", help="GeoTIFF or another raster; .xyz, .txt, .csv: x y z")
     parser.add_argument("--to", type=Path, required=True, metavar="BED.stl", help="the mesh to write")
     parser.add_argument("--box", type=number, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="only this part, survey's m")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater_validation import bed
+from tailwater import bed
 
 try:
     import rasterio

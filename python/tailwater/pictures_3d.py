@@ -6,12 +6,11 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from tailwater.fields import list_frames, read_frame, read_polydata
-from tailwater.whole_file import write_whole
-
 from . import plots, scene
+from .fields import list_frames, read_frame, read_polydata
 from .pictures import COLOURS, DPI, finish, highest_speed
 from .surface import water_surface
+from .whole_file import write_whole
 
 
 def write_polydata(path, data):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater_validation import paddle
+from tailwater import paddle
 
 DEPTH = 0.4
 

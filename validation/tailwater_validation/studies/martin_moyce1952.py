@@ -1,0 +1,152 @@
+"""Collapse of a column on a dry bed: cases/martin_moyce1952 (its README says what was measured).
+
+Front x/a over T = t sqrt(n2 g/a), height of the column over n2 a, over tau = t sqrt(g/a); a is the width of the column
+and n2 its height over a. The data are for n2 = 1 and 2; the run's parameters say which one it is.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from tailwater.curves import read_curve
+from tailwater.errors import DataError
+
+from .. import panels
+from ..curves import compare, passage_time, rms_difference
+from ..metric import Metric, measure
+from .laboratory import case_run, laboratory_study
+
+NAME = "martin_moyce1952"
+GRAVITY = 9.81
+DATA = Path(__file__).resolve().parents[3] / "cases" / NAME / "data"
+
+GRID = 0.01  # of T and tau
+TIME_UNCERTAINTY = 0.2  # of T: how long the release takes (the case's README)
+FRONT_TARGET = 0.10  # of a
+HEIGHT_TARGET = 0.03  # of n2 a
+SPEED_BETWEEN = (2.0, 4.0)  # x/a
+
+
+@dataclass(frozen=True)
+class Series:
+    """One published set of fronts: who read it, for which n2; of a column 2.25 in wide if its file does not say otherwise."""
+
+    file: str
+    label: str
+    n2: int
+
+
+FRONTS = (
+    Series("front_n2_1_a2.25in.csv", "table", 1),
+    Series("front_n2_1_trixiparticles.csv", "TrixiParticles", 1),
+    Series("front_n2_2_a2.25in_table2.csv", "table", 2),
+    Series("front_n2_2_a2.25in_openmps.csv", "OpenMPS", 2),
+    Series("front_n2_2_a2.25in_fig3_pysph.csv", "PySPH", 2),
+    Series("front_n2_2_a1.125in_openmps.csv", "a = 1.125 in, OpenMPS", 2),
+    Series("front_n2_2_a1.125in_fig3_pysph.csv", "a = 1.125 in, PySPH", 2),
+)
+HEIGHTS = {1: "height_n2_1_a2.25in.csv", 2: "height_n2_2_a2.25in_table6.csv"}
+
+
+def n2_of(run):
+    """Height over width of the run's column. Throws DataError if there are no data for it."""
+    n2 = run.parameters.get("n2")
+    if n2 not in HEIGHTS:
+        raise DataError(f"{run.path}: there are data for parameters.n2 = 1 and 2, not {n2}")
+    return int(n2)
+
+
+def fronts(n2):
+    """{label: front x/a over T} of the published series for this n2, the table first."""
+    return {series.label: read_curve(DATA / series.file, "Z", time_column="tstar") for series in FRONTS if series.n2 == n2}
+
+
+def laboratory_height(n2):
+    """Measured height over n2 a, over tau."""
+    return read_curve(DATA / HEIGHTS[n2], "H", time_column="tau")
+
+
+def front(run, column="front_m"):
+    """Computed front x/a over T."""
+    a = run.parameters["a"]
+    return run.curve("front", column).scaled((n2_of(run) * GRAVITY / a) ** 0.5, 1 / a)
+
+
+def height(run):
+    """Computed height over n2 a, over tau."""
+    a = run.parameters["a"]
+    return run.curve("height", "connected_m").scaled((GRAVITY / a) ** 0.5, 1 / (n2_of(run) * a))
+
+
+def speed(curve, between=SPEED_BETWEEN):
+    """Mean speed of a front between two places (of a): d(x/a)/dT. It does not depend on the instant of release."""
+    low, high = between
+    return (high - low) / (passage_time(curve, high) - passage_time(curve, low))
+
+
+def speeds(n2):
+    """"table 1.30; ..." of the published series that go so far."""
+    told = []
+    for label, curve in fronts(n2).items():
+        try:
+            told.append(f"{label} {speed(curve):.2f}")
+        except DataError:
+            continue
+    return "; ".join(told)
+
+
+def beside(name, what, unit, label, measured, computed, high=None):
+    """The distance of a computed curve, which `computed()` makes, from a measured one over all its times."""
+    start, end = measured.time[0], measured.time[-1]
+    return measure(Metric(name, what.format(start, end), unit, label, high=high),
+                   lambda: compare(measured, computed(), (start, end), GRID, TIME_UNCERTAINTY))
+
+
+def of_laboratory(run):
+    """The run's numbers beside the laboratory's, as [Metric]. The bar is for the table of the column that is computed; the
+    other series say how well it is known."""
+    n2 = n2_of(run)
+    return [
+        *(beside(f"rms front {label}", "RMS of the front, T {:.2g}..{:.2g}", "a", label, curve, partial(front, run),
+                 FRONT_TARGET if label == "table" else None) for label, curve in fronts(n2).items()),
+        measure(Metric("speed front", "speed of the front, x/a {:g}..{:g}".format(*SPEED_BETWEEN), "a/T", speeds(n2)),
+                lambda: speed(front(run))),
+        beside("rms height", "RMS of the column's height, tau {:g}..{:g}", "n2 a", "table", laboratory_height(n2),
+               partial(height, run), HEIGHT_TARGET)]
+
+
+def metrics(run):
+    """All numbers of a run, as [Metric]; and how far the other published series are from the table where they overlap."""
+    (_, table), *others = fronts(n2_of(run)).items()
+    found = of_laboratory(run)
+    for label, other in others:
+        start, end = max(table.time[0], other.time[0]), min(table.time[-1], other.time[-1])
+        found.append(measure(Metric(f"rms front table {label}", f"RMS of the table's front, T {start:.2g}..{end:.2g}", "a", label),
+                             partial(rms_difference, other, table, start, end, GRID)))
+    return found
+
+
+def draw(run):
+    n2 = n2_of(run)
+    measured, tall = fronts(n2), laboratory_height(n2)
+    end = 1.05 * max(curve.time[-1] for curve in measured.values())
+    return [panels.panel("Front", "T = t sqrt(n2 g/a)", "x/a", (
+                *(panels.over_time(f"laboratory, {label}", curve, "measured") for label, curve in measured.items()),
+                panels.over_time("computed, foremost particle", front(run).window(0, end)),
+                panels.over_time("computed, foremost connected", front(run, "front_connected_m").window(0, end), "aside"))),
+            panels.panel("Height of the column at its back wall", "tau = t sqrt(g/a)", "h/(n2 a)", (
+                panels.over_time("laboratory", tall, "measured"),
+                panels.over_time("computed", height(run).window(0, 1.05 * tall.time[-1]))), limits=(0, 1.05))]
+
+
+def study(plan):
+    runs = tuple(case_run(plan, NAME, "a", count, 0.5) for count in plan.at((15, 30), (30, 60, 96), (60, 96, 160)))
+    return laboratory_study(
+        NAME, "Collapse of a square column: Martin & Moyce (1952)", metrics, draw,
+        "A column 57 mm wide and as high collapses and runs over a dry, smooth bed. Front x/a over T = t sqrt(g/a) and height of "
+        "the column at its back wall. Farzin et al. compute it with 3898 and 9320 particles (a/60 and a/96) on a frictionless bed "
+        "but give no numbers.",
+        "The release takes time: before friction can matter, the laboratory's fronts are 0.13 to 0.19 in T behind that of a "
+        "column released at once, so the best shift is sought within 0.2. Readings of one figure differ by 0.006 to 0.04 a, "
+        "columns of two sizes by 0.12 a where they should coincide.", runs,
+        (("front, the table (a)", "rms front table"), ("column height (n2 a)", "rms height")), "RMS difference")
