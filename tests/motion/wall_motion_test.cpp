@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "base/error.h"
 #include "geometry/cases.h"
 #include "motion/wall_motion.h"
 #include "support/rounding.h"
@@ -68,6 +70,39 @@ TEST(WallMotion, CarriesFacesAndParticles) {
     EXPECT_LT((velocity[row] - expected).norm(), 1e-8);
   }
   EXPECT_NEAR(motion.largest_displacement(0.0, 0.0, {}), 0.0, 0.0);
+}
+
+TEST(WallMotion, TakesAGivenPathThatBeginsWhereTheWallIs) {
+  const CaseSpec spec = flap_case();
+  Boundary<2> boundary = make_boundary<2>(spec);
+  WallParticles<2> particles = make_dummy_particles<2>(boundary, 0.1, 3);
+  const WallParticles<2> drawn = particles;
+  WallMotion<2> motion(spec, boundary, particles);
+  // At t = 0.5 it has moved by 0.25 and turned by an eighth; from there on it goes to the right at 3 m/s.
+  const auto path = [](double ahead) {
+    return GivenMotion<2>{[=](double time) {
+      return Placement<2>{{0.25 + ahead + 3.0 * (time - 0.5), 0.0}, -std::numbers::pi / 4.0};
+    }};
+  };
+  try {
+    motion.steer(0, path(0.01), 0.5, {}, 1e-3, "wall 'flap'");
+    ADD_FAILURE() << "a jump of 10 mm is taken";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("wall 'flap': the path of a script begins 0.01 m from"), 0u)
+        << error.what();
+  }
+  const AffineMap<2> before = motion.moving()[0].at(0.5, {});
+  motion.steer(0, path(0.0), 0.5, {}, 1e-9, "wall 'flap'");
+  motion.place(0.7, {}, boundary, particles);
+  std::vector<Vec<2>> velocity(particles.size(), Vec<2>::Zero());
+  motion.get_velocity(0.7, {}, velocity);
+  for (std::size_t row = 0; row < particles.size(); ++row) {
+    const bool moves = particles.wall[row] == 1;
+    const Vec<2> expected = moves ? Vec<2>(before(drawn.position[row]) + Vec<2>(0.6, 0.0)) : drawn.position[row];
+    EXPECT_LT((particles.position[row] - expected).norm(), 16.0 * eps);
+    EXPECT_LT((velocity[row] - Vec<2>(moves ? 3.0 : 0.0, 0.0)).norm(), 1e-8);
+  }
+  EXPECT_NEAR(motion.largest_displacement(0.5, 0.7, {}), 0.6, 16.0 * eps);
 }
 
 // A gate that stands on the bed: the bed's rows go on under it, and nothing of the gate is in the bed.
