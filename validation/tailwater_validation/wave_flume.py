@@ -11,6 +11,7 @@ LENGTHS = np.linspace(0.8, 1.15, 141)
 FAR = 10  # wavelengths over which the height that is left is told
 PEAK_ENHANCEMENT = 3.3  # of the JONSWAP spectrum; the default of the maker
 MAKER = (0.5, 3.0)  # frequencies that the maker makes, over that of the peak
+COMPONENTS = 200  # sines of a maker
 # Frequencies over that of the peak between which the energy of irregular waves is compared: below, at and above the peak.
 PARTS = (BAND[0], 0.9, 1.1, BAND[1])
 DRAWS = 2000  # of a sea, for the scatter of what is read from it
@@ -96,11 +97,11 @@ def random_number(seed, item, which):
     return (z >> 11) * 2.0**-52 - 1
 
 
-def sea(seed, components, height, period, depth, gravity):
+def sea(seed, height, period, depth, gravity):
     """(amplitude, angular frequency, wave number, phase) of each sine that a maker of irregular waves makes
     (docs/theory/waves.md)."""
-    width = (MAKER[1] - MAKER[0]) / components
-    n = range(components)
+    width = (MAKER[1] - MAKER[0]) / COMPONENTS
+    n = range(COMPONENTS)
     share = np.array([MAKER[0] + width * (k + 0.5 + 0.5 * random_number(seed, k, 0)) for k in n])
     density = jonswap(share)
     amplitude = height / 4 * np.sqrt(2 * density / density.sum())
@@ -121,7 +122,7 @@ def irregular_waves(run):
     gauges = Gauges(run, None, run.parameters["window"], None)
     if gauges.time[-1] < end - 0.1 * period:
         raise DataError(f"{run.path}: its gauges end at {gauges.time[-1]:.4g} s, the run at {end:.4g} s")
-    amplitude, omega, k, phase = sea(maker["seed"], maker["components"], height, period, depth, run.gravity)
+    amplitude, omega, k, phase = sea(maker["seed"], height, period, depth, run.gravity)
     made = np.array([np.cos(np.outer(gauges.time, omega) + phase - k * x) @ amplitude for x in gauges.place[:, 0]])
 
     def read(elevations):
