@@ -11,6 +11,7 @@ from tailwater.run import Run
 from tailwater.tables import read_table
 from tailwater_validation.studies import kleefsman2005
 
+TOP_SENSORS = ("P5", "P6", "P7", "P8")
 CASE = kleefsman2005.DATA.parents[1] / "case.toml"
 
 EFFECTIVE_CASE = """\
@@ -37,7 +38,7 @@ def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
         curve = kleefsman2005.laboratory(gauge).window(0, end + 0.01)
         synthetic_run.write_probe(folder, gauge, {"time_s": curve.time, "connected_m": curve.value + too_high,
                                                   "highest_m": curve.value + too_high + 0.01})
-    for sensor in (*kleefsman2005.SENSORS, *kleefsman2005.TOP_SENSORS):
+    for sensor in (*kleefsman2005.SENSORS, *TOP_SENSORS):
         curve = kleefsman2005.laboratory(sensor).window(0, end + 0.01)
         pressure = np.where(curve.time > kleefsman2005.NOT_BEFORE, factor * curve.value, 0)
         synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure})
@@ -51,7 +52,7 @@ class Data(unittest.TestCase):
             self.assertIn(word, text)
 
     def test_curves_span_what_is_scored(self):
-        for name in (*kleefsman2005.GAUGES, *kleefsman2005.SENSORS, *kleefsman2005.TOP_SENSORS):
+        for name in (*kleefsman2005.GAUGES, *kleefsman2005.SENSORS, *TOP_SENSORS):
             curve = kleefsman2005.laboratory(name)
             self.assertLess(curve.time[0], 0.01)
             self.assertGreater(curve.time[-1], kleefsman2005.END)

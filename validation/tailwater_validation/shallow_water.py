@@ -147,12 +147,6 @@ def dam_break(ahead, bed, times, back, front, cells=2000):
     return states
 
 
-def whitham_front(time, coefficient):
-    """Place of the front over a dry bed with the constant friction coefficient, for small coefficient time^4: Whitham
-    (1955), Proc. R. Soc. Lond. A 227, 399: 2 t - 3.452 (c t^4)^(1/3)."""
-    return 2 * time - 3.452 * (coefficient * time**4) ** (1 / 3)
-
-
 # ----------------------------------------------------------------------------------------------- errors of runs
 
 

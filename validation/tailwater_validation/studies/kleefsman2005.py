@@ -28,7 +28,6 @@ HEIGHT_BARS = {"H2": 4.0, "H4": 2.0}  # percent of the depth, mean over END
 HEIGHT_PEERS = {"H2": (("interFoam", 4.3, 4.3),), "H4": (("interFoam", 2.1, 2.1),)}
 
 SENSORS = {"P1": 0.021, "P2": 0.061, "P3": 0.101, "P4": 0.141}  # m, heights on the face towards the water
-TOP_SENSORS = ("P5", "P6", "P7", "P8")
 # The sensors drift by some 50 Pa before the impact; ten times that is a tenth of the hydrostatic pressure at the start.
 THRESHOLD = 500.0  # Pa
 NOT_BEFORE = 0.3  # s; the door's own shocks are over
