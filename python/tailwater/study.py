@@ -6,11 +6,11 @@ for each result of each probe its value with an interval (`uncertainty`, docs/th
 import csv
 import json
 import math
+import os
 from pathlib import Path
 
 from . import uncertainty
 from .errors import DataError, InputError
-from .run import Run
 from .sweep import sweep
 
 __all__ = ["Study", "study"]
@@ -121,7 +121,7 @@ class Study:
         return "\n".join(lines) + "\n"
 
     def write(self, folder):
-        """study.csv, study.json and study.txt."""
+        """study.csv, study.json and study.txt, in which runs are named from the folder on; `tailwater view` shows them."""
         folder = Path(folder)
         with (folder / "study.csv").open("w", encoding="utf-8", newline="") as file:
             table = csv.writer(file, lineterminator="\n")
@@ -129,8 +129,11 @@ class Study:
             table.writerows([cell(row[name]) for name in COLUMNS] for row in self.rows)
         rows = [{name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
                 for row in self.rows]
-        told = {"spacings_m": self.spacings, "runs": [str(run.path) for run in self.runs],
-                "starts": [str(run.path) for run in self.starts], "step": str(self.step.path) if self.step else None,
+        def place(run):
+            return os.path.relpath(run.path, folder)
+
+        told = {"spacings_m": self.spacings, "runs": [place(run) for run in self.runs],
+                "starts": [place(run) for run in self.starts], "step": place(self.step) if self.step else None,
                 "results": rows}
         (folder / "study.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
         (folder / "study.txt").write_text(self.text(), encoding="utf-8")

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view report_name = "report.json";
+constexpr std::string_view study_name = "study.json";
 
 struct ViewOptions {
   std::vector<fs::path> paths;
@@ -72,6 +74,23 @@ void add_report(const fs::path& folder, ViewContent& content) {
   }
 }
 
+bool goes_up(const fs::path& path) { return path.is_absolute() || std::ranges::find(path, "..") != path.end(); }
+
+/// What `tailwater study` found, and its runs at the spacings.
+void add_study(const fs::path& folder, ViewContent& content) {
+  content.mode = "study";
+  content.report = Json::parse(FolderReader(folder).text_of({std::string(study_name)}), nullptr, false);
+  try {
+    content.report.at("results");
+    for (const Json& run : content.report.at("runs")) {
+      const std::string name = run;
+      if (!goes_up(name) && is_run(folder / name)) content.runs.push_back({name, fs::absolute(folder / name)});
+    }
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("'{}' is not the table of tailwater study", (folder / study_name).string()));
+  }
+}
+
 std::string name_of_folder(const fs::path& folder) {
   const fs::path whole = fs::weakly_canonical(fs::absolute(folder));
   return whole.filename().string();
@@ -90,12 +109,16 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
       } else if (fs::exists(path / report_name, error)) {
         if (paths.size() > 1) throw InputError("a report is shown alone; remedy: name one report, or runs only");
         add_report(path, content);
+      } else if (fs::exists(path / study_name, error)) {
+        if (paths.size() > 1) throw InputError("a study is shown alone; remedy: name one study, or runs only");
+        add_study(path, content);
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
       } else {
-        throw InputError(
-            fmt::format("'{}' is not the folder of a run, of a sweep or of a report: it has neither {} nor {} nor {}",
-                        path.string(), effective_case_name, sweep_record_name, report_name));
+        throw InputError(fmt::format(
+            "'{}' is not the folder of a run, of a sweep, of a report or of a study: it has none of {}, {}, {} "
+            "and {}",
+            path.string(), effective_case_name, sweep_record_name, report_name, study_name));
       }
     } else if (fs::is_regular_file(path, error) && path.extension() == ".toml") {
       if (paths.size() > 1) throw InputError("a case is shown alone; remedy: name one case, or runs only");

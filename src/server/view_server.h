@@ -20,10 +20,10 @@ struct ViewedRun {
 
 /// What is shown.
 struct ViewContent {
-  std::string mode;  ///< "run", "sweep", "case" or "report"
+  std::string mode;  ///< "run", "sweep", "case", "report" or "study"
   std::vector<ViewedRun> runs;
   std::optional<std::filesystem::path> case_file;
-  nlohmann::ordered_json report = {};  ///< what `tailwater validate` found
+  nlohmann::ordered_json report = {};  ///< what `tailwater validate` or `tailwater study` found
 };
 
 /// What only the whole program can do. Each may be called by several threads at once; a failure is a UserError.

@@ -307,6 +307,21 @@ class OfADoneRun(Viewed):
         (self.folder / "report/report.json").write_text("[1]")
         self.assertIn("not a report", self.call("view", "report", expect=2).stderr)
 
+    def test_a_study_comes_with_its_runs(self):
+        shutil.copytree(self.folder / "run", self.folder / "study/spacings/a")
+        study = {"spacings_m": [0.1], "runs": ["spacings/a", "spacings/gone", "../run"], "results": []}
+        (self.folder / "study/study.json").write_text(json.dumps(study))
+        self.view("study")
+        state = self.json("api/state")
+        self.assertEqual((state["mode"], state["report"]), ("study", study))
+        self.assertEqual([run["name"] for run in state["runs"]], ["spacings/a"])
+        self.assertEqual(self.json("api/run/0/info")["state"], "done")
+        _, data = self.exported("study")
+        self.assertEqual((data["state"]["report"], len(data["runs"])), (study, 1))
+        self.assertIn("shown alone", self.call("view", "study", "run", expect=2).stderr)
+        (self.folder / "study/study.json").write_text('{"runs": []}')
+        self.assertIn("not the table of tailwater study", self.call("view", "study", expect=2).stderr)
+
     def test_says_what_cannot_be_viewed(self):
         for words, part in ((("nothing",), "neither the folder of a run nor a case file"),
                             ((".",), "is not the folder of a run"), (("small.toml", "run"), "a case is shown alone"),

@@ -36,6 +36,7 @@ class Studies(PackageTest):
             self.assertAlmostEqual(float(next(csv.DictReader(file))["high"]), expected.high, 8)
         told = json.loads(Path("s/study.json").read_text(encoding="utf-8"))
         self.assertEqual([told["spacings_m"], len(told["results"])], [found.spacings, len(found.rows)])
+        self.assertEqual([Path("s", name).resolve() for name in told["runs"]], [run.path.resolve() for run in found.runs])
         self.assertIn("depth, depth: ", Path("s/study.txt").read_text(encoding="utf-8"))
         # Called again it runs nothing.
         before = [run.path.joinpath("summary.json").stat().st_mtime_ns for run in found.runs]

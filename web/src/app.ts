@@ -58,16 +58,21 @@ export class App {
   async begin(): Promise<void> {
     try {
       this.state = await this.source.state();
-      const { report, runs } = this.state;
-      document.title = `${report ? `Validation, level ${report.level}` : (runs[0]?.name ?? this.state.case?.path ?? "Tailwater")} · Tailwater`;
+      document.title = `${this.paper || (this.state.runs[0]?.name ?? this.state.case?.path ?? "Tailwater")} · Tailwater`;
       if (this.state.mode === "case") this.look.change({ tab: "case" });
-      if (this.state.report) this.look.change({ reading: true });
-      const first = this.state.report ? [] : this.state.runs.slice(0, most);
+      if (this.paper) this.look.change({ reading: true });
+      const first = this.paper ? [] : this.state.runs.slice(0, most);
       for (const run of first) await this.open(run.id);
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);
     }
     this.changed();
+  }
+
+  /** What there is to read: the title of a report or a study; else "". */
+  get paper(): string {
+    const report = this.state?.report;
+    return !report ? "" : "studies" in report ? `Validation, level ${report.level}` : "How well the numbers are known";
   }
 
   /** Opens a run that the server knows, and shows it beside those that are shown. */

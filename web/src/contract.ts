@@ -5,10 +5,11 @@ export type Point = number[];
 export type Lines = [number, number];
 
 export interface State {
-  mode: "run" | "sweep" | "case" | "report";
+  mode: "run" | "sweep" | "case" | "report" | "study";
   runs: { id: string; name: string; path: string; parameters?: Record<string, string> }[];
   case: { path: string } | null;
-  report?: Report | null;
+  /** Of a validation or of a study. */
+  report?: Report | SpacingStudy | null;
   version: string;
   ranks_most?: number;
   out?: string;
@@ -41,7 +42,13 @@ export interface Study {
   /** Name of the run whose water is shown. */
   shown: string | null;
   moments: { time: number; label: string }[];
-  figures: { caption: string; panels?: Panel[]; picture?: string; missing?: string }[];
+  figures: Figure[];
+}
+
+export interface Figure {
+  caption: string;
+  panels?: Panel[];
+  missing?: string;
 }
 
 export interface Metric {
@@ -59,6 +66,8 @@ export interface Metric {
   shift: number | null;
   shift_unit: string;
   order: number | null;
+  /** Either way, of an error at three spacings or more; reports of before have none. */
+  uncertainty?: number | null;
   note: string;
   /** In a comparison: what is compared; else "". */
   variant: string;
@@ -89,6 +98,31 @@ export interface Panel {
   /** Of y, that are shown. */
   limits: [number, number] | null;
   curves: { label: string; kind: "run" | "exact" | "measured" | "aside" | "spacings" | "particles"; x: number[]; y: (number | null)[] }[];
+}
+
+/** What `tailwater study` found. */
+export interface SpacingStudy {
+  /** The finest first, as `values`. */
+  spacings_m: number[];
+  results: StudyRow[];
+}
+
+export interface StudyRow {
+  probe: string;
+  quantity: string;
+  unit: string;
+  /** Of the finest run; `uncertainty` is half the width of its interval, `low` to `high`. */
+  value: number;
+  low: number;
+  high: number;
+  uncertainty: number;
+  limit: number | null;
+  order: number | null;
+  discretisation: number | null;
+  chance: number | null;
+  step: number | null;
+  notes: string;
+  values: number[];
 }
 
 export interface Wall {

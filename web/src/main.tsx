@@ -10,6 +10,7 @@ import { KeysDialog, listen } from "./keys.tsx";
 import { LookPanel } from "./look.tsx";
 import { FilmDialog } from "./picture/filmdialog.tsx";
 import { ReportPage } from "./report/page.tsx";
+import { StudyPage } from "./report/study.tsx";
 import { RunPanel } from "./run/panel.tsx";
 import { Embedded, Server } from "./source.ts";
 import { useChanges, type Look } from "./store.ts";
@@ -24,7 +25,7 @@ function Page({ app }: { app: App }) {
   const report = app.state?.report;
   const reading = look.reading && !!report;
   // Every frame that is decoded draws this page anew, but not the report.
-  const reportPage = useMemo(() => report && <ReportPage app={app} report={report} away={!reading} />, [report, reading]);
+  const paper = useMemo(() => report && ("studies" in report ? <ReportPage app={app} report={report} away={!reading} /> : <StudyPage app={app} study={report} away={!reading} />), [report, reading]);
   const tab = (name: Look["tab"], word: string) => (
     <button role="tab" id={`tab-${name}`} aria-selected={look.tab === name} aria-controls="panel" onClick={() => app.look.change({ tab: name, side: true })}>
       {word}
@@ -34,8 +35,8 @@ function Page({ app }: { app: App }) {
     <div class={`page${look.side ? "" : " wide"}${look.tab === "case" ? " case" : ""}`}>
       <header class="top">
         <svg class="mark" viewBox="0 0 32 32" width="22" height="22" aria-hidden="true"><path d="M3 6v20h26V16c-5 0-6 4-10 4S12 9 3 6z" fill="currentColor" /></svg>
-        {report && !reading && <button onClick={() => app.look.change({ reading: true })}>Report</button>}
-        <h1>{reading ? `Validation, level ${report.level}` : run?.scene.title || run?.name || "Tailwater"}</h1>
+        {paper && !reading && <button onClick={() => app.look.change({ reading: true })}>{"studies" in report! ? "Report" : "Study"}</button>}
+        <h1>{reading ? app.paper : run?.scene.title || run?.name || "Tailwater"}</h1>
         {!reading && run?.info && <span class={`chip ${run.info.state}`}>{run.info.state}</span>}
         <span class="gap" />
         {!reading && (
@@ -50,7 +51,7 @@ function Page({ app }: { app: App }) {
         <button class="icon" title="Keys (?)" aria-label="Keys" onClick={() => app.look.change({ dialog: "keys" })}><Icon name="keys" /></button>
         {!reading && <button class="icon" title="Panel beside the picture" aria-label="Panel beside the picture" aria-pressed={look.side} onClick={() => app.look.change({ side: !look.side })}><Icon name="side" /></button>}
       </header>
-      {reportPage}
+      {paper}
       <main inert={reading}>
         <Picture app={app} />
         {lookOpen && <LookPanel app={app} />}

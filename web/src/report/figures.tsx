@@ -1,7 +1,7 @@
-// The figures of a study: panels of curves, and pictures that the case's own program part has drawn.
+// The figures of a study: panels of curves.
 import type { App } from "../app.ts";
 import { series } from "../colours.ts";
-import type { Panel, Study } from "../contract.ts";
+import type { Figure, Panel } from "../contract.ts";
 import { Plot, type Line } from "../gauges/plot.tsx";
 import { useChanges } from "../store.ts";
 import { colours } from "../theme.ts";
@@ -54,18 +54,17 @@ function OnePanel({ panel, palette, name }: { panel: Panel; palette: string[]; n
   );
 }
 
-export function Figures({ app, study }: { app: App; study: Study }) {
+export function Figures({ app, name, figures }: { app: App; name: string; figures: Figure[] }) {
   useChanges(app.look);
   const palette = series[app.look.now.theme];
   return (
     <>
-      {study.figures.map(({ caption, panels, picture, missing }, i) => (
+      {figures.map(({ caption, panels, missing }, i) => (
         <figure key={caption}>
-          {picture && <img src={picture} alt={caption} />}
           {panels && (
             <div class="panels">
               {panels.map((panel, k) => (
-                <OnePanel key={k} panel={panel} palette={palette} name={`${study.name}.${i}`} />
+                <OnePanel key={k} panel={panel} palette={palette} name={`${name}.${i}`} />
               ))}
             </div>
           )}

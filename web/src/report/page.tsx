@@ -76,7 +76,7 @@ function One({ app, study }: { app: App; study: Study }) {
       <Metrics metrics={study.metrics.filter((m) => m.variant === "")} />
       <Matrix metrics={study.metrics.filter((m) => m.variant !== "")} />
       <Peers metrics={study.metrics.filter((m) => m.peers.length > 0 && m.value !== null)} />
-      <Figures app={app} study={study} />
+      <Figures app={app} name={study.name} figures={study.figures} />
       <Costs runs={study.runs.filter((run) => run.message || run.particles !== undefined)} />
     </section>
   );

@@ -6,7 +6,7 @@ import { number } from "../units.ts";
 const marks: Record<Verdict, string> = { met: "✓ met", missed: "✗ missed", shown: "shown" };
 const three = (x: number | null | undefined, none = "–") => (x === null || x === undefined ? none : number(x, 3));
 
-function Table({ head, children }: { head: [string, boolean?][]; children: ComponentChildren }) {
+export function Table({ head, children }: { head: [string, boolean?][]; children: ComponentChildren }) {
   return (
     <div class="scroll">
       <table>
@@ -50,7 +50,7 @@ export function Metrics({ metrics }: { metrics: Metric[] }) {
       {metrics.map((m) => (
         <tr key={m.name} class={m.verdict}>
           <td>{m.what}</td>
-          <td class="number value">{three(m.value)}</td>
+          <td class="number value">{three(m.value)}{m.uncertainty != null && ` ± ${number(m.uncertainty, 2)}`}</td>
           <td>{m.unit}</td>
           <td class="number">{target(m)}</td>
           {papers && <td class="number">{three(m.paper, "")}</td>}
