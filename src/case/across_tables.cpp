@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case/formulation.h"
+#include "case/key_use.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
 
@@ -167,13 +168,17 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
   }
 }
 
-/// Studies change parts of the robust formulation; the published ones have none of these.
+/// Studies change parts of the robust formulations; the published ones have none of these.
 void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const toml::table* study = root["study"].as_table();
-  if (study == nullptr || spec.scheme.formulation == Formulation::robust) return;
+  if (study == nullptr) return;
+  const std::string scheme = spec.scheme.formulation == Formulation::robust
+                                 ? fmt::format("name = \"{}\"", name_of(spec.scheme.name))
+                                 : fmt::format("formulation = \"{}\"", name_of(spec.scheme.formulation));
   for (const auto& [key, node] : *study) {
-    problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.formulation = \"{}\"; remove it",
-                                             key.str(), value_text(node), name_of(spec.scheme.formulation)));
+    if (has_study(spec.scheme, key.str())) continue;
+    problems.add(&node.source(),
+                 fmt::format("study.{} = {}: is not used with scheme.{}; remove it", key.str(), value_text(node), scheme));
   }
 }
 

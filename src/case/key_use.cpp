@@ -96,6 +96,11 @@ KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<c
   return {};
 }
 
+bool has_study(const SchemeTable& scheme, std::string_view key) {
+  if (scheme.formulation != Formulation::robust) return false;
+  return scheme.name != SchemeName::farmani2020 || (key != "divergence_free" && key != "displacement");
+}
+
 std::string key_use_text(std::string_view table, std::string_view key) {
   std::string text;
   for (const KeyUse& use : key_uses()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "case/key_info.h"
+#include "case/spec.h"
 
 namespace tailwater {
 
@@ -34,6 +35,9 @@ struct KeyVerdict {
   const KeyUse* use = nullptr;
 };
 KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows);
+
+/// Whether a scheme has the part that this key of [study] changes.
+bool has_study(const SchemeTable& scheme, std::string_view key);
 
 /// For the help: `shape = "box"`, or `type = "depth", "pressure"`, with "(needed)" where it is needed; empty if the key
 /// goes with every choice.

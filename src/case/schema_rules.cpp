@@ -140,10 +140,14 @@ Json file_rules_of_schema() {
   lets_bodies_float["properties"]["formulation"] = one_of({"robust"});
   Json is_published = needs("scheme");
   is_published["properties"]["scheme"] = is("formulation", {"published"});
+  Json is_two_step = needs("scheme");
+  is_two_step["properties"]["scheme"] = is("name", {"farmani2020"});
+  const Json has_studies{{"propertyNames", none_of({"divergence_free", "displacement"})}};
   return Json::array({
       {{"anyOf", Json::array({std::move(has_fluid), needs("inlet")})}},
       if_then(has_bodies, rule_for("scheme", std::move(lets_bodies_float))),
       if_then(std::move(is_published), rule_for("study", {{"maxProperties", 0}})),
+      if_then(std::move(is_two_step), rule_for("study", has_studies)),
   });
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Visitor for CaseSpec::describe.
 class CaseWriter {
  public:
-  explicit CaseWriter(std::string& text) : text_(text) {}
+  CaseWriter(std::string& text, const SchemeTable& scheme) : text_(text), scheme_(scheme) {}
 
   template <class Table>
   void table(std::string_view name, const Table& table, std::string_view doc) {
@@ -38,6 +38,7 @@ class CaseWriter {
  private:
   void write(std::string_view name, const std::vector<KeyInfo>& rows) {
     for (const KeyInfo& row : rows) {
+      if (name == "study" && !has_study(scheme_, row.key)) continue;
       // Places that are not given have no default; the reader takes a key without numbers for a mistake.
       const bool has_value = row.value != "[]" || (row.type != "vector" && row.type != "points");
       if (has_value && key_verdict(name, row.key, rows).need != KeyNeed::unused) {
@@ -48,6 +49,7 @@ class CaseWriter {
   }
 
   std::string& text_;
+  const SchemeTable& scheme_;
 };
 
 }  // namespace
@@ -60,7 +62,7 @@ std::string effective_case(const CaseSpec& spec) {
       text += fmt::format("{} = {}\n", parameter.name, toml_float(parameter.value));
     }
   }
-  CaseWriter writer(text);
+  CaseWriter writer(text, spec.scheme);
   CaseSpec::describe(spec, writer);
   return text;
 }

@@ -75,6 +75,12 @@ TEST(EffectiveCase, OfAProbeWithAndWithoutARegionIsReadAgain) {
   }
 }
 
+TEST(EffectiveCase, OfAStudyHasTheKeysThatItsSchemeUses) {
+  for (const std::string scheme : {"farzin2014", "farmani2020"}) {
+    expect_round_trip(required_keys + "[scheme]\nname = \"" + scheme + "\"\n[study]\nshifting = 0\n" + water);
+  }
+}
+
 TEST(EffectiveCase, SaysUnitAndMeaning) {
   const std::string written = effective_case(read_text(required_keys + water));
   EXPECT_NE(written.find("spacing = 0.1  # m: Distance dx between"), std::string::npos) << written;
