@@ -85,8 +85,9 @@ TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
   EXPECT_EQ(reading.take(tank.context()), std::vector<Row>{Row(2 + 2 * Dim, 0.0)});
 }
 
-/// What overtops a crest 0.4 m high: a section from the crest up. Water 0.8 m high is a whole number of rows, which the
-/// tent counts exactly.
+/// What overtops a crest 0.4 m high: a section from the crest up, H = 1 m high. Water 0.8 m high is a whole number of
+/// rows, which the tent counts exactly. What passes at a constant rate q brings the mean from q_0 to q + (q_0 - q)
+/// exp(-t/T) with T = 20 dx/sqrt(g H), whenever it is read meanwhile.
 TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
   constexpr int Dim = TestFixture::dimension;
   using T = typename TestFixture::TankOf;
@@ -105,17 +106,21 @@ TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
     context.totals.section_volumes = {passed};
     return reading.take(context).at(0)[0];
   };
-  const double smoothing = reading.summary()[2].second;
-  const double share = 1.0 - std::exp(-1.0 / smoothing);  // that a second has
-  const double at_start = 0.4 * 0.5;                      // nothing has been counted yet: by the water's velocity
-  const double later = at_start + share * (0.8 - at_start);
+  const double smoothing = 20.0 * T::dx / std::sqrt(T::g * 1.0);
+  const auto after = [&](double time, double from, double to) { return to + (from - to) * std::exp(-time / smoothing); };
+  const double at_start = 0.4 * 0.5;  // nothing has been counted yet: by the water's velocity
   EXPECT_NEAR(discharge_at(0.0, 0.5, 0.0), at_start, 1e-12);
+  EXPECT_NEAR(discharge_at(0.1, 2.0, 0.08), after(0.1, at_start, 0.8), 1e-12);
+  EXPECT_NEAR(discharge_at(0.15, 0.0, 0.12), after(0.15, at_start, 0.8), 1e-12);
+  const double later = after(1.0, at_start, 0.8);
   EXPECT_NEAR(discharge_at(1.0, 2.0, 0.8), later, 1e-12);
-  EXPECT_NEAR(discharge_at(2.0, -3.0, -0.4), later + share * (-1.2 - later), 1e-12);
+  EXPECT_NEAR(discharge_at(2.0, -3.0, -0.4), after(1.0, later, -1.2), 1e-12);
   const auto summary = reading.summary();
   EXPECT_EQ(summary[0].first, "largest_m3_per_s");
   EXPECT_NEAR(summary[0].second, later, 1e-12);
   EXPECT_EQ(summary[1].second, 1.0);
+  EXPECT_EQ(summary[2].first, "smoothed_over_s");
+  EXPECT_NEAR(summary[2].second, smoothing, 1e-12);
 }
 
 }  // namespace
