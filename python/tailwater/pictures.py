@@ -16,12 +16,8 @@ from .command_line import Parser, complain, number
 from .errors import DataError
 from .fields import list_frames, read_frame
 from .run import Run
-from .whole_file import write_whole
 
 COUNT = 6
-DPI = 100
-SHOWN_SHARE = 99.5  # percent of the particles whose speed the colours cover
-COLOURS = "viridis"
 
 
 def choose_frames(frames, times, count):
@@ -34,32 +30,10 @@ def choose_frames(frames, times, count):
     return [frame for frame in numbered if frame[0] in chosen]
 
 
-def highest_speed(frames):
-    """Of nearly all particles, m/s; 0 if a field file has no velocity."""
-    def of(frame):
-        velocity = frame.fields.get("velocity")
-        return 0.0 if velocity is None else np.percentile(np.linalg.norm(velocity, axis=1), SHOWN_SHARE)
-
-    return max(of(frame) for frame in frames)
-
-
-def plain(text):
-    """A text of a user, in which $ begins no formula."""
-    return text.replace("$", r"\$")
-
-
-def finish(figure, axes, run, time, mappable, path):
-    axes.set_title(f"{plain(run.case['case']['title'])}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
-    if mappable is not None:
-        bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")
-        bar.set_label("speed (m/s)")
-    write_whole(path, lambda part: figure.savefig(part, dpi=DPI, format="png"))
-
-
 def draw_plane(axes, run, frame, view, speed):
     """Particles coloured by their speed, if there is any, and walls; returns the particles."""
     colours = {"facecolors": plots.SKY} if speed == 0 else {
-        "cmap": COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
+        "cmap": plots.COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
     dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
     plots.draw_walls(axes, run)
     view.apply(axes)
@@ -70,13 +44,13 @@ def draw_plane(axes, run, frame, view, speed):
 
 def draw_2d(run, chosen, folder):
     frames = [read_frame(time, path) for _, time, path in chosen]
-    speed = highest_speed(frames)
+    speed = plots.highest_speed(frames)
     view = plots.View(run, frames, crop=True)
     for (number, time, _), frame in zip(chosen, frames):
         figure = plots.new_figure(plots.WIDTH, (plots.WIDTH - 1.2) * view.ratio + 0.9)
         axes = figure.subplots()
         dots = draw_plane(axes, run, frame, view, speed)
-        finish(figure, axes, run, time, dots if speed > 0 else None, folder / f"picture_{number:05}.png")
+        plots.save(figure, axes, run, time, dots if speed > 0 else None, folder / f"picture_{number:05}.png")
 
 
 def draw_3d(run, frames, chosen, folder, look_from):

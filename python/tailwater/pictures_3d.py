@@ -8,7 +8,6 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from . import plots, scene
 from .fields import list_frames, read_frame, read_polydata
-from .pictures import COLOURS, DPI, finish, highest_speed
 from .surface import water_surface
 from .whole_file import write_whole
 
@@ -61,7 +60,7 @@ def bounds_of(frames, walls):
 def show_image(image, title, mappable=None):
     """A figure that shows an image pixel by pixel, with room for its title and a colour bar; and its axes."""
     rows, columns, _ = image.shape
-    figure = plots.new_figure(columns / DPI + (1.0 if mappable is not None else 0.2), rows / DPI + 0.6)
+    figure = plots.new_figure(columns / plots.DPI + (1.0 if mappable is not None else 0.2), rows / plots.DPI + 0.6)
     axes = figure.subplots()
     axes.imshow(image, interpolation="none")
     axes.set_axis_off()
@@ -71,12 +70,12 @@ def show_image(image, title, mappable=None):
 
 def draw(run, chosen, folder, look_from):
     frames = [read_frame(time, path) for _, time, path in chosen]
-    speed = highest_speed(frames)
-    mappable = ScalarMappable(Normalize(0, speed), COLOURS) if speed > 0 else None
+    speed = plots.highest_speed(frames)
+    mappable = ScalarMappable(Normalize(0, speed), plots.COLOURS) if speed > 0 else None
     window = scene.Scene(bounds_of(frames, [walls_at(run, time) for _, time, _ in chosen]), look_from)
     for (number, time, _), frame in zip(chosen, frames):
         water = read_polydata(run.path / "fields" / f"surface_{number:05}.vtp")
-        image = window.draw(water, walls_at(run, time), colours=mappable and matplotlib.colormaps[COLOURS],
+        image = window.draw(water, walls_at(run, time), colours=mappable and matplotlib.colormaps[plots.COLOURS],
                             field="velocity", limits=(0, speed))
         figure, axes = show_image(image, "", mappable)
-        finish(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png")
+        plots.save(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png")

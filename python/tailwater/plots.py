@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from .whole_file import write_whole
+
 BLUE, ORANGE, SKY, BLACK, GREY = "#0072B2", "#D55E00", "#56B4E9", "#000000", "#777777"
 STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
@@ -18,6 +20,9 @@ LOOK_FROM = (1.0, -1.6, 0.9)  # towards the middle of the walls, in 3D
 MOST_STRETCHED = 2  # exaggeration of heights up to which particles are drawn as discs
 FLATTEST = 0.11  # height over width of a particle picture, below which its heights are exaggerated
 SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the rest is spray
+COLOURED_SHARE = 99.5  # percent of the particles whose speed the colours cover
+COLOURS = "viridis"
+DPI = 100
 
 
 def new_figure(width=WIDTH, height=3.0):
@@ -74,3 +79,26 @@ def draw_particles(axes, position, spacing, exaggeration=1, **style):
 
 def draw_walls(axes, run):
     axes.add_collection(LineCollection(run.walls, colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
+
+
+def highest_speed(frames):
+    """Of nearly all particles, m/s; 0 if a field file has no velocity."""
+    def of(frame):
+        velocity = frame.fields.get("velocity")
+        return 0.0 if velocity is None else np.percentile(np.linalg.norm(velocity, axis=1), COLOURED_SHARE)
+
+    return max(of(frame) for frame in frames)
+
+
+def plain(text):
+    """A text of a user, in which $ begins no formula."""
+    return text.replace("$", r"\$")
+
+
+def save(figure, axes, run, time, mappable, path):
+    """A picture of the water at a time (s), with its title and, if colours tell the speed, their scale."""
+    axes.set_title(f"{plain(run.case['case']['title'])}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
+    if mappable is not None:
+        bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")
+        bar.set_label("speed (m/s)")
+    write_whole(path, lambda part: figure.savefig(part, dpi=DPI, format="png"))

@@ -9,7 +9,6 @@ from . import plots, scene
 from .command_line import Parser
 from .errors import DataError
 from .fields import read_polydata, to_frame
-from .pictures import DPI, plain
 from .pictures_3d import bounds_of, show_image
 from .surface import water_surface
 from .whole_file import write_whole
@@ -36,8 +35,9 @@ def main(arguments):
         surface = water_surface(water, options.spacing) if water else None
         image = scene.Scene(bounds).draw(surface, walls, options.mark)
         with matplotlib.rc_context(plots.STYLE):
-            figure, _ = show_image(image, plain(options.title))
-            write_whole(options.image, lambda part: figure.savefig(part, dpi=DPI, format="png", metadata={"Software": "tailwater preview"}))
+            figure, _ = show_image(image, plots.plain(options.title))
+            write_whole(options.image, lambda part: figure.savefig(part, dpi=plots.DPI, format="png",
+                                                                   metadata={"Software": "tailwater preview"}))
     except (DataError, OSError) as error:
         print(error, file=sys.stderr)
         return 4

@@ -1,6 +1,7 @@
 """Starts a command of Tailwater that is a program in Python: python3 -m tailwater_validation.launch MODULE [arguments].
 
-A library that the program needs and that is not there is told in one line, with the Debian package that has it."""
+A library that the program needs and that is not there is told in one line, with the Debian package that has it. This
+module is not one of `tailwater`, because that package itself needs libraries."""
 
 import runpy
 import sys
