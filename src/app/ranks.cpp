@@ -21,6 +21,7 @@
 #include "io/messages.h"
 #include "parallel/cores.h"
 #include "parallel/process_limits.h"
+#include "run/estimate.h"
 #include "run/inflow_estimate.h"
 #include "run/requests.h"
 #include "run/run_case.h"
@@ -60,10 +61,11 @@ std::optional<std::string> find_mpirun() {
   return std::nullopt;
 }
 
-/// Fluid particles that a run has in the mean.
+/// Fluid particles that a run has in the mean; 0 if they need more memory than there is, which the run will tell.
 template <int Dim>
 double particles_of_water(const CaseSpec& spec) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  if (!check_memory(spec, boundary, available_memory()).empty()) return 0.0;
   const double of_a_particle = std::pow(spec.particles.spacing, Dim);
   const double at_start = expected_particle_count(spec, boundary).fluid;
   return estimate_water(spec, boundary, at_start * of_a_particle).mean / of_a_particle;
