@@ -177,8 +177,8 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
                                  : fmt::format("formulation = \"{}\"", name_of(spec.scheme.formulation));
   for (const auto& [key, node] : *study) {
     if (has_study(spec.scheme, key.str())) continue;
-    problems.add(&node.source(),
-                 fmt::format("study.{} = {}: is not used with scheme.{}; remove it", key.str(), value_text(node), scheme));
+    problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.{}; remove it", key.str(),
+                                             value_text(node), scheme));
   }
 }
 

@@ -107,7 +107,9 @@ TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
     return reading.take(context).at(0)[0];
   };
   const double smoothing = 20.0 * T::dx / std::sqrt(T::g * 1.0);
-  const auto after = [&](double time, double from, double to) { return to + (from - to) * std::exp(-time / smoothing); };
+  const auto after = [&](double time, double from, double to) {
+    return to + (from - to) * std::exp(-time / smoothing);
+  };
   const double at_start = 0.4 * 0.5;  // nothing has been counted yet: by the water's velocity
   EXPECT_NEAR(discharge_at(0.0, 0.5, 0.0), at_start, 1e-12);
   EXPECT_NEAR(discharge_at(0.1, 2.0, 0.08), after(0.1, at_start, 0.8), 1e-12);
