@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -71,9 +72,37 @@ double particles_of_water(const CaseSpec& spec) {
   return estimate_water(spec, boundary, at_start * of_a_particle).mean / of_a_particle;
 }
 
-std::vector<std::string> mpirun_command(int count, const std::vector<std::string>& arguments) {
+/// Of its own for each mpirun, and gone with it. Where several share one, as they do by default, one that ends may
+/// remove a folder that another is just about to use.
+class SessionFolder {
+ public:
+  SessionFolder() {
+    std::error_code error;
+    path_ = (std::filesystem::temp_directory_path(error) / "tailwater-XXXXXX").string();
+    if (error || mkdtemp(path_.data()) == nullptr) path_.clear();  // that of Open MPI
+  }
+  ~SessionFolder() {
+    std::error_code error;
+    if (!path_.empty()) std::filesystem::remove_all(path_, error);
+  }
+  SessionFolder(const SessionFolder&) = delete;
+  SessionFolder& operator=(const SessionFolder&) = delete;
+
+  /// For mpirun.
+  std::vector<std::string> options() const {
+    if (path_.empty()) return {};
+    return {"--mca", "orte_tmpdir_base", path_};
+  }
+
+ private:
+  std::string path_;
+};
+
+std::vector<std::string> mpirun_command(int count, const SessionFolder& session,
+                                        const std::vector<std::string>& arguments) {
   // Quiet: that a rank ended with an exit code is ours to tell.
   std::vector<std::string> command{find_mpirun().value_or("mpirun"), "--quiet", "-n", std::to_string(count)};
+  std::ranges::move(session.options(), std::back_inserter(command));
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
   // Ranks of two runs at once would be bound to the same cores.
   if (!is_in_batch_job())
@@ -139,7 +168,8 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
     warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   require_room_for_mpi(count);
-  const std::vector<std::string> command = mpirun_command(count, arguments);
+  const SessionFolder session;
+  const std::vector<std::string> command = mpirun_command(count, session, arguments);
   RequestSender requests(out);
   const AwaitedSignals signals;
   const auto start = [&] {

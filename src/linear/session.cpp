@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/fp_traps.h"
@@ -33,28 +34,6 @@ struct IgnoreLeaks {
 #endif
 };
 
-/// Lets a process that was started without mpirun start MPI by itself. It never starts others through MPI, so it needs
-/// neither the daemon that Open MPI would start for it nor a folder for messages, which programs that start at the same
-/// time dispute. What it starts later, mpirun too, must not see these settings.
-class StartAlone {
- public:
-  StartAlone() : alone_(std::getenv("PMIX_RANK") == nullptr) {
-    if (!alone_) return;
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
-    setenv("OMPI_MCA_orte_create_session_dirs", "0", 1);
-  }
-  ~StartAlone() {
-    if (!alone_) return;
-    unsetenv("OMPI_MCA_ess_singleton_isolated");
-    unsetenv("OMPI_MCA_orte_create_session_dirs");
-  }
-  StartAlone(const StartAlone&) = delete;
-  StartAlone& operator=(const StartAlone&) = delete;
-
- private:
-  bool alone_;
-};
-
 /// What PETSc says where an error arises; its functions pass on only the code.
 std::string& last_reason() {
   static std::string reason;
@@ -66,6 +45,31 @@ PetscErrorCode keep_reason(MPI_Comm, int, const char*, const char*, PetscErrorCo
   if (type == PETSC_ERROR_INITIAL) last_reason() = reason == nullptr ? "" : reason;
   return code;
 }
+
+/// Alone, Open MPI would start a daemon for processes that this one might spawn, and make folders in one that all its
+/// programs share and remove when they end: of two, one may lose its folder while it makes it, and then does not start.
+/// A process alone needs none of this. Processes that it starts itself get no word of it.
+class StartAlone {
+ public:
+  StartAlone() {
+    if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr) return;
+    for (const auto& [name, value] : settings_) {
+      if (std::getenv(name) == nullptr && setenv(name, value, 0) == 0) set_.push_back(name);
+    }
+    if (std::getenv(chosen_) == nullptr) set_.push_back(chosen_);
+  }
+  ~StartAlone() {
+    for (const char* name : set_) unsetenv(name);
+  }
+  StartAlone(const StartAlone&) = delete;
+  StartAlone& operator=(const StartAlone&) = delete;
+
+ private:
+  static constexpr std::pair<const char*, const char*> settings_[] = {{"OMPI_MCA_ess_singleton_isolated", "1"},
+                                                                      {"OMPI_MCA_orte_create_session_dirs", "0"}};
+  static constexpr const char* chosen_ = "OMPI_MCA_pmix";  ///< Open MPI sets this itself
+  std::vector<const char*> set_;
+};
 
 }  // namespace
 

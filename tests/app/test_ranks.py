@@ -53,6 +53,22 @@ class RanksTest(ProgramTest):
         self.call("run", "small.toml", "--out", "two", "-n", "2", "--quiet")
         self.assertEqual(self.summary("two")["status"], "done")
 
+    def test_many_start_together_and_leave_nothing(self):
+        for count, ranks in ((30, "1"), (3, "2")):
+            with self.subTest(ranks=ranks):
+                (self.folder / ranks).mkdir()
+                runs = [self.start("run", "small.toml", "--out", f"{ranks}/out{k}", "-n", ranks, "--quiet", "--set",
+                                   "time.end=0.001", TMPDIR=str(self.folder / ranks)) for k in range(count)]
+                for run in runs:
+                    _, error = run.communicate(timeout=PATIENCE)
+                    self.assertEqual((run.returncode, error), (0, ""))
+                self.assertEqual({path.name for path in (self.folder / ranks).iterdir()},
+                                 {f"out{k}" for k in range(count)})
+
+    def test_one_rank_shares_no_folder_with_others(self):
+        run = self.start("run", "small.toml", "--out", "one", "--quiet", TMPDIR="/dev/null")
+        self.assertEqual((run.communicate(timeout=PATIENCE)[1], run.returncode), ("", 0))
+
     def test_write_frames_together(self):
         for run, ranks in (("one", "1"), ("two", "2")):
             self.call("run", "small.toml", "--out", run, "-n", ranks, "--quiet")
