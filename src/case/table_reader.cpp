@@ -207,6 +207,7 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
 }
 
 std::filesystem::path TableReader::linked(const std::string& file) const {
+  if (file.empty()) throw InputError("names no file; give its name, relative to the case file");
   std::error_code error;
   const std::filesystem::path path = std::filesystem::absolute(context_.folder / file, error);
   if (error) throw InputError(fmt::format("cannot tell which file that is: {}", error.message()));

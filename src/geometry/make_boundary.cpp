@@ -215,6 +215,21 @@ void append_plate(const WallTable& table, int wall, const std::string& owner, do
   boundary.plates.push_back({wall, first, (static_cast<int>(boundary.faces.size()) - first) / 2});
 }
 
+/// Plates are filed in cells of space before the memory of the particles is known (Boundary::hang_screens).
+constexpr double most_cells_of_a_plate = 3e8;
+
+template <int Dim>
+void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const std::string& owner, double spacing,
+                       double reach) {
+  Eigen::AlignedBox<double, Dim> box;
+  for (std::size_t f = first_face; f < boundary.faces.size(); ++f) box.extend(boundary.faces[f].box());
+  if (box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate) return;
+  throw InputError(
+      fmt::format("{}: reaches over {:.3g} m, which is {:.3g} times particles.spacing: use a larger spacing, "
+                  "or a smaller plate, drawn in metres",
+                  owner, box.sizes().maxCoeff(), box.sizes().maxCoeff() / spacing));
+}
+
 /// The meshes of the blocks of water.
 std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spec, const Boundary<3>& boundary) {
   Eigen::AlignedBox<double, 3> walls;
@@ -254,6 +269,10 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     } else {
       throw InputError(fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\" or \"mesh\"", owner,
                                    name_of(table.shape)));
+    }
+    const double reach = dummy_layers(spec) * spec.particles.spacing;
+    if (table.shape == WallShape::plate) {
+      require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
     }
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;

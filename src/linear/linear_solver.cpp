@@ -40,7 +40,11 @@ class Solve {
  public:
   Solve(const LinearSystem& system, std::span<double> x, double tolerance)
       : system_(system), iterate_{x, {}}, rhs_norm_(norm(system.rhs())), tolerance_(tolerance), asked_(tolerance) {
-    if (!std::isfinite(rhs_norm_)) throw SolverError("the source of the pressure equation is not finite");
+    if (!std::isfinite(rhs_norm_)) {
+      throw SolverError(
+          "the source of the pressure equation is not finite: a velocity or a force has overflowed; remedy: smaller "
+          "numbers in the case where one is far too large, such as a roughness, a viscosity or a strength");
+    }
   }
 
   bool has_source() const { return rhs_norm_ >= vanishing_rhs; }

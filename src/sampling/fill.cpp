@@ -12,6 +12,9 @@
 namespace tailwater {
 namespace {
 
+/// [dx]; what openings have farther beyond the box around all walls is of no use: they may be drawn far too large.
+constexpr double beyond_walls = 100.0;
+
 template <int Dim>
 class Fill {
  public:
@@ -25,14 +28,19 @@ class Fill {
         seed_(to_vec<Dim>(block.seed, owner, "seed")),
         level_(block.level),
         near_(2.0 * dx_) {
-    boundary.visit_plain_faces([&](int f) { file(boundary.faces[f]); });
+    boundary.visit_plain_faces([&](int f) { file(boundary.faces[f], boundary.faces[f].box()); });
+    for (const WallFace<Dim>& face : boundary.faces) box_.extend(face.box());
+    Eigen::AlignedBox<double, Dim> around = box_;
+    around.min().array() -= beyond_walls * dx_;
+    around.max().array() += beyond_walls * dx_;
     for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
       for (const WallFace<Dim>& face : end.as_faces()) {
-        file(face);
-        box_.extend(face.box());
+        const Eigen::AlignedBox<double, Dim> box = face.box().intersection(around);
+        if (box.isEmpty()) continue;
+        file(face, box);
+        box_.extend(box);
       }
     }
-    for (const WallFace<Dim>& face : boundary.faces) box_.extend(face.box());
     for (int axis = 0; axis < Dim; ++axis) {
       const std::vector<double>& range = periodic_range(spec.domain, axis);
       if (range.size() == 2) {
@@ -56,8 +64,8 @@ class Fill {
   }
 
  private:
-  void file(const WallFace<Dim>& face) {
-    const Eigen::AlignedBox<double, Dim> box = face.box();
+  /// So that it is found in a box.
+  void file(const WallFace<Dim>& face, const Eigen::AlignedBox<double, Dim>& box) {
     near_.add(static_cast<int>(plain_.size()), box.min(), box.max(),
               [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
     plain_.push_back(face);

@@ -167,6 +167,10 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   EXPECT_TRUE(contains(input_error_of(spec), "\"top\" is not a face"));
   spec.walls = {box_wall({0, 0}, {1, 1}, {"-x", "+x", "-y", "+y"})};
   EXPECT_TRUE(contains(input_error_of(spec), "no face left"));
+  // Before anything is made of it: it would take hours.
+  spec.walls = {polyline({{0, 0}, {0, 1.5e9}})};
+  spec.walls[0].shape = WallShape::plate;
+  EXPECT_TRUE(contains(input_error_of(spec), "reaches over 1.5e+09 m, which is 1.5e+10 times particles.spacing"));
   spec = empty_case(0.1, 3);
   spec.walls = {polyline({{0, 0, 0}, {1, 0, 0}})};
   EXPECT_TRUE(contains(input_error_of(spec), "2D only"));
