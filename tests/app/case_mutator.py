@@ -81,6 +81,7 @@ FILES = {
     "way.csv": "t [s],way [mm]\n0,0\n0.1,5\n1000,300\n",
     "flood.csv": "t [s],discharge [l/s]\n0,10\n5,20\n1000,20\n",
     "tide.csv": "t [s],level [m]\n0,0.4\n5,0.45\n1000,0.4\n",
+    "gauge.csv": "t [s],value\n0,0.5\n0.1,0.498\n5,0.4\n",
     "body.obj": "v 1 1 0.1\nv 2 1 0.1\nv 1 2 0.1\nv 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
     "sheet.obj": "v 0.8 0 0\nv 0.8 1 0\nv 0.8 1 1\nv 0.8 0 1\nf 1 2 3\nf 1 3 4\n",
     "ground.stl": "solid g\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 3 0 0\nvertex 0 3 0\nendloop\nendfacet\n"
@@ -154,7 +155,7 @@ class Mutator:
         name = key["name"]
         if name in ("file", "points_file", "motion"):
             return rng.choice(TABLES_OF_NUMBERS + MESHES + ["", "nowhere.csv", "."])
-        if name in ("body", "water_from"):
+        if name in ("body", "water_from", "probe"):
             return rng.choice(names or ["nobody"])
         return rng.choice(("tank", "water", "in", "out", "a b", "", "-x", "p" * 101, "\\u001b[1m"))
 
