@@ -30,8 +30,8 @@ double share_inside(const ContactSurface<Dim>& surface, const AffineMap<Dim>& pl
 }  // namespace
 
 template <int Dim>
-std::vector<CoveredParticle> find_covered(const Flow<Dim>& flow, double time) {
-  std::vector<CoveredParticle> covered;
+std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, double time) {
+  std::vector<CoveredParticle<Dim>> covered;
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const double width = widest_cover * setup.spacing;
@@ -46,18 +46,19 @@ std::vector<CoveredParticle> find_covered(const Flow<Dim>& flow, double time) {
     if (flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) continue;
     const NearestWall<Dim> wall = setup.contact.each.front().boundary.nearest(x, reach_behind_walls * setup.spacing);
     if (wall.face < 0 || wall.signed_distance >= 0.0) continue;
-    const Vec<Dim> in_front = wall.point + (0.5 * width / wall.signed_distance) * (x - wall.point);
+    const Vec<Dim> normal = (x - wall.point) / wall.signed_distance;
+    const Vec<Dim> in_front = wall.point + 0.5 * width * normal;
     for (const ContactSurface<Dim>& surface : setup.contact.each) {
       if (surface.body < 0 || !boxes[surface.body].contains(x)) continue;
       const double share =
           share_inside(surface, placement[surface.body], in_front, width, contact_reach * setup.spacing);
-      if (share > 0.0) covered.push_back({i, surface.body, share});
+      if (share > 0.0) covered.push_back({i, surface.body, normal, share});
     }
   }
   return covered;
 }
 
-template std::vector<CoveredParticle> find_covered<2>(const Flow<2>&, double);
-template std::vector<CoveredParticle> find_covered<3>(const Flow<3>&, double);
+template std::vector<CoveredParticle<2>> find_covered<2>(const Flow<2>&, double);
+template std::vector<CoveredParticle<3>> find_covered<3>(const Flow<3>&, double);
 
 }  // namespace tailwater

@@ -63,20 +63,27 @@ void add_on_bodies(const Flow<Dim>& flow, const std::vector<std::size_t>& walls,
 
 template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
-                                                         const std::vector<CoveredParticle>& covered) const {
+                                                         const std::vector<CoveredParticle<Dim>>& covered) const {
   const Particles<Dim>& particles = flow_.state.particles;
   std::vector<std::size_t> walls = walls_of_bodies(flow_);
   const std::size_t of_bodies = walls.size();
-  for (const CoveredParticle& one : covered) walls.push_back(one.i);
+  for (const CoveredParticle<Dim>& one : covered) walls.push_back(one.i);
   const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow_, walls, pressure);
   const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
   walls.resize(of_bodies);
   add_on_bodies(flow_, walls, sums, force);
   for (std::size_t k = 0; k < covered.size(); ++k) {  // in order: all add to the same few sums
-    const auto& [i, body, share] = covered[k];
-    sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * force(of_bodies + k));
+    const auto& [i, body, normal, share] = covered[k];
+    const Vec<Dim> whole = force(of_bodies + k);
+    const Vec<Dim> along = whole - whole.dot(normal) * normal;
+    sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * along);
   }
+  visit_forces_of_held_water(flow_, pressure, [&](std::size_t j, const Vec<Dim>& of_held) {
+    if (particles.is_fluid(j)) return;
+    const auto row = particles.wall_row[j];
+    sums.add(flow_.setup.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row], -of_held);
+  });
   return sums.gather();
 }
 

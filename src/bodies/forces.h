@@ -18,7 +18,7 @@ class ForcesOnBodies {
   /// By a pressure field [Pa] that is up to date on ghosts, on the bodies' particles and those that they cover.
   /// Collective.
   std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure,
-                                      const std::vector<CoveredParticle>& covered) const;
+                                      const std::vector<CoveredParticle<Dim>>& covered) const;
   /// By the water in gaps that are too narrow for particles, in a pressure field that is up to date. Collective.
   std::vector<Twist<Dim>> of_gaps(const std::vector<double>& pressure, const NarrowGaps<Dim>& gaps) const;
   /// By the friction that the present step has found. Collective.

@@ -5,8 +5,8 @@
 //
 // Pieces of a gap are in front of the first row of the body's particles. From a width of dx on, or where water is in
 // front of a piece, the particles' own forces take the place of the piece's. Water in a gap narrower than 0.75 dx is
-// held: it rests, since particles cannot tell how it would flow, and has the pressure of the gap
-// (docs/theory/floating_bodies.md).
+// held: it rests, since particles cannot tell how it would flow, and has the pressure of the gap. What it does to the
+// body is what the piece does (docs/theory/floating_bodies.md).
 #pragma once
 
 #include <vector>
@@ -30,11 +30,10 @@ class NarrowGaps {
   /// ranks make the same calls. Collective.
   template <class Push>
   void visit_forces(const std::vector<double>& pressure, Push&& push) const {
-    const std::vector<double> p = find_pressure(pressure);
+    const Eigen::VectorXd p = find_pressure(pressure);
     for (std::size_t n = 0; n < pieces_.size(); ++n) {
-      const Piece& piece = pieces_[n];
-      const double force = p[n] * piece.area + piece.carried;
-      if (force > 0.0) push(piece.body, piece.x, Vec<Dim>(force * piece.normal));
+      const double force = p[static_cast<Eigen::Index>(n)] * pieces_[n].area;
+      if (force > 0.0) push(pieces_[n].body, pieces_[n].x, Vec<Dim>(force * pieces_[n].normal));
     }
   }
 
@@ -46,7 +45,6 @@ class NarrowGaps {
     Vec<Dim> normal;                      ///< of the wall, towards the body
     double gap;                           ///< m
     double area = 0.0;                    ///< m^(Dim-1); that counts
-    double carried = 0.0;                 ///< N; weight of the gap's water that the wall carries, not the body
     bool is_at_rim = false;               ///< whether what is beside it is not the gap
     std::size_t particle = 0;             ///< of the body, if this rank owns it
     std::vector<std::size_t> water = {};  ///< its pairs with water beside the gap
@@ -54,17 +52,21 @@ class NarrowGaps {
 
   void find_pieces(double time);
   void find_rim(double time);
+  void find_shares();
   void look_at_water();
+  bool holds_water(const Piece& piece) const;
   /// The piece that water at x is in front of, or -1.
   std::int32_t piece_at(const Vec<Dim>& x) const;
   /// Pa; at each piece.
-  std::vector<double> find_pressure(const std::vector<double>& pressure) const;
-  /// p - rho g.x [Pa] at each piece of the rim, 0 at others.
-  std::vector<double> find_rim_heads(const std::vector<double>& pressure) const;
+  Eigen::VectorXd find_pressure(const std::vector<double>& pressure) const;
+  /// p - rho g.x [Pa] at each piece of the rim.
+  Eigen::VectorXd find_rim_heads(const std::vector<double>& pressure) const;
   double weight_of(const Vec<Dim>& x) const { return flow_.setup.density * flow_.setup.gravity.dot(x); }
 
   const Flow<Dim>& flow_;
-  std::vector<Piece> pieces_;      ///< the same on all ranks, but for the water
+  std::vector<Piece> pieces_;      ///< the same on all ranks, but for the water; the rim's come first
+  std::size_t rim_ = 0;            ///< pieces of the rim
+  Eigen::MatrixXd shares_;         ///< of each piece of the rim in the head of each piece
   std::vector<Vec<Dim>> middles_;  ///< of the pieces, where the water's particles are
   CellGrid<Dim> grid_;             ///< of the middles
 };

@@ -67,11 +67,17 @@ double wall_work(const Flow<Dim>& flow, double dt) {
   const std::vector<std::size_t> walls =
       indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.here.is_wet[i]; });
   const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, particles.pressure);
-  return sum_over(walls.size(), 0.0, [&](std::size_t n) {
+  double work = sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
     const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
     return dt * particles.volume[i] * pushes[n].dot(V);  // its force on the fluid, times its velocity
   });
+  // Water that is held rests, and takes no work from walls. To other water it is a wall with a pressure of its own.
+  visit_forces_of_held_water(flow, particles.pressure, [&](std::size_t j, const Vec<Dim>& force) {
+    work += dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
+                                                 : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
+  });
+  return work;
 }
 
 template <int Dim>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "schemes/cases.h"
+#include "schemes/open_ends.h"
 #include "support/circle.h"
 #include "support/dimensions.h"
 
@@ -258,6 +258,32 @@ TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
   }
   const double draught = (water + 0.4 * 0.1) / 1.2 - sum / duration;
   EXPECT_NEAR(draught, 0.1, 0.2 * dx);
+}
+
+// A box comes down on a film of two rows and dams the water that comes in, until it floats on what has run over it.
+// Until then it hovers where a row of particles has just no room. At 7 s its bottom is on the way to where the draught
+// of 0.1 m has it, (0.494 + 0.04)/2 - 0.1 = 0.167 m above the bed. Water that it squeezed would be too dense by 10 %
+// and more.
+TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
+  constexpr double dx = 0.02;
+  CaseSpec spec = tank_case<2>(dx, 2.0, 0.3);
+  spec.fluid[0].max[1] = 2.0 * dx;
+  open_start(spec).discharge = 0.06;
+  add_box(spec, {0.8, dx}, {1.2, dx + 0.2}, 500.0);
+  spec.bodies[0].free = {"y"};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const BodyState<2>& body = flow.state.motion.bodies.each[0];
+  const auto bottom = [&] { return body.centre[1] - 0.1; };
+  double lowest = dx;
+  while (flow.state.time < 7.0) {
+    pass_and_step(flow);
+    lowest = std::min(lowest, bottom());
+    ASSERT_GT(bottom(), -1e-9) << "t = " << flow.state.time;
+  }
+  EXPECT_LT(lowest, 1e-9);
+  EXPECT_GT(bottom(), 2.5 * dx);
+  EXPECT_NEAR(measure(flow).density_error_mean, 0.0, 0.02);
 }
 
 // Beside a tank, in the air: the step is that of the water, of first order in time.
