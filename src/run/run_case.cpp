@@ -124,8 +124,8 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
   }
   if (errors.empty()) return;
   if (errors.size() > most_shown) {
-    errors[most_shown] = fmt::format("and {} more problems", errors.size() - most_shown);
-    errors.resize(most_shown + 1);
+    errors[most_shown - 1] += fmt::format(" (and {} more problems)", errors.size() - most_shown);
+    errors.resize(most_shown);
   }
   throw InputError(fmt::format("{}", fmt::join(errors, "\n")));
 }

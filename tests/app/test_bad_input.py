@@ -240,6 +240,14 @@ class BadCases(ProgramTest):
         for part in ("particles.spcing", "time.ende", "fluid[0].name"):
             self.assertIn(part, message)
 
+    def test_many_mistakes_have_an_end_and_each_its_place(self):
+        (self.folder / "case.toml").write_text(SMALL_CASE + "[[fluid]]\nmin = [0, 0]\nmax = [1, 0.5]\n" * 12)
+        lines = self.call("run", "case.toml", "--out", "out", expect=2).stderr.splitlines()
+        self.assertEqual(len(lines), 50)
+        for line in lines:
+            self.assertRegex(line, r"^error: case\.toml:\d+:1: fluid '")
+        self.assertRegex(lines[-1], r"\(and \d+ more problems\)$")
+
 
 if __name__ == "__main__":
     unittest.main()
