@@ -11,13 +11,21 @@
 
 namespace tailwater {
 
+/// By how much a pocket grows as a particle moves, over the particle's volume.
+template <int Dim>
+struct PocketGain {
+  int pocket;     ///< index
+  Vec<Dim> gain;  ///< 1/m
+};
+
 /// Owned water that looks into pockets.
 template <int Dim>
 struct PocketSide {
   std::size_t particle;
   std::vector<PocketShare> shares;
-  double weight = 0.0;               ///< of the air in its row of the pressure equation, in the row's unit
+  double weight = 0.0;               ///< that closes its row of the pressure equation, in the row's unit
   Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; what air at 1 Pa all around pushes it with, per volume
+  std::vector<PocketGain<Dim>> gains = {};
 };
 
 /// The pockets in one step: where water looks into them, and what they do.
@@ -27,6 +35,8 @@ struct PocketSides {
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
+  std::vector<double> own_drop;     ///< Pa; of owned particles: by how much the pressure that the air alone makes there
+                                    ///< is off that of the air beside them, either way; at the start of the step
   int iterations = 0;               ///< of the solves for the responses
   double work = 0.0;                ///< J; that the gas has done
 

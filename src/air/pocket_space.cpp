@@ -9,8 +9,16 @@
 namespace tailwater {
 namespace {
 
-/// Cells beside a pocket that its space holds: particles see air within 6 cells, and stand as far from it.
-constexpr int margin = 13;
+/// [cells] from the air: down to where water sees it in full, and from where on it sees none. Rows of particles are two
+/// cells apart, the outermost in the third.
+constexpr int seen_in_full = 10;
+constexpr int seen = 14;
+
+/// [cells]; half the edge of the cube around a particle over which it sees the mean.
+constexpr int sight = 2;
+
+/// Cells beside a pocket that its space holds.
+constexpr int margin = seen + sight;
 
 /// omega is the mean of four indicators: of what is within 3, 4, 5 and 6 cells of the pocket. They differ by the
 /// distance of two rows of particles, so the row in which they cut the water does not matter.
@@ -18,11 +26,22 @@ constexpr int first_cut = 3;
 constexpr int last_cut = 6;
 
 double weight_of_layer(int layer) {
-  return static_cast<double>(last_cut + 1 - std::max(layer, first_cut)) / (last_cut + 1 - first_cut);
+  return std::max(0.0, static_cast<double>(last_cut + 1 - std::max(layer, first_cut)) / (last_cut + 1 - first_cut));
 }
 
-/// [dx]; within which a particle sees air.
-constexpr double sight = 3.0;
+/// How much of the air a cell sees.
+double sight_of_layer(int layer) {
+  return std::clamp(static_cast<double>(seen - layer) / (seen - seen_in_full), 0.0, 1.0);
+}
+
+void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
+  const auto known = std::ranges::find(shares, pocket, &PocketShare::pocket);
+  if (known == shares.end()) {
+    shares.push_back({pocket, share});
+  } else {
+    known->share += share;
+  }
+}
 
 /// That the cube of a particle can be in: three along each axis, or four where cells are a little smaller than dx/2.
 constexpr std::size_t most_cells = 64;
@@ -136,7 +155,7 @@ void PocketSpace<Dim>::grow() {
     if (is_beside_water) front.push_back(c);
   });
   std::vector<Cell> next;
-  for (int layer = 1; layer <= last_cut; ++layer, front.swap(next)) {
+  for (int layer = 1; layer < seen; ++layer, front.swap(next)) {
     next.clear();
     for (const Cell& c : front) {
       const std::int16_t owner = owner_[place(c)];
@@ -266,32 +285,30 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
   if (pockets_ == 0) return shares;
   const Vec<Dim> at = grid_->in_cells(x);
   if (!is_inside(at)) return shares;
+  // Weights that fall to 0 at the faces of the cube: the shares are continuous in x.
+  constexpr int cells = 2 * sight;
+  Cell first;
+  std::array<std::array<double, cells>, Dim> weights;
+  for (int d = 0; d < Dim; ++d) {
+    first[d] = static_cast<int>(std::ceil(at[d])) - sight;
+    for (int k = 0; k < cells; ++k) weights[d][k] = sight - std::abs(first[d] + k - at[d]);
+  }
   double all = 0.0;
-  grid_->visit_ball(x, sight * spacing_, [&](int row, int begin, int end) {
-    Cell c = grid_->cell(row, begin);
-    double beside = 0.0;
-    for (int d = 0; d < Dim - 1; ++d) {
-      double way = (c[d] - at[d]) * grid_->edge()[d];
-      if (grid_->repeats(d)) way = std::remainder(way, grid_->count(d) * grid_->edge()[d]);
-      beside += way * way;
+  Cell way{};
+  for (int axis = 0; axis < Dim;) {
+    Cell c;
+    double weight = 1.0;
+    bool is_cell = true;
+    for (int d = 0; d < Dim; ++d) {
+      c[d] = first[d] + way[d];
+      weight *= weights[d][way[d]];
+      is_cell = grid_->wrap(d, c[d]) && is_cell;
     }
-    for (; c[Dim - 1] < end; ++c[Dim - 1]) {
-      const std::int64_t k = place(c);
-      if (k < 0 || owner_[k] < 0 || layer_[k] > 0) continue;
-      double way = (c[Dim - 1] - at[Dim - 1]) * grid_->edge()[Dim - 1];
-      if (grid_->repeats(Dim - 1)) way = std::remainder(way, grid_->length() * grid_->edge()[Dim - 1]);
-      const double weight = 1.0 - (beside + way * way) / (sight * spacing_ * sight * spacing_);
-      all += weight;
-      if (owner_[k] == open_air) continue;
-      const int pocket = owner_[k] - 1;
-      const auto known = std::ranges::find(shares, pocket, &PocketShare::pocket);
-      if (known == shares.end()) {
-        shares.push_back({pocket, weight});
-      } else {
-        known->share += weight;
-      }
-    }
-  });
+    const std::int64_t k = is_cell ? place(c) : -1;
+    if (k < 0 || owner_[k] != behind_wall) all += weight;
+    if (k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
+    for (axis = 0; axis < Dim && ++way[axis] == cells; ++axis) way[axis] = 0;
+  }
   for (PocketShare& share : shares) share.share /= all;
   return shares;
 }

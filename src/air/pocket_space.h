@@ -47,7 +47,8 @@ class PocketSpace {
                                 const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
                                 const Communicator& ranks) const;
 
-  /// Which share of the air near x is of which pocket; nothing where there is no pocket.
+  /// Which share of the air near x is of which pocket; nothing where there is no pocket. Deep in the water the shares
+  /// fall to 0 together.
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const;
 
  private:

@@ -63,8 +63,8 @@ class Discretisation {
   virtual void find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                              std::span<Vec<Dim>> gradient) const = 0;
 
-  /// The weights of the air in the finished rows of these owned particles of water, in the rows' unit. Asked only where
-  /// air has a pressure, which is the robust formulation's.
+  /// What closes the finished rows of these owned particles of water, as air at p = 0 around them does, in the rows'
+  /// unit. Asked only where air has a pressure, which is the robust formulation's.
   virtual void find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                                 std::span<double> weights) const;
 

@@ -78,8 +78,8 @@ void LinearSystem::Row::finish_as_zero() {
   system_.scale_[i_] = 0.0;
 }
 
-void LinearSystem::divide_diagonal(std::size_t i, double share) {
-  rhs_[i] *= share;
+void LinearSystem::divide_diagonal(std::size_t i, double share, double from) {
+  rhs_[i] = share * rhs_[i] + (1.0 - share) * from;
   scale_[i] *= share;
 }
 

@@ -127,9 +127,9 @@ class LinearSystem {
   /// Changes the right-hand side of a finished row and keeps its weights. A row finished as zero stays zero.
   void set_rhs(std::size_t i, double rhs) { rhs_[i] = scale_[i] * rhs; }
 
-  /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = 0) to 1, and keeps the other entries. x_i
-  /// becomes that share of the value that its neighbours and right-hand side would give it.
-  void divide_diagonal(std::size_t i, double share);
+  /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = `from`) to 1, and keeps the other entries.
+  /// x_i - from becomes that share of what its neighbours and right-hand side would give it.
+  void divide_diagonal(std::size_t i, double share, double from = 0.0);
 
   /// Declares that only differences of x are determined: no surface, no air.
   void set_constant_is_free(bool is_free) { constant_is_free_ = is_free; }

@@ -34,8 +34,8 @@ std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
   std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
   for (std::size_t n = 0; n < flow.sides.water.size(); ++n) {
     const PocketSide<Dim>& side = flow.sides.water[n];
-    const double all = flow.state.particles.volume[side.particle] * side.push.dot(velocity(n));
-    for (const PocketShare& share : side.shares) growth[share.pocket] += share.share * all;
+    const Vec<Dim> way = flow.state.particles.volume[side.particle] * velocity(n);
+    for (const PocketGain<Dim>& each : side.gains) growth[each.pocket] += each.gain.dot(way);
   }
   flow.setup.ranks.sum_of_each(growth);
   return growth;
@@ -113,11 +113,44 @@ class GasStep {
 };
 
 template <int Dim>
+void add_gain(int pocket, const Vec<Dim>& gain, std::vector<PocketGain<Dim>>& gains) {
+  const auto known = std::ranges::find(gains, pocket, &PocketGain<Dim>::pocket);
+  if (known == gains.end()) {
+    gains.push_back({pocket, gain});
+  } else {
+    known->gain += gain;
+  }
+}
+
+/// Dummies glide along with the water, u_j = (1 - 2 M_j) u_i, and the force between them and the water has a part along
+/// the wall where the pressure has a slope: walls at rest do work, -sum_ij w_i w_j a_ij . (p_i u_j + p_j u_i). Of the
+/// pressure of pocket k, which is chi_k beside it, this work is that of its gas.
+template <int Dim>
+void add_gains_at_walls(const Flow<Dim>& flow, PocketSide<Dim>& side) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::size_t i = side.particle;
+  if (pairs.sees_wall[i] == 0) return;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (particles.is_fluid(j)) continue;
+    const Mat<Dim>& blocked = flow.walls.particles.blocked[particles.wall_row[j]];
+    const Vec<Dim> a = particles.volume[j] * flow.here.pair_vectors.at(pairs, i, k);
+    const Vec<Dim> along = a - 2.0 * (blocked * a);
+    for (const PocketShare& share : side.shares) add_gain<Dim>(share.pocket, -share.share * along, side.gains);
+    const Vec<Dim> way = -pairs.d(i, k);
+    for (const PocketShare& share : flow.air.shares_at(particles.position[i] + way - blocked * way)) {
+      add_gain<Dim>(share.pocket, -share.share * a, side.gains);
+    }
+  }
+}
+
+template <int Dim>
 void find_sides(Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<PocketSide<Dim>>& water = flow.sides.water;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (flow.role[i] != Role::water || flow.here.interior[i] >= 1.0) continue;
+    if (flow.role[i] != Role::water) continue;
     std::vector<PocketShare> shares = flow.air.shares_at(particles.position[i]);
     if (!shares.empty()) water.push_back({.particle = i, .shares = std::move(shares)});
   }
@@ -125,10 +158,33 @@ void find_sides(Flow<Dim>& flow) {
   std::vector<double> weight(beside.size());
   flow.discretisation().find_air_weights(flow, beside, weight);
   const std::vector<Vec<Dim>> push = gradient_at_sides(flow, std::vector<double>(particles.size(), 1.0));
-  for_each(water.size(), [&](std::size_t n) {
+  for (std::size_t n = 0; n < water.size(); ++n) {  // lists
     water[n].push = push[n];
     water[n].weight = weight[n];
-  });
+    for (const PocketShare& share : water[n].shares) {
+      add_gain<Dim>(share.pocket, share.share * push[n], water[n].gains);
+    }
+    add_gains_at_walls(flow, water[n]);
+  }
+}
+
+/// By how much the pressure that the pockets alone make, with what they have at the start of the step, is off that of
+/// the air.
+template <int Dim>
+std::vector<double> find_own_drop(Flow<Dim>& flow) {
+  std::vector<double> drop(flow.state.particles.owned, 0.0);
+  const std::vector<AirPocket>& pockets = flow.state.air.pockets;
+  std::vector<double> pressure;
+  for (const AirPocket& pocket : pockets) {
+    pressure.push_back(flow.air.law().pressure(pocket.gas, pocket.volume));
+    const std::vector<double>& response = flow.air.response(pocket.number);
+    for_each(drop.size(), [&](std::size_t i) { drop[i] += pressure.back() * response[i]; });
+  }
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) drop[side.particle] -= share.share * pressure[share.pocket];
+  }
+  for_each(drop.size(), [&](std::size_t i) { drop[i] = flow.role[i] == Role::water ? std::abs(drop[i]) : 0.0; });
+  return drop;
 }
 
 /// q_k: the answer of the pressure to 1 Pa in pocket k, up to date on ghosts.
@@ -177,6 +233,7 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
   for (int k = 0; k < pockets; ++k) find_response(flow, k);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
+  sides.own_drop = find_own_drop(flow);
   const Vec<Dim> gravity =
       flow.setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : flow.setup.gravity;
   sides.flow = growth(flow, [&](std::size_t n) { return Vec<Dim>(predicted[sides.water[n].particle] + dt * gravity); });

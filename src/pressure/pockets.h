@@ -1,16 +1,18 @@
 // Pockets of enclosed air in the pressure equation (docs/theory/air.md). Beside a pocket missing neighbours count as
 // air at its pressure P_k instead of 0. With the share chi_ik of the air around particle i that is pocket k,
 //
-//   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i the weight of the air in the row (robust/rows.cpp)
+//   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i closes the row (robust/rows.cpp)
 //   water at i:  grad p_i - sum_k P_k chi_ik grad 1_i
 //   pocket k:    dV_k/dt = sum_i w_i chi_ik grad 1_i . u_i + what moving walls sweep
+//                          - sum_i sum_{j wall} w_i w_j a_ij . (chi_ik u_j + chi_jk u_i)
 //
-// The last two are adjoint, so the gas does on the water the work P dV. The pressure is linear in P,
+// The first sum is adjoint to the force, and the last is the work of dummies, which glide with the water, at 1 Pa: the
+// gas does on the water the work P dV. The pressure is linear in P,
 //
 //   p = p_w + sum_k P_k q_k,
 //
 // where p_w is what the water has under air at 0, and q_k answers to 1 Pa in pocket k, from 0 to 1 in space. Suction is
-// that of p_w: what pulls is what is below the pressure that the air alone makes.
+// that of p_w: what pulls is what is below the pressure that the air alone makes, by more than that has fallen itself.
 #pragma once
 
 #include "flow/flow.h"

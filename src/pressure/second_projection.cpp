@@ -1,6 +1,8 @@
 // A projection like the first, but of the velocity that is there, and where the particles are: no gravity, no target,
 // no density source. It is done once. What is left then is what the pair of divergence and gradient reads in a
 // disordered set; taking that out too costs pressure and velocity more than it mends (docs/theory/robustness.md).
+#include <cmath>
+
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/operators.h"
@@ -22,7 +24,8 @@ void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     const double sum = pressure[i] + correction[i];
     const double share = suction_share(flow, i);
-    if (sum < 0.0 && share < 1.0) correction[i] = share * sum - pressure[i];
+    const double least = -free_suction(flow, i);
+    if (sum < least && share < 1.0) correction[i] = std::lerp(least, sum, share) - pressure[i];
   });
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/pockets.h"
@@ -12,7 +14,7 @@ namespace {
 /// Whether particle i pulls and may not with all of it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return flow.state.particles.pressure[i] < 0.0 && suction_share(flow, i) < 1.0;
+  return flow.state.particles.pressure[i] < -free_suction(flow, i) && suction_share(flow, i) < 1.0;
 }
 
 /// Limits suction in the equation where the present pressure asks for it.
@@ -22,8 +24,9 @@ void hold_suction(Flow<Dim>& flow) {
   for_each(particles.owned, [&](std::size_t i) {
     if (!pulls(flow, i)) return;
     const double share = suction_share(flow, i);
-    flow.pressure_rows.divide_diagonal(i, share);
-    particles.pressure[i] *= share;
+    const double least = -free_suction(flow, i);
+    flow.pressure_rows.divide_diagonal(i, share, least);
+    particles.pressure[i] = std::lerp(least, particles.pressure[i], share);
   });
 }
 

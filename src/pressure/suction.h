@@ -13,4 +13,12 @@ double suction_share(const Flow<Dim>& flow, std::size_t i) {
   return flow.state.particles.is_fluid(i) ? 1.0 : 0.0;
 }
 
+/// Pa; suction that owned particle i may keep in full. Air that is not at the pressure of the atmosphere accelerates
+/// water, which is none, as far as the air alone makes its pressure; but that makes a velocity in the outermost rows
+/// that is no divergence-free one, and what mends it is of its size at most.
+template <int Dim>
+double free_suction(const Flow<Dim>& flow, std::size_t i) {
+  return flow.sides.own_drop.empty() ? 0.0 : flow.sides.own_drop[i];
+}
+
 }  // namespace tailwater

@@ -44,16 +44,6 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
 
 }  // namespace
 
-template <int Dim>
-void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
-                                                 std::span<double> weights) const {
-  for_each(particles.size(), [&](std::size_t n) {
-    const std::size_t i = particles[n];
-    const double air = laws_.air.weight(flow.pressure_rows.sum_of_weights(i), flow.setup.lattice.morris);
-    weights[n] = air * (1.0 - flow.here.interior[i]);
-  });
-}
-
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
@@ -63,6 +53,14 @@ double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::siz
   const double spacing = flow.setup.spacing;
   const double inside = 4.0 * flow.here.open_faces[i].squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
+}
+
+template <int Dim>
+void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
+                                                 std::span<double> weights) const {
+  for_each(particles.size(), [&](std::size_t n) {
+    weights[n] = closing_weight(flow, particles[n], flow.pressure_rows.sum_of_weights(particles[n]));
+  });
 }
 
 template <int Dim>
