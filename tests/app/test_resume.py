@@ -55,6 +55,8 @@ FEATURES = {
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,
     "three dimensions and multigrid": (*CUBE, "--set", "pressure_solver.preconditioner=gamg"),
+    "a pocket of air": ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}]", "--set",
+                        "air={pockets='adiabatic', pressure=1000}", "--set", "fluid[0].velocity=[1, 0]"),
     "a published formulation": ("--set", "scheme.name=farmani2020", "--set", "scheme.formulation=published"),
 }
 WARN = ("--set", "limits.volume_warning=1e-9")

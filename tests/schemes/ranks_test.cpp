@@ -287,6 +287,22 @@ TEST(RanksTest, ALevelBeyondIsHeldTogether) {
   }
 }
 
+/// A column of water on a closed column of air: the pocket is below the water of all ranks.
+TYPED_TEST(RanksTest, APocketOfAirAcrossTheCuts) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, 0.8);
+  spec.fluid[0].min[Dim - 1] = 0.5;
+  spec.fluid[0].velocity = VectorField(Dim, 0.0);
+  spec.fluid[0].velocity[Dim - 1] = -1.0;
+  spec.air.pockets = AirPockets::adiabatic;
+  spec.particles.jitter = 0.1;
+  Flow<Dim> flow = make_flow<Dim>(spec, Communicator::world());
+  run(flow, steps);
+  ASSERT_EQ(flow.state.air.pockets.size(), 1u);
+  EXPECT_GT(measure_air(flow).pressure, 500.0);
+  expect_same<Dim>(spec, 0.8, as_it_is);
+}
+
 /// All ranks know what waits in the sump, though each has let only its own particles go.
 TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   CaseSpec spec = jittered_tank<2>();
