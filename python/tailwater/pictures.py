@@ -21,12 +21,12 @@ COUNT = 6
 
 
 def choose_frames(frames, times, count):
-    """[(number, time, path)] of those nearest to `times` (s), or of `count` at equal distances."""
+    """[(number, time, path)] of those nearest to `times` (s), or of `count` at equal distances, the last one among them."""
     numbered = [(number, time, path) for number, (time, path) in enumerate(frames)]
     if times:
         chosen = {min(numbered, key=lambda frame: abs(frame[1] - time))[0] for time in times}
     else:
-        chosen = set(np.linspace(0, len(frames) - 1, min(count, len(frames))).round().astype(int))
+        chosen = set(np.linspace(len(frames) - 1, 0, min(count, len(frames))).round().astype(int))
     return [frame for frame in numbered if frame[0] in chosen]
 
 

@@ -121,7 +121,7 @@ class Pictures(PicturesTest):
     def test_a_run_in_2d_gets_pictures(self):
         folder = self.run_of(2)
         self.assertEqual(self.command(folder, "--count", "1")[0], 0)
-        self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00000.png"])
+        self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00002.png"], "the last")
         self.assertFalse((folder / "fields/surface.pvd").exists())
 
     def test_only_pictures_in_3d_need_vtk(self):
