@@ -5,7 +5,6 @@ namespace tailwater {
 /// A package has the program twice: as `bin/tailwater`, for any amd64 processor, and as `lib/tailwater/tailwater-v3`,
 /// for those with AVX2. The first becomes the second where the processor allows it; TAILWATER_ARCH in the environment
 /// chooses, x86-64-v2 or x86-64-v3. Returns where there is no second one, as in every build that is not for a package.
-/// A program that is built for AVX2 ends with a word where the processor has none.
 void become_fastest_build(char** arguments);
 
 }  // namespace tailwater
