@@ -8,7 +8,7 @@ import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
-from program import SMALL_CASE, ProgramTest
+from program import SLOWDOWN, SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "explain", "run", "resume", "info", "bench")
 
@@ -252,6 +252,37 @@ class Check(ProgramTest):
         # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms, and a flow this slow
         # takes no smaller ones: 0.1 s are 5.69 steps. How long they take depends on what else the machine does.
         self.assertRegex(result.stdout, r"time: +about [67] steps, (under )?\d+ s on one core of this machine")
+
+    @unittest.skipIf(SLOWDOWN > 1, "sanitizers need memory themselves")
+    def test_memory_is_enough_and_not_twice_what_a_run_takes(self):
+        """Both beyond what a tiny run takes: how much of libraries counts depends on the system."""
+        (self.folder / "block.toml").write_text("""
+case.dimension = 3
+particles.spacing = 0.05
+[[fluid]]
+min = [0, 0, 0]
+max = [1, 1, 1]
+[[wall]]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 1, 1.2]
+open = ["+z"]
+[time]
+end = 1e-6
+""")
+
+        def memory(case, spacing, integrator):
+            case = (case, "--set", f"particles.spacing={spacing}", "--set", f"scheme.integrator={integrator}")
+            estimate = self.call("check", *case, "--no-preview").stdout
+            self.call("run", *case, "--out", "run", "--force", "--quiet", "-n", "1", "--set", "time.end=1e-6")
+            return int(re.search("about (\\d+) MB", estimate)[1]), self.summary("run")["cost"]["peak_memory_bytes"] / 1e6
+
+        for case, tiny, large in (("small.toml", "0.1", "1/240"), ("block.toml", "0.1", "0.04")):
+            with self.subTest(case):
+                parts = zip(memory(case, large, "implicit"), memory(case, tiny, "implicit"))
+                expected, taken = (of_large - of_tiny for of_large, of_tiny in parts)
+                self.assertGreater(expected, taken)
+                self.assertLess(expected, 2 * taken)
 
     def test_the_preview_is_an_svg_with_every_fluid_particle(self):
         self.call("check", "small.toml")
