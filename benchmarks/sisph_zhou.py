@@ -1,6 +1,7 @@
-"""Zhou's dam break by PySPH's SISPH scheme, for beside_sisph.py. Scheme and step are set as in PySPH's own example of a
-dam break; wall particles are as deep as the kernel reaches. Prints one line of JSON: CPU seconds without the start,
-simulated seconds, steps, particles, and how far the front has come.
+"""Zhou's dam break by PySPH's SISPH scheme, for beside.py. Scheme and step are set as in PySPH's own example of a dam
+break; wall particles are as deep as the kernel reaches. Prints one line of JSON: CPU seconds without the start,
+simulated seconds, steps, particles, and the pressure on the wall at each step, read as Tailwater's probes read it: the
+mean over the water weighted by a kernel, 0 where less than half of the kernel's water is there.
 
 Usage: sisph_zhou.py DX END FOLDER
 """
@@ -20,6 +21,8 @@ DENSITY, GRAVITY = 1000.0, 9.81
 H_OVER_DX = 1.3
 LAYERS = math.ceil(3 * H_OVER_DX)  # the quintic kernel reaches 3 h
 SPEED = math.sqrt(2 * GRAVITY * DEPTH)
+GAUGE = 0.12  # m; height on the wall that the water runs to
+GAUGE_REACH = 3.0  # dx; of the kernel that reads it
 
 
 def centres(begin, end, dx):
@@ -36,7 +39,7 @@ def lattice(x, y):
 class Zhou(Application):
     def __init__(self, dx, end, folder):
         self.dx, self.end = dx, end
-        self.steps, self.begun = 0, None
+        self.steps, self.begun, self.pressure = 0, None, []
         super().__init__(fname="zhou", output_dir=folder)
 
     def create_particles(self):
@@ -67,13 +70,20 @@ class Zhou(Application):
             self.begun = time.process_time()
         self.steps += 1
 
+    def post_step(self, solver):
+        water = self.particles[0]
+        q = np.minimum(np.hypot(water.x - TANK, water.y - GAUGE) / (GAUGE_REACH * self.dx), 1.0)
+        weight = 7 / (np.pi * GAUGE_REACH**2) * (1 - q)**4 * (1 + 4 * q)  # Wendland's, sums to 1/2 beside a full wall
+        is_wet = weight.sum() > 0.25
+        self.pressure.append((solver.t + solver.dt, float(weight @ water.p / weight.sum()) if is_wet else 0.0))
+
 
 def main():
     app = Zhou(float(sys.argv[1]), float(sys.argv[2]), sys.argv[3])
     app.run(argv=[])
     cpu = time.process_time() - app.begun
     print(json.dumps({"cpu_s": cpu, "simulated_s": app.solver.t, "steps": app.steps, "fluid": app.fluid,
-                      "front_m": float(app.particles[0].x.max())}))
+                      "pressure": app.pressure}))
 
 
 main()
