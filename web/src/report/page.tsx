@@ -1,18 +1,14 @@
 // The report of `tailwater validate`: every number with its target, plots of what was compared, and the way to the water.
-import { useEffect, useRef } from "preact/hooks";
 import type { App } from "../app.ts";
 import type { Report, Study, Verdict } from "../contract.ts";
 import { duration } from "../units.ts";
 import { Figures } from "./figures.tsx";
+import { Paper } from "./paper.tsx";
 import { Costs, Matrix, Metrics, Peers } from "./tables.tsx";
 
 const count = (study: Study, verdict: Verdict) => study.metrics.filter((m) => m.verdict === verdict).length;
 
 export function ReportPage({ app, report, away }: { app: App; report: Report; away: boolean }) {
-  const all = useRef<HTMLDivElement>(null);
-  useEffect(() => {
-    if (!away) all.current!.focus({ preventScroll: true }); // keys scroll it
-  }, [away]);
   const kinds = [...new Set(report.studies.map((study) => study.kind))];
   const tile = (value: string | number, words: string, kind = "") => (
     <div class={`tile ${kind}`}>
@@ -20,38 +16,34 @@ export function ReportPage({ app, report, away }: { app: App; report: Report; aw
       {words}
     </div>
   );
+  const ways = kinds.map((kind) => (
+    <>
+      <h2>{kind}</h2>
+      {report.studies.filter((study) => study.kind === kind).map((study) => (
+        <a href={`#${study.name}`}>
+          <span>{study.title}</span>
+          {count(study, "met") > 0 && <i class="met" title="targets met">{count(study, "met")}</i>}
+          {count(study, "missed") > 0 && <i class="missed" title="targets missed">{count(study, "missed")}</i>}
+        </a>
+      ))}
+    </>
+  ));
   return (
-    <div class="report" ref={all} inert={away} tabIndex={0}>
-      <nav aria-label="Studies">
-        {kinds.map((kind) => (
-          <>
-            <h2>{kind}</h2>
-            {report.studies.filter((study) => study.kind === kind).map((study) => (
-              <a href={`#${study.name}`}>
-                <span>{study.title}</span>
-                {count(study, "met") > 0 && <i class="met" title="targets met">{count(study, "met")}</i>}
-                {count(study, "missed") > 0 && <i class="missed" title="targets missed">{count(study, "missed")}</i>}
-              </a>
-            ))}
-          </>
-        ))}
-      </nav>
-      <article>
-        <p class="faint">
-          {report.scheme && `Scheme ${report.scheme} · `}Tailwater {report.version}, commit {report.commit} · {report.date.slice(0, 10)} · {report.machine.processor}, {report.machine.cores} cores, {report.ranks} {report.ranks > 1 ? "ranks" : "rank"} per run
-        </p>
-        <div class="tiles">
-          {tile(report.verdicts.met, "targets met", "met")}
-          {tile(report.verdicts.missed, "targets missed", "missed")}
-          {tile(report.verdicts.shown, "numbers without a target")}
-          {tile(duration(report.cpu_s), "CPU time of all runs")}
-        </div>
-        <p class="faint">“Paper” is what the case's paper reports for its own code, “other codes” what we measured or found published for others.</p>
-        {report.studies.map((study) => (
-          <One key={study.name} app={app} study={study} />
-        ))}
-      </article>
-    </div>
+    <Paper away={away} label="Studies" ways={ways}>
+      <p class="faint">
+        {report.scheme && `Scheme ${report.scheme} · `}Tailwater {report.version}, commit {report.commit} · {report.date.slice(0, 10)} · {report.machine.processor}, {report.machine.cores} cores, {report.ranks} {report.ranks > 1 ? "ranks" : "rank"} per run
+      </p>
+      <div class="tiles">
+        {tile(report.verdicts.met, "targets met", "met")}
+        {tile(report.verdicts.missed, "targets missed", "missed")}
+        {tile(report.verdicts.shown, "numbers without a target")}
+        {tile(duration(report.cpu_s), "CPU time of all runs")}
+      </div>
+      <p class="faint">“Paper” is what the case's paper reports for its own code, “other codes” what we measured or found published for others.</p>
+      {report.studies.map((study) => (
+        <One key={study.name} app={app} study={study} />
+      ))}
+    </Paper>
   );
 }
 
