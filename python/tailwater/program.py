@@ -36,12 +36,19 @@ def version() -> str:
     return call("--version").strip()
 
 
+def environment():
+    """What a program starts with. It is no rank of an mpirun that this process is a rank of."""
+    if "PMIX_RANK" not in os.environ and "PMI_RANK" not in os.environ:
+        return None
+    return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
+
+
 def start(*words, folder=None) -> subprocess.Popen:
     """The program, whose outputs are pipes; in a session of its own, which Ctrl-C does not reach. Throws IoError."""
     command = [str(program()), *map(str, words)]
     try:
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
-                                start_new_session=True)
+                                env=environment(), start_new_session=True)
     except OSError as error:
         raise IoError(f"{command[0]}: cannot be started ({error.strerror})") from error
 
