@@ -6,9 +6,8 @@ import { Figures } from "./figures.tsx";
 import { Paper } from "./paper.tsx";
 import { Table } from "./tables.tsx";
 
-const four = (x: number | null) => (x === null ? "–" : number(x, 4));
-
-const numbers = ["value", "uncertainty", "low", "high", "limit", "order", "discretisation", "chance", "step"] as const;
+/** The columns of study.csv, with their digits. */
+const numbers = [["value", 4], ["uncertainty", 2], ["low", 4], ["high", 4], ["limit", 4], ["order", 2], ["discretisation", 2], ["chance", 2], ["step", 2]] as const;
 
 /** Values by spacing, their limit at 0, and the interval of the finest. */
 function panel({ spacings_m: x }: SpacingStudy, row: StudyRow): Panel {
@@ -23,16 +22,22 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
   const ways = app.state!.runs.map(({ id, name }) => <button onClick={() => void app.watch(id, 0)}>{name}</button>);
   return (
     <Paper away={away} label="Runs" ways={<p class="see">{ways}</p>}>
-      <p class="faint">Spacings of {study.spacings_m.map(four).join(", ")} m; a value is that of the finest.</p>
-      <Table head={[["probe"], ["quantity"], ["unit"], ...numbers.map((word): [string, boolean] => [word, true]), ["notes"]]}>
+      <p class="faint">Spacings of {study.spacings_m.map((dx) => number(dx)).join(", ")} m; a value is that of the finest.</p>
+      <Table head={[["probe"], ["quantity"], ["unit"], ...numbers.map(([word]): [string, boolean] => [word, true])]}>
         {study.results.map((row) => (
-          <tr>
-            <td>{row.probe}</td>
-            <td>{row.quantity}</td>
-            <td>{row.unit}</td>
-            {numbers.map((word) => <td class="number">{four(row[word])}</td>)}
-            <td class="faint">{row.notes}</td>
-          </tr>
+          <>
+            <tr>
+              <td>{row.probe}</td>
+              <td>{row.quantity}</td>
+              <td>{row.unit}</td>
+              {numbers.map(([word, digits]) => <td class="number">{row[word] === null ? "–" : number(row[word], digits)}</td>)}
+            </tr>
+            {row.notes && (
+              <tr>
+                <td class="faint" colSpan={12}>{row.notes}</td>
+              </tr>
+            )}
+          </>
         ))}
       </Table>
       <Figures app={app} name="study" figures={[{ caption: "Values by spacing, with their limit and interval.", panels: study.results.map((row) => panel(study, row)) }]} />
