@@ -308,6 +308,43 @@ class Jet(unittest.TestCase):
         self.assertAlmostEqual(exact_flows.JET_IMPULSE, float(np.sum(4 * (-1.0) ** k / ((2 * k + 1) * math.pi) ** 2)), delta=1e-7)
 
 
+class Slot(RunTest):
+    CASE = """\
+[parameters]
+a = 0.1
+B = 0.4
+V = 0.15465
+[case]
+dimension = 2
+[physics]
+density = 1000.0
+gravity = [0.0, 0.0]
+[particles]
+spacing = 0.01
+[time]
+end = 1.2
+"""
+
+    def test_contraction_is_kirchhoffs_of_a_wide_channel_and_von_mises_of_others(self):
+        self.assertAlmostEqual(exact_flows.slot_contraction(1e-6), math.pi / (math.pi + 2), delta=1e-5)
+        # von Mises' table
+        for share, contraction in ((0.1, 0.612), (0.3, 0.622), (0.5, 0.644), (0.7, 0.687), (0.9, 0.781)):
+            self.assertAlmostEqual(exact_flows.slot_contraction(share), contraction, delta=6e-4)
+
+    def test_known_errors_come_back(self):
+        position = lattice((0.0, 0.0), (0.5, 0.06), 0.01)
+        velocity = np.zeros((len(position), 3))
+        velocity[:, 0] = 1.02
+        frames = [(time, position, {"velocity": velocity}) for time in (0.0, 0.9, 1.2)]
+        time = np.linspace(0, 1.2, 50)
+        pressure = np.full(50, 1.03 * 0.5 * 1000 * (1.02**2 - 0.15465**2))
+        numbers = exact_flows.slot(self.write_run(self.CASE, frames, {"probes/channel.csv": {
+            "time_s": time, "pressure_Pa": pressure}}))
+        self.assertAlmostEqual(numbers["contraction_error"], 1 / 1.02 - 1, delta=1e-3)
+        self.assertAlmostEqual(numbers["thickness_error"], 0.6 / 0.6186 - 1, delta=1e-3)
+        self.assertAlmostEqual(numbers["pressure_error"], 0.03, delta=1e-6)
+
+
 class WaterWedge(RunTest):
     CASE = """\
 [parameters]

@@ -342,6 +342,41 @@ def jet(run):
             "impulse_error": impulse / (JET_IMPULSE * run.case["physics"]["density"] * U * b) - 1}
 
 
+# ------------------------------------------------------------------------------------------------ a jet out of a slot
+
+
+def slot_contraction(share):
+    """Width of the jet far from a slot over that of the slot, which is `share` of the channel before it and at right angles
+    to it (von Mises R. (1917), Berechnung von Ausfluss- und Ueberfallzahlen, Z. VDI 61); pi/(pi + 2) of a wide channel."""
+    def excess(contraction):
+        k = contraction * share  # speed in the channel over that of the jet
+        return contraction * (1 + 2 / math.pi * (1 / k - k) * math.atan(k)) - 1
+
+    return flume.solve(excess, 1e-9, 1.0)
+
+
+def slot(run):
+    """Means over the last quarter of the run. contraction_error: of what the piston pushes out over the speed of the jet,
+    from 2.5 to 4 half slots behind the slot, and the slot, over theory, less 1. thickness_error: likewise, of the volume of
+    the jet over its length. pressure_error: before the slot, over that of the jet's speed, less 1."""
+    a, B, V, end = run.parameters["a"], run.parameters["B"], run.parameters["V"], run.case["time"]["end"]
+    speeds, counts = [], []
+    for frame in frames(run):
+        if frame.time < 0.75 * end:
+            continue
+        velocity, = fields(run, frame, "velocity")
+        x = frame.position[:, 0].astype(float)
+        inside = (x > 2.5 * a) & (x < 4 * a)
+        speeds.append(float(velocity[inside, 0].mean()))
+        counts.append(int(inside.sum()))
+    speed, theory = float(np.mean(speeds)), slot_contraction(a / B)
+    pressure = run.probe("channel", "pressure_Pa").window(0.75 * end, end)
+    mean = float(np.trapz(pressure.value, pressure.time) / (pressure.time[-1] - pressure.time[0]))
+    return {"contraction_error": V * B / (speed * a * theory) - 1,
+            "thickness_error": float(np.mean(counts)) * run.spacing**2 / (1.5 * a * a * theory) - 1,
+            "pressure_error": mean / (0.5 * run.density * (speed**2 - V**2)) - 1, "contraction": V * B / (speed * a)}
+
+
 # ---------------------------------------------------------------------------------------- a wedge of water on a wall
 
 
@@ -392,5 +427,5 @@ def wedge_entry(run):
 
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
-         "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet,
+         "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet, "slot": slot,
          "water-wedge": water_wedge, "wedge-entry": wedge_entry, **shallow_water.FLOWS, **flume.FLOWS}

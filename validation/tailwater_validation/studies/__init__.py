@@ -7,7 +7,7 @@ LABORATORIES = (zhou1999, martin_moyce1952, janosi2004, ozmen_cagatay2014, soare
 
 FUNCTIONS = (*(laboratory.study for laboratory in LABORATORIES), operators.operators, operators.poisson, exact.tank,
              exact.taylor_green, exact.standing_wave, exact.drop, exact.poiseuille, exact.couette, exact.uniform_flow,
-             exact.jet, exact.water_wedge, exact.wedge_entry, shallow.ritter, shallow.stoker, shallow.rough_dry_bed,
+             exact.jet, exact.slot, exact.water_wedge, exact.wedge_entry, shallow.ritter, shallow.stoker, shallow.rough_dry_bed,
              shallow.rough_wet_bed, flume.weir, flume.broad_weir, flume.ogee, flume.sluice_gate, flume.hydraulic_jump,
              flume.channel, flume.backwater, flume.circulation, flume.solitary_wave, flume.run_up, flume.wave_flume, flume.irregular_waves,
              flume.floating_box, comparisons.integrators, comparisons.wet_bed, comparisons.schemes, comparisons.devices,
