@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""What the size of the time step does: level, force and speed of ten flows with the default's steps and with short ones,
+the table of docs/theory/robustness.md, section The largest step.
+
+Usage: scripts/step_study.py [NAME ...]   needs build/release/bin/tailwater (scripts/build.sh); all of it takes ten minutes
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "validation")]
+from tailwater_validation import exact_flows, waves  # noqa: E402
+from tailwater_validation.flume import steady_discharge, steady_mean  # noqa: E402
+from tailwater_validation.run_folder import RunFolder  # noqa: E402
+
+PROGRAM = ROOT / "build/release/bin/tailwater"
+STEPS = (0.55, 0.2)  # dx that the fastest water goes in a step: the default, and what is taken for none
+KINDS = ("level", "force", "speed")
+
+
+def upstream(run):
+    return {"level": (1000 * steady_mean(run, "upstream", "connected_m"), "mm")}
+
+
+def gate(run):
+    speed = steady_discharge(run, "discharge") / steady_mean(run, "jet", "connected_m")
+    return {**upstream(run), "force": (steady_mean(run, "gate_force", "force_x_N_per_m"), "N/m"), "speed": (speed, "m/s")}
+
+
+def solitary(run):
+    wall, force = run.probe("wall", "connected_m"), run.probe("force", "force_x_N_per_m")
+    return {"level": (1000 * wall.value.max(), "mm"), "force": (force.value.max(), "N/m"),
+            "speed": (waves.solitary(run)["speed_m_per_s"], "m/s")}
+
+
+def beach(run):
+    return {"level": (1000 * run.probe("beach", "connected_m").value.max(), "mm")}
+
+
+def box(run):
+    path = run.probe("box", "displacement_y_m")
+    found = exact_flows.FLOWS["floating-box"](run)
+    return {"level": (1000 * path.window(0.5 * path.time[-1], path.time[-1]).value.mean(), "mm"),
+            "speed": (found["period_s"], "s per swing")}
+
+
+def jet(run):
+    b, U = run.parameters["b"], run.parameters["U"]
+    return {"force": (run.probe("p00", "pressure_Pa").window(5 * b / U, 8 * b / U).value.mean(), "Pa in the middle")}
+
+
+def entry(run):
+    force = run.probe("force", "force_y_N_per_m")
+    end = force.time[-1]
+    return {"force": (float(force.window(0.5 * end, end).value.mean()), "N/m")}
+
+
+def dam_break(run):
+    gauge, pressure, front = run.probe("H2", "connected_m"), run.probe("P2", "pressure_Pa"), run.probe("front", "front_m")
+    arrival = float(np.interp(3.0, front.value, front.time))
+    return {"level": (1000 * gauge.window(0.7, 1.0).value.mean(), "mm"),
+            "force": (float(np.trapz(pressure.value, pressure.time)), "Pa s on the plate"),
+            "speed": ((3.0 - 1.2) / arrival, "m/s")}
+
+
+def wave(run):
+    found = exact_flows.standing_wave(run)
+    return {"speed": (100 * found["period_error"], "% of the period")}
+
+
+CASES = {  # what it is, the case, its settings, what is read
+    "ogee, Hd/8": ("flume/ogee", ["particles.spacing=Hd/8", "time.end=5"], upstream),
+    "sharp crest, P/10": ("flume/weir", ["particles.spacing=P/10", "time.end=5"], upstream),
+    "sluice gate, a/5": ("flume/sluice_gate", ["particles.spacing=a/5", "time.end=4"], gate),
+    "solitary wave, h/8": ("solitary_wave/case", ["particles.spacing=h/8"], solitary),
+    "run-up, h/8": ("flume/run_up", ["particles.spacing=h/8"], beach),
+    "floating box, B/20": ("floating_box/case", ["particles.spacing=B/20", "parameters.up=B/20"], box),
+    "jet on a plate, b/10": ("verification/jet", ["particles.spacing=b/10"], jet),
+    "wedge entry, D/4": ("verification/wedge_entry", ["particles.spacing=D/4"], entry),
+    "dam break, H/20": ("zhou1999/case", ["particles.spacing=H/20", "time.end=1.0"], dam_break),
+    "standing wave, depth/10": ("robustness/standing_wave", ["particles.spacing=0.05"], wave),
+}
+
+
+def cell(found, kind):
+    if kind not in found[0]:
+        return ""
+    (default, unit), (short, _) = (numbers[kind] for numbers in found)
+    change = "" if unit.startswith("%") else f" ({100 * (default / short - 1):+.2f} %)"
+    return f"{default:.4g}, {short:.4g} {unit}{change}"
+
+
+def main():
+    print(f"| steps of {STEPS[0]} and {STEPS[1]} dx | {' | '.join(KINDS)} |")
+    print("| --- | --- | --- | --- |")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (case, settings, read) in CASES.items():
+            if sys.argv[1:] and name not in sys.argv[1:]:
+                continue
+            found = []
+            for step in STEPS:
+                options = [part for setting in (*settings, f"scheme.courant={step}") for part in ("--set", setting)]
+                subprocess.run([PROGRAM, "run", ROOT / f"cases/{case}.toml", "--out", f"{folder}/run", "--force", "--quiet",
+                                *options], check=True)
+                found.append(read(RunFolder(f"{folder}/run")))
+            print(f"| {name} | {' | '.join(cell(found, kind) for kind in KINDS)} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
