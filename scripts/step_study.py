@@ -13,9 +13,10 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "validation")]
-from tailwater_validation import exact_flows, waves  # noqa: E402
+from tailwater import waves  # noqa: E402
+from tailwater.run import Run  # noqa: E402
+from tailwater_validation import exact_flows  # noqa: E402
 from tailwater_validation.flume import steady_discharge, steady_mean  # noqa: E402
-from tailwater_validation.run_folder import RunFolder  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"
 STEPS = (0.55, 0.2)  # dx that the fastest water goes in a step: the default, and what is taken for none
@@ -32,17 +33,17 @@ def gate(run):
 
 
 def solitary(run):
-    wall, force = run.probe("wall", "connected_m"), run.probe("force", "force_x_N_per_m")
+    wall, force = run.curve("wall", "connected_m"), run.curve("force", "force_x_N_per_m")
     return {"level": (1000 * wall.value.max(), "mm"), "force": (force.value.max(), "N/m"),
             "speed": (waves.solitary(run)["speed_m_per_s"], "m/s")}
 
 
 def beach(run):
-    return {"level": (1000 * run.probe("beach", "connected_m").value.max(), "mm")}
+    return {"level": (1000 * run.curve("beach", "connected_m").value.max(), "mm")}
 
 
 def box(run):
-    path = run.probe("box", "displacement_y_m")
+    path = run.curve("box", "displacement_y_m")
     found = exact_flows.FLOWS["floating-box"](run)
     return {"level": (1000 * path.window(0.5 * path.time[-1], path.time[-1]).value.mean(), "mm"),
             "speed": (found["period_s"], "s per swing")}
@@ -50,17 +51,17 @@ def box(run):
 
 def jet(run):
     b, U = run.parameters["b"], run.parameters["U"]
-    return {"force": (run.probe("p00", "pressure_Pa").window(5 * b / U, 8 * b / U).value.mean(), "Pa in the middle")}
+    return {"force": (run.curve("p00", "pressure_Pa").window(5 * b / U, 8 * b / U).value.mean(), "Pa in the middle")}
 
 
 def entry(run):
-    force = run.probe("force", "force_y_N_per_m")
+    force = run.curve("force", "force_y_N_per_m")
     end = force.time[-1]
     return {"force": (float(force.window(0.5 * end, end).value.mean()), "N/m")}
 
 
 def dam_break(run):
-    gauge, pressure, front = run.probe("H2", "connected_m"), run.probe("P2", "pressure_Pa"), run.probe("front", "front_m")
+    gauge, pressure, front = run.curve("H2", "connected_m"), run.curve("P2", "pressure_Pa"), run.curve("front", "front_m")
     arrival = float(np.interp(3.0, front.value, front.time))
     return {"level": (1000 * gauge.window(0.7, 1.0).value.mean(), "mm"),
             "force": (float(np.trapz(pressure.value, pressure.time)), "Pa s on the plate"),
@@ -106,7 +107,7 @@ def main():
                 options = [part for setting in (*settings, f"scheme.courant={step}") for part in ("--set", setting)]
                 subprocess.run([PROGRAM, "run", ROOT / f"cases/{case}.toml", "--out", f"{folder}/run", "--force", "--quiet",
                                 *options], check=True)
-                found.append(read(RunFolder(f"{folder}/run")))
+                found.append(read(Run(f"{folder}/run")))
             print(f"| {name} | {' | '.join(cell(found, kind) for kind in KINDS)} |", flush=True)
 
 

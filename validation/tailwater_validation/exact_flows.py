@@ -370,7 +370,7 @@ def slot(run):
         speeds.append(float(velocity[inside, 0].mean()))
         counts.append(int(inside.sum()))
     speed, theory = float(np.mean(speeds)), slot_contraction(a / B)
-    pressure = run.probe("channel", "pressure_Pa").window(0.75 * end, end)
+    pressure = run.curve("channel", "pressure_Pa").window(0.75 * end, end)
     mean = float(np.trapz(pressure.value, pressure.time) / (pressure.time[-1] - pressure.time[0]))
     return {"contraction_error": V * B / (speed * a * theory) - 1,
             "thickness_error": float(np.mean(counts)) * run.spacing**2 / (1.5 * a * a * theory) - 1,
