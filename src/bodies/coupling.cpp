@@ -26,6 +26,11 @@ constexpr double agreement_over_tolerance = 10.0;
 /// tears, and no motion agrees with it better.
 constexpr int passes_with_old_inertia = 6;
 
+/// Passes of a rough solve. One is enough where water that may pull resists as water that may not. Where the last step
+/// held much of it back, the inertia that was learned there is too small, and one pass would throw the body so far that
+/// all water seems to pull.
+constexpr int most_rough_passes = 3;
+
 /// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
 constexpr double probing_share = 0.1;
 
@@ -178,7 +183,10 @@ SolveReport BodyCoupling<Dim>::solve_roughly(double tolerance) {
   SolveReport report = solve_once(tolerance);
   const std::vector<double> known = flow_.state.motion.bodies.inertia;
   Eigen::VectorXd g = residual();
-  correct(g, tolerance, report);
+  int passes = 0;
+  do {
+    correct(g, tolerance, report);
+  } while (++passes < most_rough_passes && size(g) > agreement_over_tolerance * tolerance * largest_force_);
   // What water does that may still pull is nothing to learn from.
   if (!known.empty()) flow_.state.motion.bodies.inertia = known;
   return report;

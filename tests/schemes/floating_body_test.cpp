@@ -159,6 +159,22 @@ TEST(FloatingBody, HoversInATankThatIsFull) {
   }
 }
 
+// A box is let go half a spacing above its draught in a narrow tank, with short steps. Water that pulls is held back
+// from the second step on, and the inertia that the box has beside it is a quarter of that beside water that is not:
+// the box must not be thrown up by it, since then all water would pull, would be held back, and would fall with the
+// box.
+TEST(FloatingBody, IsNotThrownByWaterThatWasHeldBack) {
+  constexpr double dx = 0.015;
+  CaseSpec spec = tank_case<2>(dx, 0.42, 0.375);
+  spec.scheme.courant = 0.2;
+  add_box(spec, {0.06, 0.3075}, {0.36, 0.4575}, 500.0);
+  spec.bodies[0].free = {"y"};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  for (int n = 0; n < 10; ++n) step(flow);
+  EXPECT_LT(std::abs(flow.state.motion.bodies.each[0].linear_velocity()[1]), 0.2 * g * flow.state.time);
+}
+
 // A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
 // it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
 // pressure needs a few steps to be there (softness, robust/rows.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
