@@ -153,8 +153,8 @@ TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   }
 }
 
-// Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. After the fastest
-// the air, which throws the water back at 65 g, breaks its surface (Rayleigh and Taylor's instability).
+// Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. The
+// fastest is thrown back at 65 g and keeps its pressure longer than the equation has it (docs/theory/air.md).
 TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
   for (const double speed : {2.0, 6.0, 10.0}) {
     for (const Order& order : orders) {
