@@ -241,7 +241,7 @@ class BadCases(ProgramTest):
             self.assertIn(part, message)
 
     def test_many_mistakes_have_an_end_and_each_its_place(self):
-        (self.folder / "case.toml").write_text(SMALL_CASE + "[[fluid]]\nmin = [0, 0]\nmax = [1, 0.5]\n" * 12)
+        (self.folder / "case.toml").write_text(SMALL_CASE + "[[fluid]]\nmin = [0, 0]\nmax = [1, 0.5]\n" * 60)
         lines = self.call("run", "case.toml", "--out", "out", expect=2).stderr.splitlines()
         self.assertEqual(len(lines), 50)
         for line in lines:
