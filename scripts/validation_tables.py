@@ -76,7 +76,7 @@ def table(result, what):
     lines = [f"<!-- validation: {what} -->"]
     if what == "all":
         counts = result["verdicts"]
-        lines += [f"{origin(result)}, commit {result['commit']}: {counts['met']} targets met, {counts['missed']} missed.", ""]
+        lines += [f"{origin(result)}, commit {result['commit']}:", f"{counts['met']} targets met, {counts['missed']} missed.", ""]
     else:
         lines += [f"{origin(result)}:", ""]
     lines += ["| | value | target | | paper | other codes |", "| --- | --- | --- | --- | --- | --- |"]

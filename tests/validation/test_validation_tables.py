@@ -30,7 +30,7 @@ RESULT = {"level": "paper", "scheme": "", "commit": "abc", "date": "2026-11-21T0
 class Table(unittest.TestCase):
     def test_of_all_has_what_has_a_target(self):
         text = validation_tables.table(RESULT, "all")
-        self.assertIn("`tailwater validate --level paper`, 2026-11-21, a machine, commit abc: 1 targets met, 2 missed.", text)
+        self.assertIn("`tailwater validate --level paper`, 2026-11-21, a machine, commit abc:\n1 targets met, 2 missed.", text)
         self.assertIn("| **One** | | | | | |\n| error | 0.123 H | <= 0.2 | met |  |  |\n", text)
         self.assertIn("| late | - H | <= 0.2 | **missed** | 9.24 |  |", text)
         self.assertIn("| noisy | 0.123 H | <= 0.2 | **missed** |  | 0.5..2 (2 codes) |", text)
