@@ -46,6 +46,24 @@ void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
 /// That the cube of a particle can be in: three along each axis, or four where cells are a little smaller than dx/2.
 constexpr std::size_t most_cells = 64;
 
+/// Calls `visit(way, c)` for the cells `first` + `way` of a block, `cells` along each axis: c is the cell, across a
+/// periodic border too, or null outside of the grid.
+template <int Dim, class Visit>
+void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& first,
+                 const typename VoidGrid<Dim>::Cell& cells, Visit&& visit) {
+  typename VoidGrid<Dim>::Cell way{};
+  for (int axis = 0; axis < Dim;) {
+    typename VoidGrid<Dim>::Cell c;
+    bool is_cell = true;
+    for (int d = 0; d < Dim; ++d) {
+      c[d] = first[d] + way[d];
+      is_cell = grid.wrap(d, c[d]) && is_cell;
+    }
+    visit(way, is_cell ? &c : nullptr);
+    for (axis = 0; axis < Dim && ++way[axis] == cells[axis]; ++axis) way[axis] = 0;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -213,23 +231,18 @@ void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<
   std::array<std::pair<int, double>, most_cells> taken;  // by pocket
   std::size_t count = 0;
   double all = 0.0;
-  Cell way{};
-  for (int axis = 0; axis < Dim;) {
-    Cell c;
+  visit_block(*grid_, first, cells, [&](const Cell& way, const Cell* c) {
     double part = 1.0;
-    bool is_cell = true;
     for (int d = 0; d < Dim; ++d) {
-      c[d] = first[d] + way[d];
       const double half = 0.5 * spacing_ / grid_->edge()[d];
-      part *= std::max(0.0, std::min(c[d] + 0.5, at[d] + half) - std::max(c[d] - 0.5, at[d] - half));
-      is_cell = grid_->wrap(d, c[d]) && is_cell;
+      const int here = first[d] + way[d];
+      part *= std::max(0.0, std::min(here + 0.5, at[d] + half) - std::max(here - 0.5, at[d] - half));
     }
-    const std::int64_t k = is_cell ? place(c) : -1;
+    const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += part;
     const double weight = weight_of(k);
     if (weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
-    for (axis = 0; axis < Dim && ++way[axis] == cells[axis]; ++axis) way[axis] = 0;
-  }
+  });
   for (std::size_t n = 0; n < count; ++n) volumes[taken[n].first] -= volume * taken[n].second / all;
 }
 
@@ -286,29 +299,23 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
   const Vec<Dim> at = grid_->in_cells(x);
   if (!is_inside(at)) return shares;
   // Weights that fall to 0 at the faces of the cube: the shares are continuous in x.
-  constexpr int cells = 2 * sight;
+  constexpr int edge = 2 * sight;
   Cell first;
-  std::array<std::array<double, cells>, Dim> weights;
+  Cell cells;
+  std::array<std::array<double, edge>, Dim> weights;
   for (int d = 0; d < Dim; ++d) {
+    cells[d] = edge;
     first[d] = static_cast<int>(std::ceil(at[d])) - sight;
-    for (int k = 0; k < cells; ++k) weights[d][k] = sight - std::abs(first[d] + k - at[d]);
+    for (int k = 0; k < edge; ++k) weights[d][k] = sight - std::abs(first[d] + k - at[d]);
   }
   double all = 0.0;
-  Cell way{};
-  for (int axis = 0; axis < Dim;) {
-    Cell c;
+  visit_block(*grid_, first, cells, [&](const Cell& way, const Cell* c) {
     double weight = 1.0;
-    bool is_cell = true;
-    for (int d = 0; d < Dim; ++d) {
-      c[d] = first[d] + way[d];
-      weight *= weights[d][way[d]];
-      is_cell = grid_->wrap(d, c[d]) && is_cell;
-    }
-    const std::int64_t k = is_cell ? place(c) : -1;
+    for (int d = 0; d < Dim; ++d) weight *= weights[d][way[d]];
+    const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += weight;
     if (k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
-    for (axis = 0; axis < Dim && ++way[axis] == cells; ++axis) way[axis] = 0;
-  }
+  });
   for (PocketShare& share : shares) share.share /= all;
   return shares;
 }
