@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .command_line import Parser, complain, number
+from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .whole_file import write_whole
 
@@ -171,6 +171,15 @@ def report(options, terrain, origin, low, high):
     print(f'[[wall]]\nname = "bed"\nshape = "mesh"\nfile = "{options.to.name}"\nfluid_side = "above"\nslip = "no-slip"')
 
 
+def write_bed(options):
+    """Throws DataError, OSError."""
+    if options.to.suffix.lower() != ".stl":
+        raise DataError(f"--to {options.to}: is written as STL; name a file that ends in .stl")
+    if options.step is not None and options.step <= 0:
+        raise DataError(f"--step {options.step:g}: a step is above 0 m")
+    report(options, *make_bed(options))
+
+
 def main(arguments):
     parser = Parser("tailwater bed", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("terrain", type=Path, metavar="TERRAIN", help="GeoTIFF or another raster; .xyz, .txt, .csv: x y z")
@@ -181,17 +190,7 @@ def main(arguments):
     parser.add_argument("--datum", type=number, default=0.0, metavar="Z", help="what becomes z = 0, m (0)")
     parser.add_argument("--step", type=number, metavar="M", help="a square grid of this step, m (the survey's points)")
     options = parser.parse_args(arguments)
-    try:
-        if options.to.suffix.lower() != ".stl":
-            raise DataError(f"--to {options.to}: is written as STL; name a file that ends in .stl")
-        if options.step is not None and options.step <= 0:
-            raise DataError(f"--step {options.step:g}: a step is above 0 m")
-        report(options, *make_bed(options))
-    except DataError as error:
-        return complain(error, 2)
-    except OSError as error:
-        return complain(error, 4)
-    return 0
+    return exit_code_of(lambda: write_bed(options))
 
 
 if __name__ == "__main__":

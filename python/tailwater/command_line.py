@@ -3,9 +3,12 @@
 import argparse
 import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
-__all__ = ["Parser", "complain", "number"]
+from .errors import DataError
+
+__all__ = ["Parser", "complain", "exit_code_of", "number"]
 
 
 class Parser(argparse.ArgumentParser):
@@ -33,3 +36,14 @@ def complain(what, code: int) -> int:
     """Tells an error; returns its exit code."""
     print(f"error: {what}", file=sys.stderr)
     return code
+
+
+def exit_code_of(work: Callable[[], object]) -> int:
+    """Does a command's work and tells what goes wrong: 0, 2 for wrong input, 4 for a file."""
+    try:
+        work()
+    except DataError as error:
+        return complain(error, 2)
+    except OSError as error:
+        return complain(error, 4)
+    return 0

@@ -8,8 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-from .command_line import Parser, complain
-from .errors import DataError
+from .command_line import Parser, exit_code_of
 from .netcdf import EPOCH
 from .run import Run
 
@@ -36,6 +35,17 @@ def parser():
     return command
 
 
+def write_files(options):
+    """Those that the options name. Throws DataError, OSError."""
+    run = Run(options.run)
+    if options.netcdf:
+        run.to_netcdf(options.netcdf, start=options.start)
+    if options.paraview:
+        run.to_paraview(options.paraview)
+    if options.vtkhdf:
+        run.to_vtkhdf(options.vtkhdf)
+
+
 def main(arguments=None):
     command = parser()
     options = command.parse_args(arguments)
@@ -44,20 +54,9 @@ def main(arguments=None):
     if options.program:
         os.environ["TAILWATER"] = str(options.program)
     try:
-        run = Run(options.run)
-        if options.netcdf:
-            run.to_netcdf(options.netcdf, start=options.start)
-        if options.paraview:
-            run.to_paraview(options.paraview)
-        if options.vtkhdf:
-            run.to_vtkhdf(options.vtkhdf)
-    except DataError as error:
-        return complain(error, 2)
-    except OSError as error:
-        return complain(error, 4)
+        return exit_code_of(lambda: write_files(options))
     except KeyboardInterrupt:
         return 130
-    return 0
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .command_line import Parser, complain, number
+from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .waves import wave_numbers
 from .whole_file import write_whole
@@ -196,22 +196,21 @@ def options_of(arguments):
     return options
 
 
-def main(arguments):
-    options = options_of(arguments)
-    try:
-        waves, lead = waves_of(read_columns(options.file), options)
-        time, stroke = motion(waves, options.depth, options.distance, options.flap)
-        write_motion(options.to, time, stroke, options.depth, options.flap)
-    except DataError as error:
-        return complain(error, 2)
-    except OSError as error:
-        return complain(error, 4)
+def make_motion(options):
+    """Writes the file and tells what is in it. Throws DataError, OSError."""
+    waves, lead = waves_of(read_columns(options.file), options)
+    time, stroke = motion(waves, options.depth, options.distance, options.flap)
+    write_motion(options.to, time, stroke, options.depth, options.flap)
     print(f"{options.to}: {time.size} lines, {time[-1]:.4g} s; stroke {stroke.min():.4g} to {stroke.max():.4g} m at the still "
           f"water's level\nwaves: Hm0 {waves.height:.4g} m, peak {waves.peak:.4g} Hz, between {waves.frequency[0]:.4g} and "
           f"{waves.frequency[-1]:.4g} Hz, which leaves out {100 * waves.lost:.1f} % of the energy")
     if lead > 0:
         print(f"the record begins at t = {lead:.6g} s")
-    return 0
+
+
+def main(arguments):
+    options = options_of(arguments)
+    return exit_code_of(lambda: make_motion(options))
 
 
 if __name__ == "__main__":

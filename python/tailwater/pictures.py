@@ -12,7 +12,7 @@ import matplotlib
 import numpy as np
 
 from . import plots
-from .command_line import Parser, complain, number
+from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .fields import list_frames, read_frame
 from .run import Run
@@ -90,13 +90,8 @@ def main(arguments):
         parser.error(f"--count {options.count}: at least 1")
     if not any(options.look_from):
         parser.error("--from 0 0 0: is no direction")
-    try:
-        print(f"pictures: {draw(Run(options.run), options.times, options.count, options.look_from)}")
-    except DataError as error:
-        return complain(error, 2)
-    except OSError as error:
-        return complain(error, 4)
-    return 0
+    return exit_code_of(
+        lambda: print(f"pictures: {draw(Run(options.run), options.times, options.count, options.look_from)}"))
 
 
 if __name__ == "__main__":
