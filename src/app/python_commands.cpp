@@ -20,7 +20,7 @@ constexpr std::array<PythonCommand, 2> benches{{
     {"speed", "CPU time and memory of cases, steps and rooms, and how they grow", "tailwater_validation.speed", ""},
 }};
 
-constexpr std::array<PythonCommand, 7> commands{{
+constexpr std::array<PythonCommand, 7> python_commands{{
     {"validate", "Run the papers' cases and the exact solutions, and write a report of the scores",
      "tailwater_validation.validate", ""},
     {"study", "Run a case at several spacings, and say how well its numbers are known", "tailwater.study_command", ""},
@@ -54,7 +54,7 @@ void add_python_commands(CLI::App& app) {
       "          tailwater bench robustness --out my_bench --gate tank --gate noise\n"
       "          tailwater bench speed --compare before/speed.json");
   for (const PythonCommand& command : benches) add(*bench, command);
-  for (const PythonCommand& command : commands) add(app, command);
+  for (const PythonCommand& command : python_commands) add(app, command);
 }
 
 }  // namespace tailwater

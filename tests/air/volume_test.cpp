@@ -9,6 +9,7 @@
 #include "support/dimensions.h"
 
 namespace tailwater {
+namespace volume_test {
 namespace {
 
 constexpr double dx = 0.05;
@@ -133,4 +134,5 @@ TEST(PocketVolumeOfPlate, PlateParts) {
 }
 
 }  // namespace
+}  // namespace volume_test
 }  // namespace tailwater

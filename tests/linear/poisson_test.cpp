@@ -18,6 +18,7 @@
 #include "support/tensors.h"
 
 namespace tailwater {
+namespace poisson_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -157,4 +158,5 @@ TYPED_TEST(PoissonTest, FirstOrderOnJitteredSets) {
 }
 
 }  // namespace
+}  // namespace poisson_test
 }  // namespace tailwater

@@ -11,6 +11,7 @@
 #include "sampling/fluid_particles.h"
 
 namespace tailwater {
+namespace fill_test {
 namespace {
 
 using namespace testing_cases;
@@ -168,4 +169,5 @@ TEST(Fill, ThatCannotBeIsRefused) {
 }
 
 }  // namespace
+}  // namespace fill_test
 }  // namespace tailwater
