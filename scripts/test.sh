@@ -14,5 +14,5 @@ fi
 scripts/install.sh build tests
 scripts/install.sh web || echo "test.sh: the page's tests will be skipped" >&2
 scripts/build.sh "$preset" --tests
-# Ranks and the browser wait for each other a good part of the time: three tests at once fill two cores.
-ctest --test-dir "build/$preset" --output-on-failure --parallel 3 "$@"
+# Ranks and the browser wait for each other a good part of the time: four tests at once fill two cores.
+ctest --test-dir "build/$preset" --output-on-failure --parallel 4 "$@"
