@@ -3,6 +3,7 @@ finds the library."""
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -49,19 +50,40 @@ class Installed(unittest.TestCase):
             self.assertNotIn(str(SOURCES).encode() + b"/", path.read_bytes(), path)
 
     def test_commands(self):
-        self.tailwater("new", "dam-break", "my.toml")
-        self.tailwater("check", "my.toml", *SHORT)
-        self.tailwater("run", "my.toml", "--out", "out", *SHORT)
-        self.assertIn("done", self.tailwater("info", "out"))
-        self.tailwater("resume", "out", "--set", "time.end=0.06")
-        self.tailwater("pictures", "out")
+        called = set()
+
+        def call(command, *arguments):
+            called.add(command)
+            return self.tailwater(command, *arguments)
+
+        def write(name, text):
+            (self.folder / name).write_text(text, encoding="utf-8")
+            return name
+
+        call("new", "dam-break", "my.toml")
+        call("check", "my.toml", *SHORT)
+        self.assertIn("water", call("explain", "my.toml"))
+        call("migrate", "my.toml", "migrated.toml")
+        call("run", "migrated.toml", "--out", "out", *SHORT)
+        self.assertIn("done", call("info", "out"))
+        call("resume", "out", "--set", "time.end=0.06")
+        call("pictures", "out")
         self.assertTrue(list(self.folder.glob("out/pictures/*.png")))
-        for command in ("validate", "bench robustness"):
-            self.assertIn("zhou" if command == "validate" else "tank", self.tailwater(*command.split(), "--list"))
-        self.tailwater("waves", "--help")
-        self.assertIn("GeoTIFF", self.tailwater("bed", "--help"))
-        self.assertIn("spectrum", self.tailwater("paddle", "--help"))
-        self.tailwater("export", "out", "--netcdf", "gauges.nc", "--paraview", "state.py")
+        call("study", "my.toml", "--out", "study", "--spacings", "0.1,0.075,0.06", "--starts", "0", "--quiet", *SHORT[2:])
+        for folder in ("out", "study"):
+            call("view", folder, "--export", f"{folder}.html")
+            self.assertIn("tailwater-data", (self.folder / f"{folder}.html").read_text(encoding="utf-8"))
+        call("export", "out", "--netcdf", "gauges.nc", "--paraview", "state.py")
+        survey = write("survey.xyz", "".join(f"{x} {y} {x + y}\n" for x in range(3) for y in range(3)))
+        self.assertIn("[[wall]]", call("bed", survey, "--to", "bed.stl"))
+        sea = write("sea.csv", "f [Hz], S [m^2/Hz]\n0.5, 0\n0.8, 0.001\n1.2, 0\n")
+        call("paddle", sea, "--to", "paddle.csv", "--depth", "0.4", "--duration", "20")
+        self.assertIn("zhou", call("validate", "--list"))
+        self.assertIn("tank", call("bench", "robustness", "--list"))
+        self.assertIn("GAUGE", call("waves", "--help"))
+        self.assertIn(".TH TAILWATER", call("man"))
+        words = re.search('-W "(.*?)"', call("completion", "bash"))[1].split()
+        self.assertEqual(called, {word for word in words if not word.startswith("-")})
 
     def test_version_is_one(self):
         version = self.tailwater("--version").split()[1]
