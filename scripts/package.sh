@@ -47,7 +47,7 @@ TEXT
 
 configure() {  # NAME ARCH [cmake arguments]
   cmake -S . -B "build/package-$1" -G Ninja -D CMAKE_BUILD_TYPE=Release -D TAILWATER_BUILD_TESTS=OFF -D TAILWATER_ARCH="$2" \
-    -D TAILWATER_PYTHON=ON -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
+    -D TAILWATER_PYTHON=ON -D CMAKE_DISABLE_FIND_PACKAGE_benchmark=ON -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
 }
 scripts/site.py build/site
 configure v3 x86-64-v3
