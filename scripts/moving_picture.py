@@ -32,7 +32,7 @@ def draw(run, frame, view, largest):
     axes = figure.add_axes((0, 0, 1, 1))
     plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, array=frame.fields["pressure"],
                          cmap="viridis", clim=(0, largest))
-    plots.draw_walls(axes, run)
+    plots.draw_walls(axes, run, frame.time)
     view.apply(axes)
     axes.set_axis_off()
     axes.text(0.03, 0.95, f"{frame.time:.2f} s", transform=axes.transAxes, va="top", fontsize=11, color=plots.GREY)

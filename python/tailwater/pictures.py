@@ -35,7 +35,7 @@ def draw_plane(axes, run, frame, view, speed):
     colours = {"facecolors": plots.SKY} if speed == 0 else {
         "cmap": plots.COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
     dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
-    plots.draw_walls(axes, run)
+    plots.draw_walls(axes, run, frame.time)
     view.apply(axes)
     axes.set_xlabel("x (m)")
     axes.set_ylabel(view.label_of_heights())

@@ -77,8 +77,8 @@ def draw_particles(axes, position, spacing, exaggeration=1, **style):
     return dots
 
 
-def draw_walls(axes, run):
-    axes.add_collection(LineCollection(run.walls, colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
+def draw_walls(axes, run, time):
+    axes.add_collection(LineCollection(run.walls_at(time), colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
 
 
 def highest_speed(frames):

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from . import tables
 from .curves import Curve, read_curve
 from .errors import DataError, RunWarning
@@ -185,6 +187,14 @@ class Run:
         the end."""
         return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
 
+    def walls_at(self, time: float):
+        """The same at a time (s): hulls of floating bodies are where a probe of their motion has them."""
+        found = {probe["body"]: probe["name"] for probe in self.case.get("probe", []) if probe["type"] == "motion"}
+        placed = {hull: place_of(self, body, found[body["name"]], time) for body in self.case.get("body", [])
+                  if body["name"] in found for hull in body["walls"]}
+        return [placed.get(wall["name"], lambda chain: chain)(wall_chain(wall))
+                for wall in self.case.get("wall", []) if not is_moving(wall)]
+
     def __repr__(self):
         summary = self.summary
         reached = f", t = {summary['time_s']['reached']:.4g} s" if summary else ""
@@ -198,6 +208,14 @@ def warn_of(run: Run):
 
 def is_moving(wall):
     return any(wall.get("displacement", ())) or wall.get("rotation", 0) != 0 or wall.get("motion", "") != ""
+
+
+def place_of(run, body, probe, time):
+    """Of points of a body (2D) as they are drawn, where they are at a time (s) as the probe of its motion tells."""
+    curves = [run.curve(probe, column) for column in ("displacement_x_m", "displacement_y_m", "angle_rad")]
+    x, y, angle = (np.interp(time, curve.time, curve.value) for curve in curves)
+    centre, turn = np.array(body["centre"]), np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    return lambda points: (np.array(points) - centre) @ turn + centre + (x, y)
 
 
 def wall_chain(wall):
