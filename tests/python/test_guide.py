@@ -1,16 +1,22 @@
-"""The guides of scripts run as they stand, as notebooks, cell after cell, and their words about the runs are true."""
+"""The guides run as they stand: those of scripts as notebooks, cell after cell, those of case files with the changes that
+they ask for, on fewer particles. Their words about the runs are true."""
 
 import contextlib
 import io
 import json
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 
 import numpy as np
+import tailwater as tw
 from small import PackageTest
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts"))
+import walk_guides  # noqa: E402
+
 GUIDES = ROOT / "docs" / "guide"
 
 
@@ -49,6 +55,30 @@ class Guide(PackageTest):
         names, told = run_notebook("weir.md", 1, quick)
         self.assertRegex(told.getvalue(), r"^head \d\d mm, within \d+ mm\n")
         self.assertTrue(0.07 < names["head"] < 0.1, names["head"])
+
+    def walk(self, guide, changes, words=()):
+        """The names that the guide's blocks of Python leave after a sweep of one run; `words` (old, new) changes their text."""
+        case = tw.Case(walk_guides.write_case(guide))
+        self.assertEqual(case.check().findings, [])
+        spacing = changes.pop("particles.spacing")
+        tw.sweep(case.update(changes), {"particles.spacing": [spacing]}, out=walk_guides.GUIDES[guide])
+        with contextlib.redirect_stdout(io.StringIO()):
+            return walk_guides.run_blocks(guide, *words)
+
+    def test_waves_on_a_wall(self):
+        found = self.walk("waves_on_a_wall", {"particles.spacing": "H/2", "time.end": "5*T"}, ("range(6, 11)", "range(4, 5)"))
+        self.assertLess(abs(found["high"] / 50.4e3 - 1), 0.15)
+        self.assertLess(abs(found["low"] / -38.6e3 - 1), 0.15)
+        self.assertAlmostEqual(found["crest"], 61.3, delta=0.1)
+
+    def test_floating_box(self):
+        found = self.walk("floating_box", {"particles.spacing": 0.2, "time.end": 8})
+        self.assertLess(abs(found["period"] - 3.99), 0.1)
+        self.assertLess(abs(found["place"] - 0.1), 0.01)
+        self.assertLess(abs(found["load"] / (25000 * 9.81) - 1), 0.01)
+        # Pictures show the hull where it has gone.
+        hull = found["run"].walls_at(2.0)[1]
+        self.assertLess(abs(hull[0][1] - 1.4 - np.interp(2.0, found["way"].time, found["way"].value)), 1e-9)
 
     def test_runs(self):
         names, told = run_notebook("python.md", 6)

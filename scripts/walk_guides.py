@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+"""Walks the guides of waves on a wall and of a barge in a lock: makes their cases as they say, runs them, prints what their
+blocks of Python print, and draws their pictures into docs/images.
+
+Usage: scripts/walk_guides.py [GUIDE ...]    of waves_on_a_wall, floating_box; all by default
+The runs stay in out/guides and are not made again. All take three minutes of CPU time.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "build/release/lib/python3/dist-packages"), str(ROOT / "validation")]
+import matplotlib  # noqa: E402
+import numpy as np  # noqa: E402
+import tailwater as tw  # noqa: E402
+from PIL import Image  # noqa: E402
+from tailwater import case_text, pictures, plots  # noqa: E402
+from tailwater.program import call  # noqa: E402
+from tailwater_validation import floating  # noqa: E402
+
+IMAGES = ROOT / "docs" / "images"
+GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge"}  # and the folder of its sweep
+
+
+def blocks(guide, language):
+    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+
+
+def commands(guide):
+    """Those of the program, in order, as lists of words."""
+    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
+    return [line.replace('"', "").split()[1:] for line in re.findall(r"^    (tailwater .*)$", text, re.MULTILINE)]
+
+
+def changes(block):
+    """(key, value) of each line of a block of a case file."""
+    for table, entries in tomllib.loads(block).items():
+        for entry in entries if isinstance(entries, list) else [entries]:
+            prefix = f"{table}.{entry['name']}" if isinstance(entries, list) else table
+            yield from ((f"{prefix}.{key}", value) for key, value in entry.items() if key != "name")
+
+
+def write_case(guide):
+    """The case file that a reader of the guide has, in this folder; returns its name."""
+    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
+    *new, name = commands(guide)[0]
+    call(*new, name, "--force")
+    case = pathlib.Path(name).read_text(encoding="utf-8")
+    first, *added = blocks(guide, "toml")
+    for key, value in changes(first):
+        case = case_text.changed_text(case, key, value)
+    for table in re.findall(r"take out `\[\[(\w+)\]\]`", text):
+        case = re.sub(rf"^(#.*\n)*\[\[{table}\]\]\n(.+\n)*\n?", "", case, flags=re.MULTILINE)
+    pathlib.Path(name).write_text("\n".join([case, *added]), encoding="utf-8")
+    return name
+
+
+def run_blocks(guide, old="", new=""):
+    """The names that its blocks of Python leave; `new` takes the place of `old` in them."""
+    names = {}
+    for block in blocks(guide, "python"):
+        exec(compile(block.replace(old, new) if old else block, guide, "exec"), names)
+    return names
+
+
+def picture(run, time, name):
+    for old in (run.path / "pictures").glob("*.png"):
+        old.unlink()
+    folder = pictures.draw(run, times=[time])
+    image = Image.open(next(folder.glob("*.png"))).convert("RGB")
+    image.thumbnail((900, 900))
+    image.save(IMAGES / f"{name}.webp", quality=80, method=6)
+
+
+def curves(runs, probe, column, scale, label, lines, name):
+    """A column over time at all spacings, beside horizontal lines {words: value}."""
+    with matplotlib.rc_context(plots.STYLE):
+        figure = plots.new_figure(height=3.2)
+        axes = figure.subplots()
+        for run, colour in zip(runs, (plots.SKY, plots.ORANGE, plots.BLUE)):
+            curve = run.curve(probe, column)
+            axes.plot(curve.time, scale(curve.value), color=colour, linewidth=1, label=f"dx = {run.spacing:.3g} m")
+        for (words, value), style in zip(lines.items(), ("--", ":", "-.")):
+            axes.axhline(value, color=plots.GREY, linewidth=1, linestyle=style, label=words)
+        axes.set(xlabel="time (s)", ylabel=label, xlim=(0, None))
+        axes.legend(loc="upper left", ncols=5, frameon=False, bbox_to_anchor=(0, 1.16))
+        figure.savefig("curves.png", dpi=plots.DPI)
+    image = Image.open("curves.png").convert("RGB")
+    image.thumbnail((1000, 1000))
+    image.save(IMAGES / f"{name}.webp", quality=85, method=6)
+
+
+def draw_waves_on_a_wall(runs, names):
+    force = runs[-1].curve("force", "force_x_N_per_m")
+    last = force.window(8 * names["T"], np.inf)
+    picture(runs[-1], last.time[np.argmax(last.value)], "waves_on_a_wall")
+    at_rest = names["weight"] * names["h"] ** 2 / 2e3
+    curves(runs, "force", "force_x_N_per_m", lambda value: value / 1e3 - at_rest, "force, more than at rest (kN/m)",
+           {"Sainflou": names["crest"], "Goda": names["goda"], "Sainflou, trough": names["trough"]}, "waves_on_a_wall_force")
+
+
+def draw_floating_box(runs, names):
+    barge = floating.Tank(width=12, depth=4, breadth=10, height=4, mass=25000, inertia=0, density=1000, gravity=9.81)
+    print(f"potential theory: period {floating.theory(barge, False, 20)[0]:.2f} s")
+    picture(runs[-1], 0.25 * names["period"], "floating_box")
+    curves(runs, "box", "displacement_y_m", lambda value: value * 1e3, "way of the barge upwards (mm)",
+           {"Archimedes": 100.0}, "floating_box_way")
+
+
+def walk(guide):
+    folder = ROOT / "out/guides" / guide
+    folder.mkdir(parents=True, exist_ok=True)
+    os.chdir(folder)
+    print(f"walk_guides.py: {guide}, {write_case(guide)}", flush=True)
+    for words in commands(guide)[1:]:
+        print(">", *words, flush=True)
+        subprocess.run([str(tw.program()), *words], check=True)
+    runs = list(tw.Sweep(GUIDES[guide]))
+    globals()[f"draw_{guide}"](runs, run_blocks(guide))
+    for run in runs:
+        print(f"{run.path.name}: {run.summary['cost']['cpu_s']:.0f} s of CPU time, {run.fluid_particles} particles of water; "
+              f"{'; '.join(run.summary['warnings']) or 'no warning'}")
+
+
+def main(arguments):
+    if unknown := [guide for guide in arguments if guide not in GUIDES]:
+        print(f"{__doc__}\nno guide {', '.join(unknown)}", file=sys.stderr)
+        return 2
+    for guide in arguments or GUIDES:
+        walk(guide)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
