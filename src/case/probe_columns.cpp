@@ -23,6 +23,7 @@ constexpr std::array endings{
     Ending{"_N_per_m", "N/m", "N/m"},
     Ending{"_N_m", "N m", "N m"},
     Ending{"_m_per_s", "m/s", "m/s"},
+    Ending{"_Pa_s", "Pa s", "Pa s"},
     Ending{"_m_s", "m/s", "m/s"},
     Ending{"_m3", "m^3", "m^3 per m"},
     Ending{"_rad", "rad", "rad"},

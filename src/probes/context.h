@@ -141,6 +141,8 @@ struct Reading {
   /// goes on puts them back.
   std::shared_ptr<std::vector<double>> memory = {};
   bool memory_grows = false;  ///< else it always has as many numbers
+  /// It adds up over time: taken at every step, whatever interval is between the lines of its table.
+  bool adds_up = false;
   /// Its lines in the summary of the run, from its memory: name and value.
   std::function<std::vector<std::pair<std::string, double>>()> summary = {};
   /// Writes its map at `time` [s] as VTP, or beside `path` as CSV, from its memory. Throws IoError.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -43,15 +44,33 @@ Reading<Dim> volume_reading() {
           }};
 }
 
+/// A pressure with its impulse since the start. What a step has read at its end acts in all of it.
+template <int Dim>
+Reading<Dim> with_impulse(Reading<Dim> reading) {
+  reading.columns.emplace_back("impulse_Pa_s");
+  reading.memory = std::make_shared<std::vector<double>>(2, 0.0);
+  reading.take = [take = std::move(reading.take), memory = reading.memory](const ProbeContext<Dim>& context) {
+    std::vector<Row> rows = take(context);
+    double& last_time = memory->front();  // s
+    double& impulse = memory->back();     // Pa s
+    impulse += rows.front().front() * (context.time - last_time);
+    last_time = context.time;
+    rows.front().push_back(impulse);
+    return rows;
+  };
+  reading.adds_up = true;
+  return reading;
+}
+
 template <int Dim>
 Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   switch (probe.type) {
     case ProbeType::depth:
       return depth_reading(probe, spec, boundary);
     case ProbeType::wall_pressure:
-      return wall_pressure_reading(probe, spec, boundary);
+      return with_impulse<Dim>(wall_pressure_reading(probe, spec, boundary));
     case ProbeType::wall_pressure_mean:
-      return wall_pressure_mean_reading(probe, spec, boundary);
+      return with_impulse<Dim>(wall_pressure_mean_reading(probe, spec, boundary));
     case ProbeType::front:
       return front_reading<Dim>(probe);
     case ProbeType::profile:
@@ -186,7 +205,7 @@ bool ProbeSet<Dim>::Instrument::is_due(double time) const {
 template <int Dim>
 bool ProbeSet<Dim>::is_due(double time) const {
   return std::any_of(instruments_.begin(), instruments_.end(),
-                     [time](const Instrument& instrument) { return instrument.is_due(time); });
+                     [time](const Instrument& instrument) { return instrument.is_read(time); });
 }
 
 template <int Dim>
@@ -200,7 +219,7 @@ void ProbeSet<Dim>::Instrument::write(double time, const std::vector<Row>& rows)
 
 template <int Dim>
 void ProbeSet<Dim>::Instrument::count_as_taken(double time) {
-  if (probe.times.empty() && probe.interval == 0.0) return;  // due at every step
+  if (!is_due(time) || (probe.times.empty() && probe.interval == 0.0)) return;  // the latter is due at every step
   // A long step may pass many intervals. The quotient may be off by one, for round-off.
   if (probe.times.empty()) taken = std::max(taken, static_cast<std::size_t>(time / probe.interval));
   while (is_due(time)) ++taken;
@@ -209,11 +228,11 @@ void ProbeSet<Dim>::Instrument::count_as_taken(double time) {
 template <int Dim>
 void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   const Communicator& ranks = context.ranks;
-  std::vector<Instrument*> due;
+  std::vector<Instrument*> read;
   std::vector<Region<Dim>> regions;
   for (Instrument& instrument : instruments_) {
-    if (!instrument.is_due(context.time)) continue;
-    due.push_back(&instrument);
+    if (!instrument.is_read(context.time)) continue;
+    read.push_back(&instrument);
     if (instrument.probe.reading.region) regions.push_back(instrument.probe.reading.region(context.time));
   }
   GatheredParticles<Dim> gathered;
@@ -223,15 +242,17 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   near.plate_of = gathered.plate_of;
 
   std::vector<std::vector<Row>> rows;
-  for (const Instrument* instrument : due) {
+  for (const Instrument* instrument : read) {
     const Reading<Dim>& reading = instrument->probe.reading;
     const bool is_local = ranks.is_alone() || !reading.region;
     rows.push_back(is_local || ranks.is_root() ? reading.take(is_local ? context : near) : std::vector<Row>());
   }
   do_on_root(ranks, [&] {
-    for (std::size_t k = 0; k < due.size(); ++k) due[k]->write(context.time, rows[k]);
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      if (read[k]->is_due(context.time)) read[k]->write(context.time, rows[k]);
+    }
   });
-  for (Instrument* instrument : due) instrument->count_as_taken(context.time);
+  for (Instrument* instrument : read) instrument->count_as_taken(context.time);
 }
 
 template std::vector<Probe<2>> make_probes<2>(const CaseSpec&, const Boundary<2>&);

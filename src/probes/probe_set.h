@@ -63,10 +63,10 @@ class ProbeSet {
   /// Writes the maps of all probes that have one, at `time` [s]. Collective; throws IoError, on all ranks.
   void write_maps(const RunFolder& folder, double time, const Communicator& ranks) const;
 
-  /// Whether any probe is due at `time` [s].
+  /// Whether any probe is to be read at `time` [s].
   bool is_due(double time) const;
 
-  /// Appends to the files of all probes that are due. Collective; throws IoError, on all ranks.
+  /// Reads these, and appends to the files of all that are due. Collective; throws IoError, on all ranks.
   void record(const ProbeContext<Dim>& context);
 
  private:
@@ -76,6 +76,7 @@ class ProbeSet {
     std::size_t taken = 0;         ///< intervals or times that have passed
 
     bool is_due(double time) const;
+    bool is_read(double time) const { return probe.reading.adds_up || is_due(time); }
     void write(double time, const std::vector<Row>& rows);
     void count_as_taken(double time);
   };

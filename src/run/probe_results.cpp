@@ -18,7 +18,7 @@ namespace {
 constexpr const char* second_half = "mean of the second half";
 
 /// What is told of a column.
-enum class Tell { mean, largest, last, range, rate, least_of_last, largest_of_last };
+enum class Tell { mean, largest, last, range, rate, largest_rate, rise, least_of_last, largest_of_last };
 
 struct Rule {
   const char* name;
@@ -32,6 +32,11 @@ inline constexpr std::array depth{Rule{"depth", "", "connected_m", Tell::mean},
                                   Rule{"highest water", "highest", "highest_m", Tell::largest}};
 inline constexpr std::array pressure{Rule{"pressure", "", "pressure_Pa", Tell::mean},
                                      Rule{"largest pressure", "largest", "pressure_Pa", Tell::largest}};
+// From the impulse, so that no step between two lines is left out.
+inline constexpr std::array wall_pressure{Rule{"pressure", "", "impulse_Pa_s", Tell::rate},
+                                          Rule{"largest pressure", "largest", "impulse_Pa_s", Tell::largest_rate},
+                                          Rule{"rise", "risen in", "impulse_Pa_s", Tell::rise},
+                                          Rule{"impulse", "impulse", "impulse_Pa_s", Tell::last}};
 inline constexpr std::array front{Rule{"front", "", "front_connected_m", Tell::last}};
 inline constexpr std::array profile{Rule{"least depth", "depth from", "connected_m", Tell::least_of_last},
                                     Rule{"largest depth", "to", "connected_m", Tell::largest_of_last}};
@@ -70,6 +75,7 @@ std::span<const Rule> rules_of(ProbeType type) {
       return rules::depth;
     case ProbeType::wall_pressure:
     case ProbeType::wall_pressure_mean:
+      return rules::wall_pressure;
     case ProbeType::pressure:
       return rules::pressure;
     case ProbeType::front:
@@ -100,6 +106,12 @@ std::span<const Rule> rules_of(ProbeType type) {
   return rules::velocity_profile;
 }
 
+/// Of a unit like "Pa s" or "m^3 per m".
+std::string per_second(std::string unit) {
+  if (unit.ends_with(" s")) return unit.substr(0, unit.size() - 2);
+  return unit.insert(std::min(unit.find(' '), unit.size()), "/s");
+}
+
 Quantity quantity_of(const Rule& rule, const std::string& name, const ColumnDigest& column, const TableDigest& table,
                      int dimension) {
   Quantity quantity{.name = rule.name, .label = rule.label, .unit = unit_of_column(name, dimension), .what = ""};
@@ -111,9 +123,18 @@ Quantity quantity_of(const Rule& rule, const std::string& name, const ColumnDige
       break;
     case Tell::rate:
       quantity.value = column.rate_in_second_half();
-      quantity.unit += dimension == 2 ? "" : "/s";
-      if (dimension == 2) quantity.unit = "m^3/s per m";
+      quantity.unit = per_second(std::move(quantity.unit));
       quantity.what = second_half;
+      break;
+    case Tell::largest_rate:
+      quantity.value = column.largest_rate;
+      quantity.unit = per_second(std::move(quantity.unit));
+      quantity.what = fmt::format("at {:.4g} s", column.time_of_largest_rate);
+      break;
+    case Tell::rise:
+      quantity.value = column.rise;
+      quantity.unit = "s";
+      quantity.what = "from a tenth of it";
       break;
     case Tell::largest:
       quantity.value = column.largest;
@@ -176,8 +197,8 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
           std::ranges::find_if(table.names, [&](const std::string& n) { return n.starts_with(rule.column); });
       if (column == table.names.end()) continue;
       const ColumnDigest& digest = table.columns[static_cast<std::size_t>(column - table.names.begin())];
-      if (digest.count > 0)
-        result.quantities.push_back(quantity_of(rule, *column, digest, table, spec.general.dimension));
+      const bool is_told = digest.count > 0 && (rule.tell != Tell::rise || digest.rise > 0.0);
+      if (is_told) result.quantities.push_back(quantity_of(rule, *column, digest, table, spec.general.dimension));
     }
     if (!result.quantities.empty()) results.push_back(std::move(result));
   }

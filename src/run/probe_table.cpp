@@ -39,6 +39,7 @@ void ColumnDigest::add(double time, double value, double half) {
     time_of_largest = time;
   }
   const bool is_same_time = !is_first && time == last_time;
+  if (!is_first && time > last_time) add_rate(time, (value - last) / (time - last_time));
   least_of_last = is_same_time ? std::min(least_of_last, value) : value;
   largest_of_last = is_same_time ? std::max(largest_of_last, value) : value;
   if (time >= half && !has_begun_half_) {
@@ -52,6 +53,18 @@ void ColumnDigest::add(double time, double value, double half) {
   }
   last = value;
   last_time = time;
+}
+
+void ColumnDigest::add_rate(double time, double rate) {
+  constexpr double low = 0.1;
+  while (!rates_.empty() && rates_.back().value >= rate) rates_.pop_back();
+  if (rate > largest_rate) {
+    largest_rate = rate;
+    time_of_largest_rate = time;
+    const auto above = std::ranges::partition_point(rates_, [&](const Rate& one) { return one.value < low * rate; });
+    rise = above == rates_.begin() ? 0.0 : time - std::prev(above)->time;
+  }
+  rates_.push_back({time, rate});
 }
 
 double ColumnDigest::mean_of_second_half() const {

@@ -20,9 +20,12 @@ struct ColumnDigest {
   double largest = 0.0;
   double time_of_largest = 0.0;  ///< s
   double last = 0.0;
-  double last_time = 0.0;        ///< s
-  double least_of_last = 0.0;    ///< among the lines of the last time
-  double largest_of_last = 0.0;  ///< likewise
+  double last_time = 0.0;             ///< s
+  double least_of_last = 0.0;         ///< among the lines of the last time
+  double largest_of_last = 0.0;       ///< likewise
+  double largest_rate = 0.0;          ///< by which it grows per second from a line to the next
+  double time_of_largest_rate = 0.0;  ///< s; of the later one
+  double rise = 0.0;  ///< s; from the last line at which it was below a tenth of that; 0: it was at none
 
   void add(double time, double value, double half);
 
@@ -32,6 +35,13 @@ struct ColumnDigest {
   double rate_in_second_half() const;
 
  private:
+  void add_rate(double time, double rate);
+
+  struct Rate {
+    double time;
+    double value;
+  };
+  std::vector<Rate> rates_;  ///< ascending: each the last that was so small
   bool has_begun_half_ = false;
   double half_begin_ = 0.0;  ///< s
   double value_at_half_ = 0.0;

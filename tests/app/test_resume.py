@@ -71,7 +71,8 @@ class Resumed(ProgramTest):
         # Probes with an interval of their own and with times, beside those of every step.
         case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n'
                         '[[probe]]\nname = "force"\ntype = "force"\nmoment_about = [0, 0]\n'
-                        '[[probe]]\nname = "map"\ntype = "pressure-map"\ninterval = 0.01\n')
+                        '[[probe]]\nname = "map"\ntype = "pressure-map"\ninterval = 0.01\n'
+                        '[[probe]]\nname = "push"\ntype = "wall-pressure"\nat = [0.3, 0]\ninterval = 0.03\n')
 
     def run_case(self, run, *arguments, **options):
         return self.call("run", "small.toml", "--out", run, "--quiet", "--set", "particles.jitter=0.1", *FIELDS,
@@ -254,7 +255,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 13", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 14", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")

@@ -51,8 +51,8 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   probes.record(context);
 
   const std::vector<std::pair<std::string, std::string>> headers{{"depth", "time_s,connected_m,highest_m,wet_m"},
-                                                                 {"wall", "time_s,pressure_Pa"},
-                                                                 {"mean", "time_s,pressure_Pa,wet_share"},
+                                                                 {"wall", "time_s,pressure_Pa,impulse_Pa_s"},
+                                                                 {"mean", "time_s,pressure_Pa,wet_share,impulse_Pa_s"},
                                                                  {"front", "time_s,front_m,front_connected_m"},
                                                                  {"p", "time_s,pressure_Pa,wet"},
                                                                  {"u", "time_s,u_m_s,v_m_s,wet"}};
@@ -107,6 +107,42 @@ TEST(ProbeSet, IsDueOnlyWhenAProbeIs) {
   EXPECT_TRUE(probes.is_due(0.6));
   probes.record(tank.context(0.6));
   EXPECT_FALSE(probes.is_due(0.7));
+}
+
+// A pressure that lasts for one step, between two lines of a table, is in its impulse.
+TEST(ProbeSet, ImpulsesHaveTheStepsBetweenTwoLines) {
+  using T = Tank<2>;
+  T tank = T::filled(0.5);
+  ProbeTable each = named("each", probe_at(ProbeType::wall_pressure, {1.0, 0.1}));
+  ProbeTable spaced = named("spaced", probe_along(ProbeType::wall_pressure_mean, {1.0, 0.05}, {1.0, 0.15}));
+  spaced.interval = 0.5;
+  tank.spec.probes = {each, spaced};
+  const TemporaryFolder temporary;
+  const RunFolder folder = RunFolder::create(temporary.path(), false);
+  ProbeSet<2> probes(make_probes<2>(tank.spec, tank.boundary), folder);
+  const double calm = T::rho * T::g * 0.4;
+  const double blow = 7000.0;
+  for (const double time : {0.0, 0.125, 0.25, 0.5, 0.625}) {
+    T now = tank;
+    if (time == 0.25) {
+      for (double& pressure : now.particles.pressure) pressure += blow;
+    }
+    EXPECT_TRUE(probes.is_due(time));
+    probes.record(now.context(time));
+  }
+  const auto impulses = [&](const std::string& name) {
+    std::vector<double> last;
+    const Lines lines = lines_of(folder.probe(name));
+    for (std::size_t k = 1; k < lines.size(); ++k) last.push_back(std::stod(lines[k].substr(lines[k].rfind(',') + 1)));
+    return last;
+  };
+  const double at_half = 0.5 * calm + 0.125 * blow;
+  const std::vector<double> of_each{0.0, 0.125 * calm, 0.25 * calm + 0.125 * blow, at_half, at_half + 0.125 * calm};
+  const double rounding = 1e-12 * at_half;
+  ASSERT_EQ(impulses("each").size(), of_each.size());
+  for (std::size_t k = 0; k < of_each.size(); ++k) EXPECT_NEAR(impulses("each")[k], of_each[k], rounding) << k;
+  ASSERT_EQ(impulses("spaced").size(), 2u);
+  EXPECT_NEAR(impulses("spaced")[1], at_half, rounding);
 }
 
 TEST(ProbeSet, RefusesProbesThatCannotMeasure) {

@@ -213,7 +213,7 @@ class Runs(PackageTest):
 class Tables(PackageTest):
     def test_units_by_name(self):
         for name, unit in (("time_s", "s"), ("discharge_m3_per_s", "m^3/s"), ("moment_N_m_per_m", "N m/m"),
-                           ("step", ""), ("pressure_Pa", "Pa"), ("divergence_old_per_s", "1/s"), ("s", "")):
+                           ("step", ""), ("pressure_Pa", "Pa"), ("impulse_Pa_s", "Pa s"), ("divergence_old_per_s", "1/s"), ("s", "")):
             self.assertEqual(tables.unit_of(name), unit, name)
 
     def test_table_of_others_has_provenance_lines(self):

@@ -85,8 +85,15 @@ TEST_F(Results, AreToldInWords) {
   EXPECT_EQ(words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
                   "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
             "0.05000 m^3/s per m (mean of the second half), largest 0.06000 m^3/s per m (at 1 s)");
-  EXPECT_EQ(words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa\n0,0\n1,12345\n", 1.0, 3),
-            "9259 Pa (mean of the second half), largest 12345 Pa (at 1 s)");
+  // From the impulse alone: what the pressure was at the lines themselves is not told.
+  EXPECT_EQ(
+      words("\"wall-pressure\"\nat = [0, 0, 0]",
+            "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
+      "950.0 Pa (mean of the second half), largest 12000 Pa (at 2 s), risen in 0.5000 s (from a tenth of it), "
+      "impulse 7950 Pa s (at 4 s)");
+  EXPECT_EQ(
+      words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,12,12\n2,9,21\n", 2.0, 3),
+      "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s), impulse 21.00 Pa s (at 2 s)");
   EXPECT_EQ(words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n", 2.0), "");
 }
 

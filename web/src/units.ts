@@ -25,7 +25,7 @@ const units: Record<string, string> = {
 /** Ends of names that hold a unit, longest first. */
 const ends: [string, string][] = [
   ["_m3_per_s_per_m", "m³/s/m"], ["_m3_per_s", "m³/s"], ["_m2_per_s", "m²/s"], ["_m_per_s2", "m/s²"], ["_m_per_s", "m/s"],
-  ["_rad_per_s", "rad/s"], ["_kg_per_s", "kg/s"], ["_kg_per_m3", "kg/m³"], ["_N_per_m", "N/m"], ["_N_m_per_m", "N m/m"], ["_N_m", "N m"], ["_per_s", "1/s"],
+  ["_rad_per_s", "rad/s"], ["_kg_per_s", "kg/s"], ["_kg_per_m3", "kg/m³"], ["_N_per_m", "N/m"], ["_N_m_per_m", "N m/m"], ["_N_m", "N m"], ["_Pa_s", "Pa s"], ["_per_s", "1/s"],
   ...Object.entries(units).map(([end, unit]): [string, string] => [`_${end}`, unit]),
 ];
 

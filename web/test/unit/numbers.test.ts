@@ -20,6 +20,7 @@ test("names of columns end with their unit", () => {
   assert.deepEqual(split("discharge_m3_per_s"), { label: "discharge", unit: "m³/s" });
   assert.deepEqual(split("moment_N_m_per_m"), { label: "moment", unit: "N m/m" });
   assert.deepEqual(split("largest_Pa"), { label: "largest", unit: "Pa" });
+  assert.deepEqual(split("impulse_Pa_s"), { label: "impulse", unit: "Pa s" });
   assert.deepEqual(split("wet_share"), { label: "wet share", unit: "" });
 });
 
