@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 import synthetic_run
+from tailwater.curves import Curve
 from tailwater.errors import DataError
 from tailwater.run import Run
 from tailwater.tables import read_table
@@ -41,7 +42,9 @@ def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
     for sensor in (*kleefsman2005.SENSORS, *TOP_SENSORS):
         curve = kleefsman2005.laboratory(sensor).window(0, end + 0.01)
         pressure = np.where(curve.time > kleefsman2005.NOT_BEFORE, factor * curve.value, 0)
-        synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure})
+        impulse = kleefsman2005.impulses(Curve(curve.time, pressure)).value
+        synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure,
+                                                   "impulse_Pa_s": impulse})
     return folder
 
 
@@ -96,6 +99,16 @@ class Scores(synthetic_run.CaseTest):
         self.assertAlmostEqual(metrics["largest P1"].value, 12.0, places=6)
         self.assertEqual(metrics["largest P1"].verdict, "met")
 
+    def test_largest_pressures_are_means(self):
+        for sensor in kleefsman2005.SENSORS:
+            curve = kleefsman2005.laboratory(sensor)
+            highest = curve.window(*kleefsman2005.IMPACT).value.max()
+            self.assertLess(kleefsman2005.largest(kleefsman2005.impulses(curve)), highest)
+        # A spike a tenth as long counts a tenth.
+        time = np.linspace(0.3, 1.1, 8001)
+        spike = Curve(time, 1e4 * ((time > 0.5) & (time <= 0.503)))
+        self.assertAlmostEqual(kleefsman2005.largest(kleefsman2005.impulses(spike)), 1e3, places=6)
+
     def test_a_late_arrival_is_found(self):
         self.assertAlmostEqual(self.score(late=0.02)["arrival P2"].value, 0.02, places=9)
 
@@ -110,7 +123,7 @@ class Scores(synthetic_run.CaseTest):
         self.assertIsNone(metrics["arrival P1"].value)
         self.assertIn("never exceeds", metrics["arrival P1"].note)
         with self.assertRaises(DataError):
-            kleefsman2005.over_impact(kleefsman2005.laboratory("P1").window(0, 0.9))
+            kleefsman2005.of_impact(kleefsman2005.laboratory("P1").window(0, 0.9))
 
     def test_drawn(self):
         write_run(self.folder)
