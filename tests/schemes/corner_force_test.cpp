@@ -169,5 +169,47 @@ TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   EXPECT_NEAR(means[0][2], across * slope, 0.02 * scale);
 }
 
+/// A block in the middle of a tank full of water: its faces meet in edges and in corners of three. Of a uniform
+/// pressure each has its area's share, but for the quadrature of the kernel and the indifference of a patch, 0.1 %
+/// each.
+TEST(Block, EachFaceHasItsShareOfAUniformPressure) {
+  const double dx = 0.04;
+  const double p = 3000.0;
+  const double low = 0.28;
+  const double high = 0.52;
+  CaseSpec spec = tank_case<3>(dx, 0.8, 0.8);
+  WallTable block;
+  block.name = "block";
+  block.shape = WallShape::box;
+  block.min = {low, low, low};
+  block.max = {high, high, high};
+  block.fluid_side = FluidSide::outside;
+  spec.walls.push_back(block);
+  spec.fluid[0] = FluidTable{};
+  spec.fluid[0].shape = BlockShape::fill;
+  spec.fluid[0].seed = {0.1, 0.1, 0.1};
+  spec.fluid[0].level = 0.8;
+  spec.probes.clear();
+  std::vector<Vec<3>> expected;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool is_low : {true, false}) {
+      ProbeTable probe = force_probe({0.0, 0.0, 0.0}, {"block"});
+      probe.region_min = {low, low, low};
+      probe.region_max = {high, high, high};
+      (is_low ? probe.region_max : probe.region_min)[axis] = is_low ? low : high;
+      spec.probes.push_back(probe);
+      expected.push_back((is_low ? p : -p) * (high - low) * (high - low) * Vec<3>::Unit(axis));
+    }
+  }
+  Flow<3> flow = make_flow<3>(spec);
+  locate(flow);
+  flow.wall_forces.reset(flow.state.particles.owned);
+  add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const Vec<3> force = Reader<3>(spec, flow, k).force();
+    EXPECT_LT((force - expected[k]).norm(), 0.002 * expected[k].norm()) << k << ": " << force.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace tailwater
