@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
@@ -36,11 +37,19 @@ def header(kind, name):
 
 class Case:
     """The parts of a case that all dam breaks share. A subclass has `size` and `column` (length, height, m), `end` (s),
-    `gauges` (names of probes: field and places), and what `scores` needs of a run: `curve` and `spacing`."""
+    `gauges` (names of probes: field and places), and what `scores` needs of a run: `curve` and `spacing`. `measured_in`:
+    other files of the laboratory than our case names."""
+
+    measured_in = {}
 
     def __init__(self, options):
         self.options = options
-        self.folder = options.out
+        self.folder = self.path = options.out
+        ours = ROOT / "cases" / options.case
+        self.case = tomllib.loads((ours / "case.toml").read_text())
+        for table in self.case["measurement"]:
+            table["file"] = ours / self.measured_in.get(table["file"], table["file"])
+            table.setdefault("column", "")
         self.cells = tuple(round(length / options.dx) for length in self.size)
         self.spacing = self.size[0] / self.cells[0]
 
@@ -214,8 +223,8 @@ class Zhou(Case):
 
     def scores(self):
         yield from zhou1999.impact(self)
-        for reading in zhou1999.DIGITISATIONS:
-            yield from zhou1999.distances(self, (reading,))
+        for reading in zhou1999.laboratory(self, "P2"):
+            yield from zhou1999.distances(self, reading)
         late = zhou1999.pressure(self, zhou1999.READ_AT).window(*self.second_impact_within)
         if late.time.size:
             yield Metric("second_impact", "second impact, z = 0.12 m", "T", "about 5.9",
@@ -231,6 +240,10 @@ class MartinMoyce(Case):
         self.column = self.a, options.n2 * self.a
         self.size = 15 * self.a, 1.5 * self.column[1]
         self.end = 0.5
+        if options.n2 == 2:
+            self.measured_in = {"data/front_n2_1_a2.25in.csv": "data/front_n2_2_a2.25in_table2.csv",
+                                "data/height_n2_1_a2.25in.csv": "data/height_n2_2_a2.25in_table6.csv",
+                                "data/front_n2_1_trixiparticles.csv": "data/front_n2_2_a2.25in_openmps.csv"}
         super().__init__(options)
 
     def gauges(self):

@@ -7,6 +7,7 @@ PYTHONPATH=validation:python /usr/bin/python3 tests/validation/synthetic_run.py 
 import json
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from tailwater.run import Run
 from tailwater_validation.studies import zhou1999
 
+CASES = Path(__file__).resolve().parents[2] / "cases"
 SAMPLING = 0.001  # s
 ARRIVAL = 0.59  # s: before the window in which noise is scored
 SAWTOOTH = 0.03  # of rho g H, over four samples: -1, -1/3, 1/3, 1 times this
@@ -114,6 +116,13 @@ def write_frames_3d(folder, frames):
     write_series(folder, "walls", [0.0])
 
 
+def measurements(case):
+    """The `[[measurement]]`s of cases/CASE, as a run writes them."""
+    tables = tomllib.loads((CASES / case / "case.toml").read_text())["measurement"]
+    return "".join(f'[[measurement]]\nprobe = "{table["probe"]}"\ncolumn = "{table.get("column", "")}"\n'
+                   f'file = "{CASES / case / table["file"]}"\n' for table in tables)
+
+
 def make_folder(folder, effective_case):
     """An empty run folder of a case."""
     folder = Path(folder)
@@ -151,12 +160,14 @@ class CaseTest(unittest.TestCase):
 def write_run(folder, spacing=0.04, end=8.0, delay=0.0, depth_error=0.0):
     """A run until T = `end`. Depths and P2 are the openmps digitisation, `delay` (of T) later, depths `depth_error`
     (of H) too high; the pressure at every point is a step at ARRIVAL and a sawtooth on it."""
-    folder = make_folder(folder, EFFECTIVE_CASE.format(spacing=spacing, end=8 * zhou1999.TIME_SCALE))
+    folder = make_folder(folder, EFFECTIVE_CASE.format(spacing=spacing, end=8 * zhou1999.TIME_SCALE)
+                         + measurements("zhou1999"))
+    run = Run(folder)
     regular = np.arange(0, end * zhou1999.TIME_SCALE + 1e-9, SAMPLING)
 
     def measured(quantity):
         """(time in s, value): sampled also at the laboratory's own times, so that nothing is lost between samples."""
-        curve = zhou1999.laboratory(quantity, "openmps")
+        curve = zhou1999.laboratory(run, quantity)["openmps"]
         knots = curve.time + delay
         T = np.union1d(regular / zhou1999.TIME_SCALE, knots[(knots >= 0) & (knots <= end)])
         return T * zhou1999.TIME_SCALE, np.interp(T - delay, curve.time, curve.value)

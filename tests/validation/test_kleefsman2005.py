@@ -13,7 +13,8 @@ from tailwater.tables import read_table
 from tailwater_validation.studies import kleefsman2005
 
 TOP_SENSORS = ("P5", "P6", "P7", "P8")
-CASE = kleefsman2005.DATA.parents[1] / "case.toml"
+CASE = synthetic_run.CASES / "kleefsman2005"
+DATA = CASE / "data" / "kleefsman2005.csv"
 
 EFFECTIVE_CASE = """\
 [case]
@@ -34,13 +35,14 @@ integrator = "explicit"
 def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
     """Repeats the laboratory's curves: heights `too_high` (m), pressures `late` (s) and `factor` times as large after the
     impact. Before it a run's sensors are dry."""
-    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(end=end))
+    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(end=end) + synthetic_run.measurements("kleefsman2005"))
+    run = Run(folder)
     for gauge in kleefsman2005.GAUGES:
-        curve = kleefsman2005.laboratory(gauge).window(0, end + 0.01)
+        curve = kleefsman2005.laboratory(run, gauge).window(0, end + 0.01)
         synthetic_run.write_probe(folder, gauge, {"time_s": curve.time, "connected_m": curve.value + too_high,
                                                   "highest_m": curve.value + too_high + 0.01})
     for sensor in (*kleefsman2005.SENSORS, *TOP_SENSORS):
-        curve = kleefsman2005.laboratory(sensor).window(0, end + 0.01)
+        curve = kleefsman2005.laboratory(run, sensor).window(0, end + 0.01)
         pressure = np.where(curve.time > kleefsman2005.NOT_BEFORE, factor * curve.value, 0)
         impulse = kleefsman2005.impulses(Curve(curve.time, pressure)).value
         synthetic_run.write_probe(folder, sensor, {"time_s": curve.time + late, "pressure_Pa": pressure,
@@ -48,26 +50,27 @@ def write_run(folder, end=6.0, too_high=0.0, late=0.0, factor=1.0):
     return folder
 
 
-class Data(unittest.TestCase):
+class Data(synthetic_run.CaseTest):
     def test_the_file_says_where_it_comes_from(self):
-        text = kleefsman2005.DATA.read_text()
+        text = DATA.read_text()
         for word in ("# WHAT:", "# PAPER:", "# SOURCE:", "# CAVEATS:"):
             self.assertIn(word, text)
 
     def test_curves_span_what_is_scored(self):
+        run = Run(write_run(self.folder))
         for name in (*kleefsman2005.GAUGES, *kleefsman2005.SENSORS, *TOP_SENSORS):
-            curve = kleefsman2005.laboratory(name)
+            curve = kleefsman2005.laboratory(run, name)
             self.assertLess(curve.time[0], 0.01)
             self.assertGreater(curve.time[-1], kleefsman2005.END)
 
     def test_heights_are_named_by_who_gets_wet_first(self):
-        table = read_table(kleefsman2005.DATA)
+        table = read_table(DATA)
         wet = [table["time_s"][np.argmax(table[f"{gauge}_m"] > 0.05)] for gauge in ("H3", "H2", "H1")]
         self.assertEqual(wet, sorted(wet))
         self.assertAlmostEqual(table["H4_m"][:20].mean(), kleefsman2005.DEPTH, delta=0.01)
 
     def test_the_case_has_the_probes_that_are_scored(self):
-        with open(CASE, "rb") as file:
+        with open(CASE / "case.toml", "rb") as file:
             case = tomllib.load(file)
         probes = {probe["name"]: probe for probe in case["probe"]}
         for gauge in kleefsman2005.GAUGES:
@@ -100,8 +103,9 @@ class Scores(synthetic_run.CaseTest):
         self.assertEqual(metrics["largest P1"].verdict, "met")
 
     def test_largest_pressures_are_means(self):
+        run = Run(write_run(self.folder))
         for sensor in kleefsman2005.SENSORS:
-            curve = kleefsman2005.laboratory(sensor)
+            curve = kleefsman2005.laboratory(run, sensor)
             highest = curve.window(*kleefsman2005.IMPACT).value.max()
             self.assertLess(kleefsman2005.largest(kleefsman2005.impulses(curve)), highest)
         # A spike a tenth as long counts a tenth.
@@ -123,7 +127,7 @@ class Scores(synthetic_run.CaseTest):
         self.assertIsNone(metrics["arrival P1"].value)
         self.assertIn("never exceeds", metrics["arrival P1"].note)
         with self.assertRaises(DataError):
-            kleefsman2005.of_impact(kleefsman2005.laboratory("P1").window(0, 0.9))
+            kleefsman2005.of_impact(kleefsman2005.laboratory(Run(self.folder), "P1").window(0, 0.9))
 
     def test_drawn(self):
         write_run(self.folder)

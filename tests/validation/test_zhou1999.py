@@ -22,22 +22,36 @@ from tailwater_validation import score
 from tailwater_validation.curves import rms_difference
 from tailwater_validation.studies import zhou1999
 
-CASE = zhou1999.DATA.parent
+CASE = synthetic_run.CASES / "zhou1999"
+DATA = CASE / "data"
 
 
-class Data(unittest.TestCase):
-    FILES = [(quantity, digitisation) for quantity in ("H1", "H2", "P2") for digitisation in zhou1999.DIGITISATIONS]
+class RunTest(unittest.TestCase):
+    def write_run(self, **options):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        run = Path(parent.name) / "run"
+        synthetic_run.write_run(run, **options)
+        return run
+
+    def score(self, **options):
+        return {metric.name: metric for metric in zhou1999.metrics(Run(self.write_run(**options)))}
+
+
+class Data(RunTest):
+    FILES = [(quantity, digitisation) for quantity in ("H1", "H2", "P2") for digitisation in ("openmps", "fluidity")]
 
     def test_every_file_says_where_it_comes_from(self):
-        self.assertEqual(len(list(zhou1999.DATA.iterdir())), len(self.FILES))
-        for path in zhou1999.DATA.iterdir():
+        self.assertEqual(len(list(DATA.iterdir())), len(self.FILES))
+        for path in DATA.iterdir():
             text = path.read_text()
             for word in ("# WHAT:", "# PAPER:", "# SOURCE:", "# CAVEATS:", "# ADDED:"):
                 self.assertIn(word, text, path)
 
     def test_curves_span_what_is_scored(self):
+        run = Run(self.write_run(spacing=0.1, end=1.0))
         for quantity, digitisation in self.FILES:
-            curve = zhou1999.laboratory(quantity, digitisation)
+            curve = zhou1999.laboratory(run, quantity)[digitisation]
             start, end = zhou1999.PRESSURE_WINDOW if quantity == "P2" else (0, 8)
             self.assertLessEqual(curve.time[0], start)
             self.assertGreaterEqual(curve.time[-1], end + zhou1999.TIME_UNCERTAINTY)
@@ -45,9 +59,9 @@ class Data(unittest.TestCase):
 
     def test_scaled_columns_follow_from_the_raw_ones(self):
         for quantity, digitisation in self.FILES:
-            table = read_table(zhou1999.DATA / f"zhou1999_{quantity}_{digitisation}.csv")
-            seconds = table["t_rel_s" if digitisation == "openmps" else "t_s"]
-            raw = table[next(name for name in table if name.startswith(("h_raw", "p_raw", "value")))]
+            table = read_table(DATA / f"zhou1999_{quantity}_{digitisation}.csv")
+            seconds = table["t_s"]
+            raw = table[next(name for name in table if name.startswith("value"))]
             scale = zhou1999.PRESSURE_SCALE if quantity == "P2" else zhou1999.H
             scaled = table["p_over_rhogH" if quantity == "P2" else "h_over_H"]
             # The added columns carry six digits; the seconds they were made from as well.
@@ -64,22 +78,10 @@ class Data(unittest.TestCase):
         self.assertNotIn("interval", [key for probe in case["probe"] for key in probe])  # noise needs every step
 
 
-class RunTest(unittest.TestCase):
-    def write_run(self, **options):
-        parent = tempfile.TemporaryDirectory()
-        self.addCleanup(parent.cleanup)
-        run = Path(parent.name) / "run"
-        synthetic_run.write_run(run, **options)
-        return run
-
-    def score(self, **options):
-        return {metric.name: metric for metric in zhou1999.metrics(Run(self.write_run(**options)))}
-
-
 class Scores(RunTest):
     def distance(self, probe, window, **options):
         """From the reading that the run repeats."""
-        return zhou1999.distance(Run(self.write_run(**options)), probe, window, readings=("openmps",))
+        return zhou1999.distance(Run(self.write_run(**options)), probe, window, reading="openmps")
 
     def test_a_run_that_is_late_by_a_known_time(self):
         for probe, window in (("P2", zhou1999.PRESSURE_WINDOW), ("H1", (0.0, 8.0)), ("H2", (0.0, 6.0))):
@@ -97,12 +99,13 @@ class Scores(RunTest):
     def test_a_distance_is_the_mean_of_both_readings(self):
         run = Run(self.write_run(depth_error=0.04))
         for field, value in zhou1999.distance(run, "H1", (0.0, 6.0)).items():
-            apart = [zhou1999.distance(run, "H1", (0.0, 6.0), readings=(name,))[field] for name in zhou1999.DIGITISATIONS]
+            apart = [zhou1999.distance(run, "H1", (0.0, 6.0), reading=name)[field] for name in ("openmps", "fluidity")]
             self.assertAlmostEqual(value, np.mean(apart), places=12)
 
     def test_the_readings_differ_by_what_the_case_calls_their_scatter(self):
+        run = Run(self.write_run(spacing=0.1, end=1.0))
         for quantity, window, told in (("P2", zhou1999.PRESSURE_WINDOW, 0.04), ("H1", (0, 8), 0.025), ("H2", (0, 8), 0.02)):
-            one, other = (zhou1999.laboratory(quantity, name) for name in zhou1999.DIGITISATIONS)
+            one, other = zhou1999.laboratory(run, quantity).values()
             self.assertAlmostEqual(rms_difference(one, other, *window, zhou1999.GRID), told, delta=0.1 * told, msg=quantity)
 
     def test_arrival_and_noise_of_a_step_with_a_sawtooth(self):
@@ -119,9 +122,9 @@ class Scores(RunTest):
         self.assertLessEqual(metrics["arrival_front"].value, exact + synthetic_run.SAMPLING)
 
     def test_first_peak_is_that_of_the_laboratory_when_the_run_repeats_it(self):
-        measured = zhou1999.laboratory("P2", "openmps")
-        impact = measured.window(2.4, 3.0)
-        metrics = self.score()
+        run = Run(self.write_run())
+        impact = zhou1999.laboratory(run, "P2")["openmps"].window(2.4, 3.0)
+        metrics = {metric.name: metric for metric in zhou1999.metrics(run)}
         self.assertAlmostEqual(metrics["peak_P2"].value, impact.value.max(), places=9)
         self.assertAlmostEqual(metrics["peak_time_P2"].value, impact.time[impact.value.argmax()], places=9)
 

@@ -4,21 +4,19 @@ Times in s, heights over the water's depth at the start, pressures in Pa.
 """
 
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from tailwater.curves import Curve, read_curve
+from tailwater.curves import Curve
 from tailwater.errors import DataError
 
 from .. import panels
 from ..curves import arrival_time, differences
 from ..metric import Metric, measure
 from ..reading import summary
-from .laboratory import laboratory_study
+from .laboratory import laboratory_study, measured_curves
 
 NAME = "kleefsman2005"
-DATA = Path(__file__).resolve().parents[3] / "cases" / NAME / "data" / "kleefsman2005.csv"
 DEPTH = 0.55  # m
 END = 6.0  # s
 GRID = 0.01  # s, between the instants at which heights are compared
@@ -39,9 +37,10 @@ ARRIVAL_BAR, PEAK_BAR, IMPULSE_BAR = 0.01, 15.0, 10.0  # s, percent, percent
 RISE_BAR, DENSITY_BAR = 1e-4, 0.01  # of the energy at the start; rms
 
 
-def laboratory(name):
+def laboratory(run, name):
     """Measured height (m) or pressure (Pa), as a curve over s."""
-    return read_curve(DATA, f"{name}_m" if name in GAUGES else f"{name}_Pa")
+    curve, = measured_curves(run, name).values()
+    return curve
 
 
 def computed(run, name, column="connected_m"):
@@ -50,7 +49,7 @@ def computed(run, name, column="connected_m"):
 
 def mean_error(run, gauge, end, column="connected_m"):
     """Mean distance of the heights until `end` (s), percent of the depth."""
-    return 100 * float(np.abs(differences(laboratory(gauge), computed(run, gauge, column), 0, end, GRID)).mean()) / DEPTH
+    return 100 * float(np.abs(differences(laboratory(run, gauge), computed(run, gauge, column), 0, end, GRID)).mean()) / DEPTH
 
 
 def arrival(curve):
@@ -87,7 +86,7 @@ def of_impact(impulse):
 
 def excess(read, run, sensor):
     """By how much what is read of the computed impulse is more than of the measured one, percent."""
-    return 100 * (read(run.curve(sensor, "impulse_Pa_s")) / read(impulses(laboratory(sensor))) - 1)
+    return 100 * (read(run.curve(sensor, "impulse_Pa_s")) / read(impulses(laboratory(run, sensor))) - 1)
 
 
 def end_of(run):
@@ -108,7 +107,7 @@ def of_heights(run):
 
 
 def of_sensor(run, sensor, height):
-    measured = laboratory(sensor)
+    measured = laboratory(run, sensor)
     return [
         measure(Metric(f"arrival {sensor}", f"arrival at {sensor}, z = {height:g} m, later than measured", "s",
                        f"laboratory: {arrival(measured):.3f}", -ARRIVAL_BAR, ARRIVAL_BAR),
@@ -139,7 +138,7 @@ def metrics(run):
 def draw(run):
     """Pressures around the impact, heights to the end; a spike of a few steps must not squeeze the curves."""
     def beside(sensor, curves, title, unit, window, limits):
-        measured = laboratory(sensor).window(*window)
+        measured = laboratory(run, sensor).window(*window)
         return panels.panel(title, "t (s)", unit, (panels.over_time("laboratory", measured, "measured"), *(
             panels.over_time(label, curve.window(*window), kind) for label, curve, kind in curves)),
             limits=limits or (-0.05 * measured.value.max(), 1.3 * measured.value.max()))

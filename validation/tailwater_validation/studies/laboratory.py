@@ -1,12 +1,32 @@
 """What the studies of laboratories share."""
 
 from functools import partial
+from pathlib import Path
+
+from tailwater.curves import Curve
+from tailwater.errors import DataError
+from tailwater.tables import read_table, without_unit
 
 from .. import panels
 from ..reading import scored
 from ..study import LABORATORY, AllChecks, Plot, Study
 
 ALWAYS = ("The laboratory's gate, friction of side walls and surface tension are not included in these uncertainties.")
+
+
+def measured_tables(run, probe):
+    """{name of the file: {quantity: values}}, in SI units, of what the case's `[[measurement]]`s compare a probe with. Throws
+    DataError if there is nothing."""
+    paths = [Path(table["file"]) for table in run.case.get("measurement", []) if table["probe"] == probe]
+    if not paths:
+        raise DataError(f"{run.path}: its case has no [[measurement]] of {probe}")
+    return {path.stem: {without_unit(name): values for name, values in read_table(path).items()} for path in paths}
+
+
+def measured_curves(run, probe, column="value"):
+    """{name of the file: Curve over s} of a quantity, which the file calls as the probe or as `column`. Throws DataError."""
+    return {name: Curve.from_samples(table["t" if "t" in table else "time"], table[probe if probe in table else column], name)
+            for name, table in measured_tables(run, probe).items()}
 
 
 def case_run(plan, name, length, count, seconds, integrator=None, variant="", settings=()):

@@ -1,24 +1,20 @@
 """Collapse of a column on a dry bed: cases/martin_moyce1952 (its README says what was measured).
 
 Front x/a over T = t sqrt(n2 g/a), height of the column over n2 a, over tau = t sqrt(g/a); a is the width of the column
-and n2 its height over a. The data are for n2 = 1 and 2; the run's parameters say which one it is.
+and n2 its height over a. The run's parameters say which column it is.
 """
 
-from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
-from tailwater.curves import read_curve
 from tailwater.errors import DataError
 
 from .. import panels
 from ..curves import compare, passage_time, rms_difference
 from ..metric import Metric, measure
-from .laboratory import case_run, laboratory_study
+from .laboratory import case_run, laboratory_study, measured_curves
 
 NAME = "martin_moyce1952"
 GRAVITY = 9.81
-DATA = Path(__file__).resolve().parents[3] / "cases" / NAME / "data"
 
 GRID = 0.01  # of T and tau
 TIME_UNCERTAINTY = 0.2  # of T: how long the release takes (the case's README)
@@ -27,55 +23,49 @@ HEIGHT_TARGET = 0.03  # of n2 a
 SPEED_BETWEEN = (2.0, 4.0)  # x/a
 
 
-@dataclass(frozen=True)
-class Series:
-    """One published set of fronts: who read it, for which n2; of a column 2.25 in wide if its file does not say otherwise."""
-
-    file: str
-    label: str
-    n2: int
-
-
-FRONTS = (
-    Series("front_n2_1_a2.25in.csv", "table", 1),
-    Series("front_n2_1_trixiparticles.csv", "TrixiParticles", 1),
-    Series("front_n2_2_a2.25in_table2.csv", "table", 2),
-    Series("front_n2_2_a2.25in_openmps.csv", "OpenMPS", 2),
-    Series("front_n2_2_a2.25in_fig3_pysph.csv", "PySPH", 2),
-    Series("front_n2_2_a1.125in_openmps.csv", "a = 1.125 in, OpenMPS", 2),
-    Series("front_n2_2_a1.125in_fig3_pysph.csv", "a = 1.125 in, PySPH", 2),
-)
-HEIGHTS = {1: "height_n2_1_a2.25in.csv", 2: "height_n2_2_a2.25in_table6.csv"}
-
-
 def n2_of(run):
-    """Height over width of the run's column. Throws DataError if there are no data for it."""
-    n2 = run.parameters.get("n2")
-    if n2 not in HEIGHTS:
-        raise DataError(f"{run.path}: there are data for parameters.n2 = 1 and 2, not {n2}")
-    return int(n2)
+    """Height over width of the run's column. Throws DataError if what it is compared with was measured on another."""
+    n2 = run.parameters["n2"]
+    for name in measured_curves(run, "front"):
+        if f"_n2_{n2:g}_" not in name:
+            raise DataError(f"{run.path}: parameters.n2 = {n2:g}, but {name} was measured on another column; remedy: give each "
+                            "[[measurement]] a file of this one")
+    return n2
 
 
-def fronts(n2):
-    """{label: front x/a over T} of the published series for this n2, the table first."""
-    return {series.label: read_curve(DATA / series.file, "Z", time_column="tstar") for series in FRONTS if series.n2 == n2}
+def fronts(run):
+    """{label: measured front x/a over T} of the published series, the table first, the others by who read them."""
+    curves = measured_curves(run, "front")
+    labels = ["table", *(name.rpartition("_")[2] for name in list(curves)[1:])]
+    return {label: scaled(run, curve) for label, curve in zip(labels, curves.values())}
 
 
-def laboratory_height(n2):
+def laboratory_height(run):
     """Measured height over n2 a, over tau."""
-    return read_curve(DATA / HEIGHTS[n2], "H", time_column="tau")
+    curve, = measured_curves(run, "height").values()
+    return of_height(run, curve)
+
+
+def scaled(run, curve):
+    """A front (m) over a, over T."""
+    a = run.parameters["a"]
+    return curve.scaled((n2_of(run) * GRAVITY / a) ** 0.5, 1 / a)
+
+
+def of_height(run, curve):
+    """A height (m) over n2 a, over tau."""
+    a = run.parameters["a"]
+    return curve.scaled((GRAVITY / a) ** 0.5, 1 / (n2_of(run) * a))
 
 
 def front(run, column="front_m"):
     """Computed front x/a over T."""
-    a = run.parameters["a"]
-    return run.curve("front", column).scaled((n2_of(run) * GRAVITY / a) ** 0.5, 1 / a)
+    return scaled(run, run.curve("front", column))
 
 
 def height(run):
     """Computed height over n2 a, over tau."""
-    a = run.parameters["a"]
-    return run.curve("height", "connected_m").scaled((GRAVITY / a) ** 0.5, 1 / (n2_of(run) * a))
+    return of_height(run, run.curve("height", "connected_m"))
 
 
 def speed(curve, between=SPEED_BETWEEN):
@@ -84,10 +74,10 @@ def speed(curve, between=SPEED_BETWEEN):
     return (high - low) / (passage_time(curve, high) - passage_time(curve, low))
 
 
-def speeds(n2):
+def speeds(run):
     """"table 1.30; ..." of the published series that go so far."""
     told = []
-    for label, curve in fronts(n2).items():
+    for label, curve in fronts(run).items():
         try:
             told.append(f"{label} {speed(curve):.2f}")
         except DataError:
@@ -105,19 +95,18 @@ def beside(name, what, unit, label, measured, computed, high=None):
 def of_laboratory(run):
     """The run's numbers beside the laboratory's, as [Metric]. The bar is for the table of the column that is computed; the
     other series say how well it is known."""
-    n2 = n2_of(run)
     return [
         *(beside(f"rms front {label}", "RMS of the front, T {:.2g}..{:.2g}", "a", label, curve, partial(front, run),
-                 FRONT_TARGET if label == "table" else None) for label, curve in fronts(n2).items()),
-        measure(Metric("speed front", "speed of the front, x/a {:g}..{:g}".format(*SPEED_BETWEEN), "a/T", speeds(n2)),
+                 FRONT_TARGET if label == "table" else None) for label, curve in fronts(run).items()),
+        measure(Metric("speed front", "speed of the front, x/a {:g}..{:g}".format(*SPEED_BETWEEN), "a/T", speeds(run)),
                 lambda: speed(front(run))),
-        beside("rms height", "RMS of the column's height, tau {:g}..{:g}", "n2 a", "table", laboratory_height(n2),
+        beside("rms height", "RMS of the column's height, tau {:g}..{:g}", "n2 a", "table", laboratory_height(run),
                partial(height, run), HEIGHT_TARGET)]
 
 
 def metrics(run):
     """All numbers of a run, as [Metric]; and how far the other published series are from the table where they overlap."""
-    (_, table), *others = fronts(n2_of(run)).items()
+    (_, table), *others = fronts(run).items()
     found = of_laboratory(run)
     for label, other in others:
         start, end = max(table.time[0], other.time[0]), min(table.time[-1], other.time[-1])
@@ -127,8 +116,7 @@ def metrics(run):
 
 
 def draw(run):
-    n2 = n2_of(run)
-    measured, tall = fronts(n2), laboratory_height(n2)
+    measured, tall = fronts(run), laboratory_height(run)
     end = 1.05 * max(curve.time[-1] for curve in measured.values())
     return [panels.panel("Front", "T = t sqrt(n2 g/a)", "x/a", (
                 *(panels.over_time(f"laboratory, {label}", curve, "measured") for label, curve in measured.items()),

@@ -5,11 +5,9 @@ laboratory is the mean of those from both.
 """
 
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from tailwater.curves import read_curve
 from tailwater.errors import DataError
 from tailwater.fields import nearest_frames
 
@@ -20,12 +18,11 @@ from ..metric import Metric, measure
 from ..particles import detached
 from ..reading import summary
 from ..study import LABORATORY, Plot, Study
+from .laboratory import measured_curves
 
 H, TANK, GRAVITY, DENSITY = 0.6, 3.22, 9.81, 1000.0
 TIME_SCALE, PRESSURE_SCALE = (H / GRAVITY) ** 0.5, DENSITY * GRAVITY * H
 
-DATA = Path(__file__).resolve().parents[3] / "cases" / "zhou1999" / "data"
-DIGITISATIONS = ("openmps", "fluidity")
 TIME_UNCERTAINTY = 0.12  # of T: the instant of release is known to 0.03 s
 LABORATORY_QUIET = 1.5  # T before which the gauge shows only the noise of the release
 
@@ -61,10 +58,11 @@ READ_AT = "P120"  # the height 0.2 H that Buchner (2002) gives for the gauge; th
 NOISE_AT = "P160"  # where others' noise was read
 
 
-def laboratory(quantity, digitisation):
-    """Measured H1, H2 (over H) or P2 (over rho g H), as a curve over T; digitisation is one of DIGITISATIONS."""
-    column = "p_over_rhogH" if quantity == "P2" else "h_over_H"
-    return read_curve(DATA / f"zhou1999_{quantity}_{digitisation}.csv", column, time_column="tstar")
+def laboratory(run, quantity):
+    """{who read it: measured H1, H2 (over H) or P2 (over rho g H), as a curve over T}."""
+    scale = PRESSURE_SCALE if quantity == "P2" else H
+    return {name.rpartition("_")[2]: curve.scaled(1 / TIME_SCALE, 1 / scale)
+            for name, curve in measured_curves(run, quantity).items()}
 
 
 def depth(run, gauge, column="wet_m"):
@@ -77,12 +75,13 @@ def pressure(run, probe):
     return run.curve(probe, "pressure_Pa").scaled(1 / TIME_SCALE, 1 / PRESSURE_SCALE)
 
 
-def distance(run, probe, window=PRESSURE_WINDOW, column="wet_m", readings=DIGITISATIONS):
-    """How far a gauge's depth, or the pressure of a probe, is from the laboratory: the fields of `curves.compare`."""
+def distance(run, probe, window=PRESSURE_WINDOW, column="wet_m", reading=""):
+    """How far a gauge's depth, or the pressure of a probe, is from the laboratory: the fields of `curves.compare`, by default
+    the mean over all readings of its curve."""
     is_depth = probe in GAUGES
     computed = depth(run, probe, column) if is_depth else pressure(run, probe)
-    found = [compare(laboratory(probe if is_depth else "P2", name), computed, window, GRID, TIME_UNCERTAINTY)
-             for name in readings]
+    found = [compare(curve, computed, window, GRID, TIME_UNCERTAINTY)
+             for name, curve in laboratory(run, probe if is_depth else "P2").items() if reading in ("", name)]
     return {field: sum(one[field] for one in found) / len(found) for field in found[0]}
 
 
@@ -128,33 +127,33 @@ def energy_at(T, run):
                  / run.summary["energy"]["start_J"])
 
 
-def measured(read):
+def measured(run, read):
     """"openmps 0.596, fluidity 0.607": what the laboratory's P2 gives, read with the rule for the computed curve."""
-    return ", ".join(f"{name} {read(laboratory('P2', name), LABORATORY_QUIET):.3f}" for name in DIGITISATIONS)
+    return ", ".join(f"{name} {read(curve, LABORATORY_QUIET):.3f}" for name, curve in laboratory(run, "P2").items())
 
 
 def impact(run):
     """When the water meets the wall, and its first peak there, as [Metric]."""
-    arrivals = f"measured P2: {measured(arrival)} (+-{TIME_UNCERTAINTY * TIME_SCALE:.2f})"
+    arrivals = f"measured P2: {measured(run, arrival)} (+-{TIME_UNCERTAINTY * TIME_SCALE:.2f})"
     return [
         *(measure(Metric(f"arrival_{probe}", f"arrival, {probe}", "s", arrivals), partial(arrival_at, run, probe))
           for probe in (*POINT_HEIGHTS, "P2")),
         measure(Metric("arrival_front", "arrival, front at the wall", "s", arrivals), partial(front_arrival, run)),
         measure(Metric("peak_P2", "first peak, P2", "rho g H",
-                       f"measured P2: {measured(lambda curve, after: peak(curve, after)[1])}"),
+                       f"measured P2: {measured(run, lambda curve, after: peak(curve, after)[1])}"),
                 lambda: peak(pressure(run, "P2"))[1]),
         measure(Metric("peak_time_P2", "time of first peak, P2", "T",
-                       f"measured P2: {measured(lambda curve, after: peak(curve, after)[0])} (+-{TIME_UNCERTAINTY})"),
+                       f"measured P2: {measured(run, lambda curve, after: peak(curve, after)[0])} (+-{TIME_UNCERTAINTY})"),
                 lambda: peak(pressure(run, "P2"))[0])]
 
 
-def distances(run, readings=DIGITISATIONS):
-    """Of each gauge and window from the laboratory, as [Metric]."""
+def distances(run, reading=""):
+    """Of each gauge and window from the laboratory, as [Metric]; by default the mean over all readings of its curves."""
     windows = [*((gauge, window, "H") for gauge in GAUGES for window in DEPTH_TARGETS),
                *((probe, PRESSURE_WINDOW, "rho g H") for probe in ("P2", *POINT_HEIGHTS))]
-    reading = "" if len(readings) > 1 else f" {readings[0]}"
-    return [measure(Metric(f"rms {probe} T {start:g}..{end:g}{reading}", f"RMS of {probe}, T {start:g}..{end:g}", unit,
-                           ", ".join(readings)), partial(distance, run, probe, (start, end), readings=readings))
+    return [measure(Metric(f"rms {probe} T {start:g}..{end:g} {reading}".rstrip(), f"RMS of {probe}, T {start:g}..{end:g}", unit,
+                           reading or ", ".join(laboratory(run, "P2"))),
+                    partial(distance, run, probe, (start, end), reading=reading))
             for probe, (start, end), unit in windows]
 
 
@@ -218,24 +217,23 @@ def soundness_checks(run):
     ]
 
 
-def beside_laboratory(quantity, computed, end=8):
-    """Two readings of the laboratory's curve to T = `end`, with the computed ones [(label, curve)]."""
-    for digitisation in DIGITISATIONS:
-        yield panels.over_time(f"laboratory, read by {digitisation}", laboratory(quantity, digitisation).window(0, end),
-                               "measured")
+def beside_laboratory(run, quantity, computed, end=8):
+    """The readings of the laboratory's curve to T = `end`, with the computed ones [(label, curve)]."""
+    for name, curve in laboratory(run, quantity).items():
+        yield panels.over_time(f"laboratory, read by {name}", curve.window(0, end), "measured")
     for label, curve in computed:
         yield panels.over_time(label, curve)
 
 
 def draw_pressure(*runs, names=None):
     return [panels.panel(f"Pressure on the right wall, {title}", "T", "p/(rho g H)", beside_laboratory(
-        "P2", zip(panels.labels(runs, names), (pressure(run, probe) for run in runs))), limits=(-0.05, 1.25))
+        runs[-1], "P2", zip(panels.labels(runs, names), (pressure(run, probe) for run in runs))), limits=(-0.05, 1.25))
             for probe, title in ((READ_AT, "z = 0.12 m"), ("P2", "mean over z = 0.115..0.205 m"))]
 
 
 def draw_depths(*runs, names=None):
     return [panels.panel(f"Depth {gauge}, x = {place} m", "T", "h/H", (
-        *beside_laboratory(gauge, zip(panels.labels(runs, names), (depth(run, gauge) for run in runs))),
+        *beside_laboratory(runs[-1], gauge, zip(panels.labels(runs, names), (depth(run, gauge) for run in runs))),
         panels.over_time("highest water, the last run", depth(runs[-1], gauge, "highest_m"), "aside")), limits=(0, 1.6))
             for gauge, place in (("H2", 2.228), ("H1", 2.725))]
 
