@@ -30,6 +30,8 @@ class FrameOutput {
  private:
   FrameSeries<Dim> series_;
   Schedule schedule_;
+  std::int64_t least_steps_;  ///< from one frame that was due to the next
+  std::int64_t next_step_ = 0;
 };
 
 }  // namespace tailwater

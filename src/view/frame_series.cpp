@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -11,7 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include "base/assert.h"
 #include "base/error.h"
 #include "base/for_each.h"
 #include "io/run_folder.h"
@@ -91,28 +91,65 @@ std::array<float, 2> range_around(double least, double largest) {
 
 /// The order of ascending ids, which are unique. Ids of water have few gaps: then a table by id is made in a tenth of
 /// the time that comparing them takes.
-template <class Particle>
-std::vector<std::uint32_t> order_by_id(const std::vector<Particle>& particles) {
-  const std::size_t count = particles.size();
-  if (count == 0) return {};
-  const auto by_id = [](const Particle& a, const Particle& b) { return a.id < b.id; };
-  const auto [low, high] = std::minmax_element(particles.begin(), particles.end(), by_id);
-  const std::int64_t first = low->id;
-  const auto width = static_cast<std::size_t>(high->id - first) + 1;
+std::vector<std::uint32_t> order_by_id(const std::vector<std::int64_t>& id) {
+  const std::size_t count = id.size();
   std::vector<std::uint32_t> order;
+  if (count == 0) return order;
+  std::int64_t first = id.front();
+  std::int64_t last = first;
+  for (const std::int64_t one : id) {
+    first = std::min(first, one);
+    last = std::max(last, one);
+  }
+  const auto width = static_cast<std::size_t>(last - first) + 1;
   if (width <= 4 * count) {
     constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
     order.assign(width, nobody);
-    for (std::size_t i = 0; i < count; ++i) {
-      order[static_cast<std::size_t>(particles[i].id - first)] = static_cast<std::uint32_t>(i);
-    }
-    std::erase(order, nobody);
+    for (std::size_t i = 0; i < count; ++i)
+      order[static_cast<std::size_t>(id[i] - first)] = static_cast<std::uint32_t>(i);
+    if (width > count) std::erase(order, nobody);
     return order;
   }
   order.resize(count);
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return by_id(particles[a], particles[b]); });
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return id[a] < id[b]; });
   return order;
+}
+
+/// Calls visit(column) for the id, each coordinate, and each scalar.
+template <class Visit>
+void for_each_column(FrameParticles& particles, const Visit& visit) {
+  visit(particles.id);
+  for (std::vector<std::uint16_t>& place : particles.place) visit(place);
+  for (std::vector<std::uint8_t>& scalar : particles.scalar) visit(scalar);
+}
+
+/// Those of all ranks, one rank after the other, on the root; none on the others. In one message.
+void gather_all(FrameParticles& particles, const Communicator& ranks) {
+  if (ranks.is_alone()) return;
+  std::string bytes;
+  std::size_t bytes_of_one = 0;
+  for_each_column(particles, [&](auto& column) {
+    bytes.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(column[0]));
+    bytes_of_one += sizeof(column[0]);
+    column.clear();
+  });
+  for (const std::string& part : ranks.gather(bytes)) {
+    const std::size_t count = part.size() / bytes_of_one;
+    const char* next = part.data();
+    for_each_column(particles, [&](auto& column) {
+      column.resize(column.size() + count);
+      std::memcpy(column.data() + column.size() - count, next, count * sizeof(column[0]));
+      next += count * sizeof(column[0]);
+    });
+  }
+}
+
+template <class Number>
+std::vector<Number> in_order(const std::vector<Number>& column, const std::vector<std::uint32_t>& order) {
+  std::vector<Number> sorted(order.size());
+  for_each(order.size(), [&](std::size_t k) { sorted[k] = column[order[k]]; });
+  return sorted;
 }
 
 }  // namespace
@@ -165,47 +202,32 @@ FrameScale FrameSeries<Dim>::scale_for(std::span<const double> extremes, std::si
 
 template <int Dim>
 FrameParticles FrameSeries<Dim>::gather(const WaterNow<Dim>& water, const Communicator& ranks) const {
-  const std::size_t scalars = water.scalars.size();
-  std::vector<Stored> stored(water.id.size());
-  std::array<double, Dim> per_metre;
-  for (int d = 0; d < Dim; ++d) per_metre[d] = largest_place / (scale_.high[d] - scale_.low[d]);
-  std::array<double, std::tuple_size_v<decltype(Stored::scalar)>> low_of{};
-  std::array<double, std::tuple_size_v<decltype(Stored::scalar)>> per_unit{};
-  for (std::size_t s = 0; s < scalars; ++s) {
-    const auto [low, high] = scale_.ranges[s];
-    low_of[s] = low;
-    per_unit[s] = largest_scalar / (static_cast<double>(high) - low);
+  const std::size_t count = water.id.size();
+  FrameParticles all{.id = {water.id.begin(), water.id.end()}, .place = {}, .scalar = {}};
+  for (int d = 0; d < Dim; ++d) {
+    std::vector<std::uint16_t>& place = all.place.emplace_back(count);
+    const double low = scale_.low[d];
+    const double per_metre = largest_place / (scale_.high[d] - low);
+    for_each(count, [&](std::size_t i) {
+      place[i] = static_cast<std::uint16_t>(static_cast<int>((water.position[i][d] - low) * per_metre + 0.5));
+    });
   }
-  for_each(water.id.size(), [&](std::size_t i) {
-    stored[i].id = water.id[i];
-    for (int d = 0; d < Dim; ++d) {
-      stored[i].place[d] = static_cast<std::uint16_t>((water.position[i][d] - scale_.low[d]) * per_metre[d] + 0.5);
-    }
-    stored[i].scalar = {};
-    for (std::size_t s = 0; s < scalars; ++s) {
-      stored[i].scalar[s] = static_cast<std::uint8_t>((water.scalars[s][i] - low_of[s]) * per_unit[s] + 0.5);
-    }
-  });
-  stored = ranks.gather(stored);
-  const std::vector<std::uint32_t> order = order_by_id(stored);
-  FrameParticles particles;
-  const std::size_t count = stored.size();
-  particles.id.resize(count);
-  particles.place.assign(Dim, std::vector<std::uint16_t>(count));
-  particles.scalar.assign(scalars, std::vector<std::uint8_t>(count));
-  for_each(count, [&](std::size_t i) {
-    const Stored& particle = stored[order[i]];
-    particles.id[i] = particle.id;
-    for (int d = 0; d < Dim; ++d) particles.place[d][i] = particle.place[d];
-    for (std::size_t s = 0; s < scalars; ++s) particles.scalar[s][i] = particle.scalar[s];
-  });
-  return particles;
+  for (std::size_t s = 0; s < water.scalars.size(); ++s) {
+    std::vector<std::uint8_t>& scalar = all.scalar.emplace_back(count);
+    const double low = scale_.ranges[s][0];
+    const double per_unit = largest_scalar / (static_cast<double>(scale_.ranges[s][1]) - low);
+    for_each(count, [&](std::size_t i) {
+      scalar[i] = static_cast<std::uint8_t>(static_cast<int>((water.scalars[s][i] - low) * per_unit + 0.5));
+    });
+  }
+  gather_all(all, ranks);
+  const std::vector<std::uint32_t> order = order_by_id(all.id);
+  for_each_column(all, [&](auto& column) { column = in_order(column, order); });
+  return all;
 }
 
 template <int Dim>
 void FrameSeries<Dim>::write(const WaterNow<Dim>& water, const Communicator& ranks) {
-  TAILWATER_ASSERT(water.scalars.size() <= std::tuple_size_v<decltype(Stored::scalar)>,
-                   "there is room for the scalars");
   const std::vector<double> extremes = extremes_of(water, ranks);
   const bool is_key = since_key_ < 0 || since_key_ + 1 >= frames_per_key || !fits(scale_, extremes);
   if (is_key) scale_ = scale_for(extremes, water.scalars.size());

@@ -45,13 +45,6 @@ class FrameSeries {
   std::size_t size() const { return count_; }
 
  private:
-  /// A particle as it is sent to the root.
-  struct Stored {
-    std::int64_t id;
-    std::array<std::uint16_t, Dim> place;
-    std::array<std::uint8_t, 4> scalar;
-  };
-
   std::filesystem::path file_of(std::size_t index) const;
   void make_folder() const;
   FrameScale scale_for(std::span<const double> extremes, std::size_t scalars) const;

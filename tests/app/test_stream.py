@@ -1,7 +1,9 @@
 """The stream that a run writes for viewers: view/scene.json and frames."""
 
 import json
+import math
 import pathlib
+import tomllib
 import unittest
 
 from frames import read_frames
@@ -16,7 +18,16 @@ class Stream(ProgramTest):
         case = CASES / "zhou1999" / "case.toml"
         self.call("run", case, "--out", "run", "--quiet", "--set", "particles.spacing=0.03")
         frames = read_frames(self.folder / "run")
-        self.assertEqual(len(frames), 401)  # a four-hundredth of the end time apart, and the start
+        # A four-hundredth of the end time apart, and three steps.
+        end = tomllib.loads((self.folder / "run/case.effective.toml").read_text())["time"]["end"]
+        steps = [time for time, *_ in self.table("run/steps.csv")[1]]
+        interval, expected, next_step = end / 400, [0.0], 3
+        for step, time in enumerate(steps, 1):
+            if step >= next_step and time >= (math.floor(expected[-1] / interval) + 1) * interval:
+                expected.append(time)
+                next_step = step + 3
+        self.assertEqual([frame.time for frame in frames], sorted({*expected, steps[-1]}))
+        self.assertGreater(len(frames), 100)
         self.assertLessEqual(sum(frame.bytes for frame in frames) / sum(frame.count for frame in frames), 3.0)
         keys = [frame.index for frame in frames if frame.order == 0] + [len(frames)]
         self.assertEqual(keys[0], 0)
