@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "case/points_file.h"
-#include "case/series_file.h"
 
 namespace tailwater {
 namespace {
@@ -57,9 +56,9 @@ TimeSeries read_time_series(const std::filesystem::path& path, std::span<const S
 }
 
 TimeSeries read_measured_series(const std::filesystem::path& path, std::span<const std::string_view> names,
-                                Measure measure) {
+                                Measure measure, Samples samples) {
   std::ifstream file = open_file(path, largest_series_file);
-  return parse_measured_series(path, file, names, measure);
+  return parse_measured_series(path, file, names, measure, samples);
 }
 
 std::string checksum_of_file(const std::filesystem::path& path) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "case/series_file.h"
 #include "case/spec.h"
-#include "case/time_series.h"
 
 namespace tailwater {
 
@@ -27,9 +27,10 @@ TimeSeries read_time_series(const std::filesystem::path& path, std::span<const S
 /// One column of a CSV file of measured values over time, in SI units. The file is as that of read_time_series, and may
 /// have other columns: it is the first of `names`, or else "value", that the header has, in this order, or the only
 /// column beside the time. A pressure, a force and a moment need a unit too. Times may repeat and go back, as digitised
-/// ones do: they are sorted, and values of one time become their mean. Throws as read_time_series.
+/// ones do: they are sorted, and values of one time become their mean. Those of profiles have their places, the column
+/// x of the file, as second column, and keep their order within a time. Throws as read_time_series.
 TimeSeries read_measured_series(const std::filesystem::path& path, std::span<const std::string_view> names,
-                                Measure measure);
+                                Measure measure, Samples samples);
 
 /// CRC-32 of the file's bytes, as 8 hexadecimal digits. Throws IoError if it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@
 
 namespace tailwater {
 namespace {
+
+/// Times that differ by no more, as a share of them, are one: files are written with so many digits.
+constexpr double same_time = 1e-4;
 
 /// Reports what is wrong with `key` of measurement k; of a key that is not given, at its table.
 class Reporter {
@@ -55,9 +59,9 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   const std::vector<SeriesColumn> columns = columns_of(*probe, spec.general.dimension);
   if (columns.empty()) {
     reporter.wrong("probe",
-                   fmt::format("the table of a {} probe has several lines of one time; give a probe of another "
-                               "type, as \"depth\" or \"velocity\"",
-                               name_of(probe->type)));
+                   fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another type, as "
+                               "\"depth\" or \"velocity\"",
+                               name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
     return;
   }
   if (measurement.column.empty()) measurement.column = columns.front().name;
@@ -70,7 +74,8 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   }
   try {
     measurement.series = read_measured_series(
-        measurement.file, std::array<std::string_view, 2>{probe->name, column->name}, column->measure);
+        measurement.file, std::array<std::string_view, 2>{probe->name, column->name}, column->measure,
+        probe->type == ProbeType::profile ? Samples::of_profiles : Samples::of_one_place);
   } catch (const UserError& error) {
     reporter.wrong("file", error.what());
     return;
@@ -80,6 +85,17 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
     reporter.wrong("file", fmt::format("{} ends at t = {:.9g} s, where the run begins; correct the zero of its times",
                                        measurement.file, measurement.series.time.back()));
   }
+  if (probe->type != ProbeType::profile) return;
+  const auto is_taken = [&](double time) {
+    return time < 0.0 || std::ranges::any_of(probe->times, [&](double taken) {
+             return std::abs(taken - time) <= same_time * std::abs(time);
+           });
+  };
+  const auto missing = std::ranges::find_if_not(measurement.series.time, is_taken);
+  if (missing == measurement.series.time.end()) return;
+  reporter.wrong("file",
+                 fmt::format("{} has values at t = {:.9g} s, when probe \"{}\" takes no profile; add this to its times",
+                             measurement.file, *missing, probe->name));
 }
 
 }  // namespace

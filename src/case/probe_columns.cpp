@@ -100,6 +100,7 @@ std::span<const SeriesColumn> all_columns_of(ProbeType type) {
     case ProbeType::level_map:
       return levels;
     case ProbeType::profile:
+      return std::span(depths).first(2);
     case ProbeType::velocity_profile:
       break;
   }
@@ -117,6 +118,7 @@ bool is_of_dimension(std::string_view name, int dimension) {
 
 std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension) {
   std::vector<SeriesColumn> columns;
+  if (probe.type == ProbeType::profile && dimension == 3) return columns;
   for (const SeriesColumn& column : all_columns_of(probe.type)) {
     const bool is_written = column.measure != Measure::moment || !probe.moment_about.empty();
     if (is_written && is_of_dimension(column.name, dimension)) columns.push_back(column);

@@ -1,4 +1,5 @@
-// The columns of probes' tables that hold one quantity over time, with which a measurement can be compared.
+// The columns of probes' tables that hold one quantity over time, or over x and time, with which a measurement can be
+// compared.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace tailwater {
 
-/// Those that the probe writes, the first its default; none where its table has several lines of one time.
+/// Those that the probe writes, the first its default; none of a velocity profile, and of a profile in 3D.
 std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension);
 
 struct Compared {

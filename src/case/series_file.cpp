@@ -35,10 +35,10 @@ class SeriesFile : ColumnFile {
     series_.columns.resize(columns.size());
   }
 
-  /// Of a file of measured values, whose one column that is wanted has one of `names`.
-  SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> column,
+  /// Of a file of measured values, whose first column that is wanted has one of `names`.
+  SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> columns,
              std::span<const std::string_view> names)
-      : SeriesFile(path, column) {
+      : SeriesFile(path, columns) {
     names_ = names;
   }
 
@@ -149,10 +149,19 @@ class SeriesFile : ColumnFile {
     }
   }
 
-  /// The column of time, and the one that is measured.
+  /// The column of time, the one that is measured, and that of the places, if it is wanted.
   void choose_measured(const std::vector<std::string_view>& fields) {
     std::vector<std::string> headings;
     for (const std::string_view field : fields) headings.push_back(Heading(field).name);
+    found_.assign(fields.size(), {no_column, 1.0});
+    for (std::size_t column = 1; column < wanted_.size(); ++column) {
+      const auto at = std::ranges::find(headings, wanted_[column].name) - headings.begin();
+      if (at == std::ssize(headings)) {
+        wrong(fmt::format("has no column \"{}\", the places along the profile; name it, as in \"{}\"",
+                          wanted_[column].name, example()));
+      }
+      found_[static_cast<std::size_t>(at)] = value_column(column, fields[static_cast<std::size_t>(at)]);
+    }
     const auto names_time = [](auto field) { return is_time(Heading(field)); };
     if (std::ranges::count_if(fields, names_time) > 1) {
       wrong("names more than one column of time; keep the one that the values go with");
@@ -164,13 +173,12 @@ class SeriesFile : ColumnFile {
     std::ptrdiff_t place = 0;
     if (measured != names_.end()) {
       place = std::ranges::find(headings, lower_case_of(*measured)) - headings.begin();
-    } else if (fields.size() == 2) {
+    } else if (fields.size() == 2 && wanted_.size() == 1) {
       place = 1 - time;
     } else {
       wrong(fmt::format("has no column \"{}\"; call the one that is to be compared so, as in \"{}\"", names_.front(),
                         example()));
     }
-    found_.assign(fields.size(), {no_column, 1.0});
     found_[static_cast<std::size_t>(time)] = column_named(fields[static_cast<std::size_t>(time)]);
     found_[static_cast<std::size_t>(place)] = value_column(0, fields[static_cast<std::size_t>(place)]);
   }
@@ -210,22 +218,31 @@ class SeriesFile : ColumnFile {
   TimeSeries series_;
 };
 
-/// Samples by time; those of one time become their mean.
-TimeSeries in_order(TimeSeries measured) {
+TimeSeries by_time(const TimeSeries& measured) {
   std::vector<std::size_t> order(measured.time.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return measured.time[k]; });
-  TimeSeries sorted{.file = measured.file, .line = {}, .time = {}, .columns = {{}}};
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    double sum = 0.0;
-    while (end < order.size() && measured.time[order[end]] == measured.time[order[begin]]) {
-      sum += measured.columns[0][order[end++]];
-    }
-    sorted.line.push_back(measured.line[order[begin]]);
-    sorted.time.push_back(measured.time[order[begin]]);
-    sorted.columns[0].push_back(sum / static_cast<double>(end - begin));
+  TimeSeries sorted{.file = measured.file, .line = {}, .time = {}, .columns = {}};
+  sorted.columns.resize(measured.columns.size());
+  for (const std::size_t k : order) {
+    sorted.line.push_back(measured.line[k]);
+    sorted.time.push_back(measured.time[k]);
+    for (std::size_t c = 0; c < measured.columns.size(); ++c) sorted.columns[c].push_back(measured.columns[c][k]);
   }
   return sorted;
+}
+
+/// Those of one time become their mean.
+TimeSeries one_of_each_time(const TimeSeries& sorted) {
+  TimeSeries means{.file = sorted.file, .line = {}, .time = {}, .columns = {{}}};
+  for (std::size_t begin = 0, end = 0; begin < sorted.time.size(); begin = end) {
+    double sum = 0.0;
+    while (end < sorted.time.size() && sorted.time[end] == sorted.time[begin]) sum += sorted.columns[0][end++];
+    means.line.push_back(sorted.line[begin]);
+    means.time.push_back(sorted.time[begin]);
+    means.columns[0].push_back(sum / static_cast<double>(end - begin));
+  }
+  return means;
 }
 
 }  // namespace
@@ -235,11 +252,12 @@ TimeSeries parse_series(const std::filesystem::path& path, std::istream& file, s
 }
 
 TimeSeries parse_measured_series(const std::filesystem::path& path, std::istream& file,
-                                 std::span<const std::string_view> names, Measure measure) {
+                                 std::span<const std::string_view> names, Measure measure, Samples samples) {
   std::vector<std::string_view> all(names.begin(), names.end());
   all.push_back("value");
-  const std::array<SeriesColumn, 1> column{{{names.front(), measure}}};
-  return in_order(SeriesFile(path, column, all).read(file));
+  const std::array<SeriesColumn, 2> columns{{{names.front(), measure}, {"x"}}};
+  if (samples == Samples::of_profiles) return by_time(SeriesFile(path, columns, all).read(file));
+  return one_of_each_time(by_time(SeriesFile(path, std::span(columns).first(1), all).read(file)));
 }
 
 }  // namespace tailwater

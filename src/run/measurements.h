@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "case/spec.h"
+#include "run/probe_table.h"
 
 namespace tailwater {
 
@@ -20,8 +21,8 @@ struct Curve {
   double at(double when) const;
 };
 
-/// Of computed values less measured ones, at the times of the measured ones; each counts as the time that it stands
-/// for, half of that to its neighbours.
+/// Of computed values less measured ones, at the times and places of the measured ones. Each counts as the time that it
+/// stands for, half of that to its neighbours; those of profiles count alike.
 struct Difference {
   double rms = 0.0;
   double bias = 0.0;          ///< mean
@@ -51,8 +52,9 @@ struct MeasurementScore {
   std::string words() const;
 };
 
-/// Of a measured and a computed curve; of a computed one that does not reach a measured time, without samples.
+/// Of what was measured and what was computed; of what does not reach a measured time, without samples.
 MeasurementScore score(const MeasurementTable& measurement, const Curve& computed);
+MeasurementScore score(const MeasurementTable& measurement, const ProbeProfiles& computed);
 
 /// Of each measurement, in the order of the case, from what is in the folder of a run. Throws IoError if a table cannot
 /// be read.

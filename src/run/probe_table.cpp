@@ -29,6 +29,36 @@ double number_of(std::string_view field) {
   return value;
 }
 
+/// Calls take(time, second, value) for the lines of a table that have a time and a number in the first column whose
+/// name is wanted; `second` is the number in the second column. Returns the name of the column.
+template <class Take>
+std::string read_column(const std::filesystem::path& path, const std::function<bool(std::string_view name)>& is_wanted,
+                        const Take& take) {
+  std::ifstream file(path);
+  if (!file) throw_io_error("read", path, errno);
+  std::string line;
+  std::getline(file, line);
+  std::string found;
+  std::size_t place = 0;
+  for_each_cell(line, [&](std::size_t k, std::string_view name) {
+    if (k == 0 || place > 0 || !is_wanted(name)) return;
+    place = k;
+    found = name;
+  });
+  while (place > 0 && std::getline(file, line)) {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    double second = time;
+    double value = time;
+    for_each_cell(line, [&](std::size_t k, std::string_view field) {
+      if (k == 0) time = number_of(field);
+      if (k == 1) second = number_of(field);
+      if (k == place) value = number_of(field);
+    });
+    if (!std::isnan(time) && !std::isnan(value)) take(time, second, value);
+  }
+  return found;
+}
+
 }  // namespace
 
 void ColumnDigest::add(double time, double value, double half) {
@@ -77,33 +107,31 @@ double ColumnDigest::rate_in_second_half() const {
 
 ProbeColumn read_probe_column(const std::filesystem::path& path,
                               const std::function<bool(std::string_view name)>& is_wanted) {
-  std::ifstream file(path);
-  if (!file) throw_io_error("read", path, errno);
   ProbeColumn column;
-  std::string line;
-  std::getline(file, line);
-  std::size_t place = 0;
-  for_each_cell(line, [&](std::size_t k, std::string_view name) {
-    if (k == 0 || place > 0 || !is_wanted(name)) return;
-    place = k;
-    column.name = name;
-  });
-  while (place > 0 && std::getline(file, line)) {
-    double time = std::numeric_limits<double>::quiet_NaN();
-    double value = time;
-    for_each_cell(line, [&](std::size_t k, std::string_view field) {
-      if (k == 0) time = number_of(field);
-      if (k == place) value = number_of(field);
-    });
-    if (std::isnan(time) || std::isnan(value)) continue;
+  column.name = read_column(path, is_wanted, [&](double time, double, double value) {
     if (!column.time.empty() && time <= column.time.back()) {
       column.time.pop_back();
       column.value.pop_back();
     }
     column.time.push_back(time);
     column.value.push_back(value);
-  }
+  });
   return column;
+}
+
+ProbeProfiles read_probe_profiles(const std::filesystem::path& path,
+                                  const std::function<bool(std::string_view name)>& is_wanted) {
+  ProbeProfiles profiles;
+  profiles.name = read_column(path, is_wanted, [&](double time, double x, double value) {
+    if (profiles.time.empty() || time > profiles.time.back()) {
+      profiles.time.push_back(time);
+      profiles.x.emplace_back();
+      profiles.value.emplace_back();
+    }
+    profiles.x.back().push_back(x);
+    profiles.value.back().push_back(value);
+  });
+  return profiles;
 }
 
 TableDigest digest_probe_table(const std::filesystem::path& path, double half) {

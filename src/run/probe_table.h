@@ -65,6 +65,18 @@ struct ProbeColumn {
 ProbeColumn read_probe_column(const std::filesystem::path& path,
                               const std::function<bool(std::string_view name)>& is_wanted);
 
+/// A column of a table that has several lines of one time, each of a place.
+struct ProbeProfiles {
+  std::string name;                    ///< empty: the table has no such column
+  std::vector<double> time;            ///< s, ascending
+  std::vector<std::vector<double>> x;  ///< m; of each time its places, ascending
+  std::vector<std::vector<double>> value;
+};
+
+/// As read_probe_column; the places are in the table's second column.
+ProbeProfiles read_probe_profiles(const std::filesystem::path& path,
+                                  const std::function<bool(std::string_view name)>& is_wanted);
+
 /// `half` [s] is where the second half begins. Throws IoError if the file cannot be read.
 TableDigest digest_probe_table(const std::filesystem::path& path, double half);
 

@@ -210,18 +210,18 @@ Json measurements_json(const CaseSpec& spec, const Columns& columns) {
     const std::vector<std::string>& headings = columns[compared.probe];
     const auto heading =
         std::ranges::find_if(headings, [&](const std::string& name) { return is_heading_of(compared.column, name); });
-    Json time = Json::array();
-    Json value = Json::array();
+    Json one{{"probe", table.probe},
+             {"column", heading == headings.end() ? table.column : *heading},
+             {"file", std::filesystem::path(table.file).filename().string()},
+             {"time", Json::array()},
+             {"value", Json::array()}};
     for (std::size_t k = 0; k < table.series.time.size(); ++k) {
       if (table.series.time[k] < 0.0 || table.series.time[k] > spec.time.end) continue;
-      time.push_back(rounded(table.series.time[k]));
-      value.push_back(rounded(table.series.columns[0][k]));
+      one["time"].push_back(rounded(table.series.time[k]));
+      one["value"].push_back(rounded(table.series.columns[0][k]));
+      if (table.series.columns.size() > 1) one["x"].push_back(rounded(table.series.columns[1][k]));
     }
-    measurements.push_back({{"probe", table.probe},
-                            {"column", heading == headings.end() ? table.column : *heading},
-                            {"file", std::filesystem::path(table.file).filename().string()},
-                            {"time", std::move(time)},
-                            {"value", std::move(value)}});
+    measurements.push_back(std::move(one));
   }
   return measurements;
 }

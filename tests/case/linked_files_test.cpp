@@ -177,6 +177,15 @@ TEST_F(GaugeFile, IsReadByTheNameOfTheProbeOrOfTheColumnOrAsTheOnlyOne) {
   }
 }
 
+TEST_F(GaugeFile, OfAProfileHasPlacesInTheOrderOfTheFile) {
+  std::ofstream(file_.path()) << gauge_case << "\"line\"\n";
+  write("t [s], x [cm], connected [mm]\n0.5, 100, 100\n0.5, 0, 120\n");
+  const TimeSeries found = read_case(file_.path()).measurements[0].series;
+  EXPECT_EQ(found.time, (std::vector<double>{0.5, 0.5}));
+  EXPECT_NEAR(found.columns[0][0], 0.1, 1e-15);
+  EXPECT_EQ(found.columns[1], (std::vector<double>{1.0, 0.0}));
+}
+
 TEST_F(GaugeFile, IsRefusedWithPlaceAndRemedy) {
   struct Bad {
     std::string keys, text;
@@ -185,9 +194,14 @@ TEST_F(GaugeFile, IsRefusedWithPlaceAndRemedy) {
   const std::string good = "t [s], H2 [m]\n0, 1\n1, 1\n";
   for (const Bad& bad : {
            Bad{"\"H3\"", good, {"measurement[0].probe = \"H3\"", "case.toml:22:9", "no such probe", "\"H2\""}},
-           Bad{"\"line\"", good, {"measurement[0].probe", "a profile probe has several lines of one time"}},
+           Bad{"\"line\"",
+               "t [s], line [m]\n0, 1\n1, 1\n",
+               {"gauge.csv:1", "no column \"x\"", "\"t [s], line [m], x [m]\""}},
+           Bad{"\"line\"",
+               "t [s], x [m], line [m]\n0.5, 0, 1\n0.6, 0, 1\n",
+               {"measurement[0].file", "t = 0.6 s", "takes no profile"}},
            Bad{"\"H2\"\ncolumn = \"hihgest\"", good, {"measurement[0].column", "did you mean \"highest\"?"}},
-           Bad{"\"line\"\ncolumn = \"u\"", good, {"measurement[0].probe"}},
+           Bad{"\"line\"\ncolumn = \"u\"", good, {"measurement[0].column", "no such column"}},
            Bad{"\"H2\"", "t [s], a [m], b [m]\n0, 1, 1\n", {"gauge.csv:1", "no column \"H2\"", "\"t [s], H2 [m]\""}},
            Bad{"\"H2\"", "t [s], H2 [kPa]\n0, 1\n", {"gauge.csv:1", "unknown unit \"kpa\"", "m, mm, cm, km or ft"}},
            Bad{"\"p\"", "t [s], p\n0, 1\n", {"gauge.csv:1", "has no unit", "p [pa]"}},

@@ -96,7 +96,21 @@ TEST(MeasurementScore, IsOverWhatTheRunHasReached) {
   EXPECT_NEAR(found.to, 0.9, 1e-9);  // later ones cannot be looked at with every shift
   EXPECT_EQ(found.as_timed.rms, 0.0);
   EXPECT_EQ(score(lab, sampled([](double) { return 0.0; }, 0.05, 10)).samples, 0u);
-  EXPECT_EQ(score(lab, {}).samples, 0u);
+  EXPECT_EQ(score(lab, Curve{}).samples, 0u);
+}
+
+/// A depth of x + t, taken at 1 and 2 s from 0 to 2 m; measured a tenth of a second early, and 0.01 m too low.
+TEST(MeasurementScore, OfProfilesIsAtTheirTimesAndPlaces) {
+  const ProbeProfiles computed{"connected_m", {1.0, 2.0}, {{0.0, 2.0}, {0.0, 2.0}}, {{1.0, 3.0}, {2.0, 4.0}}};
+  MeasurementTable table;
+  table.series = {"surface.csv", {2, 3, 4}, {1.0, 1.0, 1.5}, {{1.59, 3.09, 2.59}, {0.5, 2.0, 1.0}}};
+  const MeasurementScore found = score(table, computed);
+  EXPECT_EQ(found.samples, 3u);
+  EXPECT_NEAR(found.as_timed.bias, -0.09, 1e-12);
+  EXPECT_NEAR(found.as_timed.rms, 0.09, 1e-12);
+  table.shift = 0.2;
+  EXPECT_NEAR(score(table, computed).best_shift, 0.09, 0.0011);
+  EXPECT_EQ(score(table, ProbeProfiles{}).samples, 0u);
 }
 
 TEST(MeasurementScores, AreReadFromTheTablesOfProbes) {
@@ -106,13 +120,21 @@ TEST(MeasurementScores, AreReadFromTheTablesOfProbes) {
       "particles.spacing = 0.1\ntime.end = 1.0\n[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n"
       "[[probe]]\nname = \"H2\"\ntype = \"depth\"\nat = [0, 0]\n[[measurement]]\nprobe = \"H2\"\ncolumn = \"wet\"\n"
       "scatter = 0.02\nfile = \"" +
-      (folder.path() / "gauge.csv").string() + "\"\n";
+      (folder.path() / "gauge.csv").string() + "\"\n" +
+      "[[probe]]\nname = \"line\"\ntype = \"profile\"\nfrom = [0, 0]\nto = [1, 0]\ntimes = [0.5]\n" +
+      "[[measurement]]\nprobe = \"line\"\nfile = \"" + (folder.path() / "line.csv").string() + "\"\n";
+  std::ofstream(folder.path() / "line.csv") << "t [s], x [m], connected [m]\n0.5, 0.25, 0.3\n0.5, 0.75, 0.3\n";
   const CaseSpec spec = read_case_text(keys, "case.toml");
   const RunFolder run = RunFolder::create(folder.path() / "run", false);
   std::ofstream(run.probe("H2")) << "time_s,connected_m,highest_m,wet_m\n0,9,9,0.09\n0.5,9,9,nan\n1,9,9,0.11\n";
+  std::ofstream(run.probe("line")) << "time_s,x_m,bed_m,connected_m,highest_m\n"
+                                      "0.5001,0.25,0,0.3,9\n0.5001,0.5,0,0.4,9\n0.5001,0.75,0,0.5,9\n";
   const std::vector<MeasurementScore> scores = measurement_scores(spec, run.path());
-  ASSERT_EQ(scores.size(), 1u);
+  ASSERT_EQ(scores.size(), 2u);
   EXPECT_EQ(scores[0].unit, "m");
+  EXPECT_EQ(scores[1].unit, "m");
+  EXPECT_NEAR(scores[1].as_timed.bias, 0.1, 1e-12);
+  EXPECT_NEAR(scores[1].as_timed.rms, std::sqrt(0.02), 1e-12);
   EXPECT_NEAR(scores[0].as_timed.bias, -0.01, 1e-12);
   const nlohmann::ordered_json json = json_of(scores);
   EXPECT_EQ(json[0]["is_inside"], true);

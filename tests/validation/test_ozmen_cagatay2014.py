@@ -9,7 +9,7 @@ import synthetic_run
 from tailwater.run import Run
 from tailwater_validation.studies import ozmen_cagatay2014
 
-CASE = ozmen_cagatay2014.DATA.parent / "case.toml"
+CASE = synthetic_run.CASES / "ozmen_cagatay2014" / "case.toml"
 H0, GATE, SCALE = ozmen_cagatay2014.DEPTH, ozmen_cagatay2014.GATE, ozmen_cagatay2014.TIME_SCALE
 END = 56.0  # T
 
@@ -34,26 +34,28 @@ points = [[0.0, 0.5], [0.0, 0.0], [6.15, 0.0], [6.65, 0.075], [7.15, 0.0], [8.9,
 def write_run(folder, factor=1.0, delay=0.0, scheme="farzin2014"):
     """Each profile is level at `factor` times the measured height; each gauge rises at T = its point's plus `delay` through
     the measured height, at 0.01 h0 per T."""
-    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(scheme=scheme))
+    folder = synthetic_run.make_folder(folder, EFFECTIVE_CASE.format(scheme=scheme)
+                                       + synthetic_run.measurements("ozmen_cagatay2014"))
+    run = Run(folder)
     x = np.arange(0.0125, 8.9, 0.025)
     bed = H0 * ozmen_cagatay2014.bed((x - GATE) / H0)
     rows = []
-    for point in ozmen_cagatay2014.read_points("profile"):
+    for point in ozmen_cagatay2014.read_points(run, "profile"):
         depth = np.maximum(0, factor * point.measured * H0 - bed)
         rows.append(np.stack([np.full_like(x, point.T * SCALE), x, bed, depth, depth]))
     names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
     synthetic_run.write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
     T = np.arange(0, END, 0.5)
-    for point in ozmen_cagatay2014.read_points("gauge"):
+    for point in ozmen_cagatay2014.read_points(run, "gauge"):
         level = factor * (point.measured + 0.01 * (T - point.T - delay))
         depth = H0 * (level - ozmen_cagatay2014.bed(point.X))
         synthetic_run.write_probe(folder, point.gauge, {"time_s": T * SCALE, "connected_m": depth, "highest_m": depth})
     return folder
 
 
-class Data(unittest.TestCase):
+class Data(synthetic_run.CaseTest):
     def test_every_file_says_where_it_comes_from(self):
-        for path in ozmen_cagatay2014.DATA.iterdir():
+        for path in (CASE.parent / "data").iterdir():
             for word in ("# WHAT:", "# PAPER:", "# CAVEAT:"):
                 self.assertIn(word, path.read_text(), path)
 
@@ -64,9 +66,10 @@ class Data(unittest.TestCase):
         self.assertEqual(case["parameters"]["crest"], ozmen_cagatay2014.HUMP_HEIGHT * H0)
         self.assertEqual(case["parameters"]["hump"], (ozmen_cagatay2014.HUMP_END - ozmen_cagatay2014.TOE) * H0)
         probes = {probe["name"]: probe for probe in case["probe"]}
-        self.assertEqual(probes["surface"]["times"],
-                         [f"{point.T:g}*sqrt(h0/g)" for point in ozmen_cagatay2014.read_points("profile")])
-        for point in ozmen_cagatay2014.read_points("gauge"):
+        run = Run(write_run(self.folder))
+        self.assertEqual([float(time.removesuffix("*sqrt(h0/g)")) for time in probes["surface"]["times"]],
+                         sorted(point.T for kind in ("profile", "gauge") for point in ozmen_cagatay2014.read_points(run, kind)))
+        for point in ozmen_cagatay2014.read_points(run, "gauge"):
             self.assertEqual(probes[point.gauge]["at"][0], f"reservoir{point.X:+g}*h0")
 
 

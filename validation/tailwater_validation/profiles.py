@@ -1,8 +1,4 @@
-"""Water surfaces over x at one instant: those of a run's profile probe, measured ones, and the distances between them.
-
-A measured surface is a polyline in the order it was digitised; where the water overturns it has several heights over one x.
-Only the places where it has one are compared.
-"""
+"""Water surfaces over x at one instant: those of a run's profile probe, measured ones, and the distances between them."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -78,37 +74,14 @@ def profile_at(run, probe, time):
     return Profile(float(taken_at), *(table[name][rows] for name in ("x_m", "bed_m", "connected_m", "highest_m")))
 
 
-def single_valued(x, y, places):
-    """Heights of a polyline at `places`; nan where it passes none or several times."""
-    x, y, places = (np.asarray(values, dtype=float) for values in (x, y, places))
-    passes, height = np.zeros(places.size, dtype=int), np.zeros(places.size)
-    for x0, y0, x1, y1 in zip(x[:-1], y[:-1], x[1:], y[1:]):
-        if x0 == x1:
-            continue
-        # One end belongs to the piece, the other to the next: no place is met twice where two pieces join.
-        met = (x0 <= places) & (places < x1) if x0 < x1 else (x1 < places) & (places <= x0)
-        passes += met
-        height[met] = y0 + (places[met] - x0) / (x1 - x0) * (y1 - y0)
-    return np.where(passes == 1, height, np.nan)
-
-
-def vertical_differences(measured, computed, step, start=-np.inf, end=np.inf):
-    """Computed minus measured height at places `step` apart, where the measured polyline is single-valued and between
-    `start` and `end`. Both are (x, y) in m; the computed x increase. Throws DataError if the computed curve ends before."""
-    (x, y), (x_computed, y_computed) = measured, computed
-    first, last = max(np.min(x), start), min(np.max(x), end)
-    if x_computed[0] > first or x_computed[-1] < last:
-        shared = min(last, x_computed[-1]) - max(first, x_computed[0])
-        if shared < LEAST_COVERAGE * (last - first):
-            raise DataError(f"the computed profile spans {x_computed[0]:.3g}..{x_computed[-1]:.3g} m of the measured "
-                            f"{first:.3g}..{last:.3g} m")
-        first, last = max(first, x_computed[0]), min(last, x_computed[-1])
-    places = np.linspace(first, last, int(np.ceil((last - first) / step)) + 1)
-    height = single_valued(x, y, places)
-    known = np.isfinite(height)
-    if not known.any():
-        raise DataError("the measured profile is nowhere single-valued")
-    return np.interp(places[known], x_computed, y_computed) - height[known]
+def differences_at(x, y, x_computed, y_computed):
+    """Computed minus measured heights at the measured places x (m); the computed x increase. Throws DataError if the computed
+    curve does not reach so far."""
+    reached = (x >= x_computed[0]) & (x <= x_computed[-1])
+    if reached.mean() < LEAST_COVERAGE:
+        raise DataError(f"the computed profile spans {x_computed[0]:.3g}..{x_computed[-1]:.3g} m of the measured "
+                        f"{np.min(x):.3g}..{np.max(x):.3g} m")
+    return np.interp(x[reached], x_computed, y_computed) - y[reached]
 
 
 def rms(values):

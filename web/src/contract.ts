@@ -163,6 +163,8 @@ export interface Measurement {
   file: string;
   time: number[];
   value: number[];
+  /** Of a profile: where along it. */
+  x?: number[];
 }
 
 export interface Scene {

@@ -4,10 +4,8 @@ T = t sqrt(g/h0); X = x/h0 from the gate, downstream; heights over h0. A height 
 hump too (the README argues for it); the mean errors are also given for the other reading, depth above the hump.
 """
 
-import csv
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
@@ -21,14 +19,12 @@ from ..metric import Metric, measure
 from ..profiles import profile_at
 from ..reading import summary
 from ..study import AllChecks
-from .laboratory import case_run, laboratory_study
+from .laboratory import case_run, laboratory_study, measured_tables
 
 NAME = "ozmen_cagatay2014"
 DEPTH, GATE = 0.25, 4.65  # m: h0; x of the gate
 TIME_SCALE = (DEPTH / 9.81) ** 0.5  # s
 TOE, CREST, HUMP_END, HUMP_HEIGHT = 6.0, 8.0, 10.0, 0.3  # X, X, X, over h0
-
-DATA = Path(__file__).resolve().parents[3] / "cases" / NAME / "data"
 
 # Largest mean error in %, over the profile and the gauge points, by scheme; and the largest of one point.
 MEAN_TARGETS = {"farzin2014": {"profile": 6.0, "gauge": 8.0}, "farmani2020": {"profile": 9.24, "gauge": 12.47}}
@@ -66,12 +62,11 @@ def bed(X):
     return HUMP_HEIGHT * np.maximum(0, 1 - np.abs(X - CREST) / (CREST - TOE))
 
 
-def read_points(kind):
+def read_points(run, kind):
     """Points of `kind` "profile" or "gauge", in the order of the file."""
-    lines = (DATA / f"{kind}_points.csv").read_text(encoding="utf-8").splitlines()
-    return [Point(row.get("gauge", ""), *(float(row[name]) for name in
-                                          ("T", "x_over_h0", "h_over_h0_measured", "h_over_h0_farmani")))
-            for row in csv.DictReader(line for line in lines if not line.startswith("#"))]
+    table = measured_tables(run, "surface")[f"{kind}_points"]
+    columns = (table[name] for name in ("tstar", "x_over_h0", "h_over_h0_measured", "h_over_h0_farmani"))
+    return [Point(f"P{k}" if kind == "gauge" else "", *numbers) for k, numbers in enumerate(zip(*columns), 1)]
 
 
 def gauge_level(run, gauge, X):
@@ -124,8 +119,8 @@ def of_points(run, kind, points):
 
 def metrics(run):
     """All numbers of a run, as [Metric]."""
-    gauges = read_points("gauge")
-    return [*of_points(run, "profile", read_points("profile")), *of_points(run, "gauge", gauges),
+    gauges = read_points(run, "gauge")
+    return [*of_points(run, "profile", read_points(run, "profile")), *of_points(run, "gauge", gauges),
             *(measure(Metric(f"bore {point.gauge}", f"reflected bore at {point.gauge}, X = {point.X:g}, behind the measured one",
                              "T", f"level {point.measured:.3f} at T = {point.T:g}"), partial(bore_lag, run, point))
               for point in gauges if point.gauge in ON_THE_BORE)]
@@ -147,7 +142,7 @@ def draw(run):
         return panels.panel(f"{point.gauge}, X = {point.X:g}", "T", "level/h0", (
             *measured(point.T, point), panels.over_time("computed", gauge_level(run, point.gauge, point.X))), limits=(0, 1.1))
 
-    return [*map(of_profile, read_points("profile")), *map(of_gauge, read_points("gauge"))]
+    return [*map(of_profile, read_points(run, "profile")), *map(of_gauge, read_points(run, "gauge"))]
 
 
 def water_error(run):

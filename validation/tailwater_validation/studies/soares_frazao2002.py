@@ -5,13 +5,15 @@ The events and surfaces that the experiment shows. No measured numbers are publi
 
 from functools import partial
 
+import numpy as np
+
 from tailwater.errors import DataError
 
 from .. import panels
 from ..checks import Check
 from ..curves import passage_time
 from ..metric import Metric, measure
-from ..profiles import profile_at, rms, vertical_differences
+from ..profiles import differences_at, profile_at, rms
 from ..study import Plot
 from .laboratory import case_run, laboratory_study
 
@@ -61,7 +63,8 @@ def metrics(run):
 def surface_distance(instant, run, reference):
     """RMS vertical distance (mm) of the surfaces of two runs."""
     one, other = (profile_at(which, "surface", instant) for which in (run, reference))
-    return 1000 * rms(vertical_differences((other.x, other.level), (one.x, one.level), run.spacing))
+    places = np.linspace(other.x[0], other.x[-1], int(np.ceil(np.ptp(other.x) / run.spacing)) + 1)
+    return 1000 * rms(differences_at(places, np.interp(places, other.x, other.level), one.x, one.level))
 
 
 def draw(run):

@@ -44,6 +44,14 @@ export function laboratory(run: Subject, probe: string, column: string): (Measur
   return all.filter((m) => m.probe === probe && m.column === column);
 }
 
+/** Of what was measured along a profile, (x, value) by x: that with which the profile of `time` is compared, which is the
+ * first at or after its own time; the one before is of `before`. */
+export function measuredFor({ time: times, x = [], value }: Measurement, before: number, time: number): [number, number][] {
+  const digits = 1e-6 * Math.abs(time); // times are written with seven
+  const now = times.flatMap((own, k): [number, number][] => (own > before + digits && own <= time + digits ? [[x[k]!, value[k]!]] : []));
+  return now.sort(([a], [b]) => a - b);
+}
+
 export function axisLabel(column: string): string {
   const { label, unit } = split(column);
   return unit ? `${label}, ${unit}` : label;

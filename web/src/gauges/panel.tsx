@@ -9,7 +9,7 @@ import { useChanges } from "../store.ts";
 import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
 import { number, split } from "../units.ts";
-import { axisLabel, choices, curves, favourite, isProfile, laboratory } from "./curves.ts";
+import { axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor } from "./curves.ts";
 import { limit, meanOf, type Mean } from "./limit.ts";
 import { Plot, type Line } from "./plot.tsx";
 import { saveText } from "../picture/save.ts";
@@ -159,6 +159,7 @@ function overTime(app: App, runs: Subject[], probe: Probe, column: string): Line
   return lines;
 }
 
+/** The profiles at the moment shown, and what was measured at their time. */
 function profileCurves(app: App, runs: Subject[], probe: Probe, column: string): Line[] {
   const palette = series[app.look.now.theme];
   return runs.flatMap((run, i) => {
@@ -166,8 +167,13 @@ function profileCurves(app: App, runs: Subject[], probe: Probe, column: string):
     const along = table?.column(probe.type === "velocity-profile" ? "height_m" : "x_m") ?? table?.values[1];
     const y = table?.column(column);
     if (!table || !along || !y) return [];
-    const [first, end] = block(table.values[0]!, app.player.time);
-    return [{ name: run.name, x: along.slice(first, end), y: y.slice(first, end), colour: palette[i % 6]! }];
+    const times = table.values[0]!;
+    const [first, end] = block(times, app.player.time);
+    const measured = i > 0 ? [] : laboratory(run, probe.name, column).map((m) => {
+      const now = measuredFor(m, times[first - 1] ?? -Infinity, times[first]!);
+      return { name: m.file, x: now.map(([x]) => x), y: now.map(([, value]) => value), colour: colours().text, points: true };
+    });
+    return [{ name: run.name, x: along.slice(first, end), y: y.slice(first, end), colour: palette[i % 6]! }, ...measured];
   });
 }
 

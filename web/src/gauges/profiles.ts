@@ -16,16 +16,16 @@ export function profileLines(run: Subject, time: number): number[][][] {
   });
 }
 
-/** Lines through the levels of the places that are wet. */
-function wetLines(table: Table | undefined, column: string, first = 0, end = table?.rows ?? 0): number[][][] {
+/** Lines through the levels of the places that are wet; a map has levels, a profile depths over the bed. */
+export function wetLines(table: Table | undefined, column: "largest_m" | "connected_m", first = 0, end = table?.rows ?? 0): number[][][] {
   const x = table?.column("x_m");
-  const level = table?.column(column);
+  const height = table?.column(column);
   const bed = table?.column("bed_m");
-  if (!x || !level) return [];
+  if (!x || !height || !bed) return [];
   const lines: number[][][] = [[]];
   for (let i = first; i < end; ++i) {
-    const wet = Number.isFinite(level[i]!) && level[i]! > (bed?.[i] ?? -Infinity);
-    if (wet) lines.at(-1)!.push([x[i]!, level[i]!]);
+    const level = height[i]! + (column === "connected_m" ? bed[i]! : 0);
+    if (Number.isFinite(level) && level > bed[i]!) lines.at(-1)!.push([x[i]!, level]);
     else if (lines.at(-1)!.length > 0) lines.push([]);
   }
   return lines;

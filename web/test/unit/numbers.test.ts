@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colourMaps, table } from "../../src/colours.ts";
+import { measuredFor } from "../../src/gauges/curves.ts";
+import { wetLines } from "../../src/gauges/profiles.ts";
 import { block, Table, toCsv, valueAt } from "../../src/tables.ts";
 import { duration, length, niceBelow, number, split, timeDecimals } from "../../src/units.ts";
 import { ticks, toSvg } from "../../src/picture/svg.ts";
@@ -42,6 +44,15 @@ test("values between readings, and blocks of rows of one moment", () => {
   assert.ok(Number.isNaN(valueAt([], [], 0)));
   assert.deepEqual(block([1, 1, 2, 2, 2, 3], 2.5), [2, 5]);
   assert.deepEqual(block([1, 1, 2], 0), [0, 2]);
+});
+
+test("the level of a profile is over its bed, and what was measured goes with the profile at or after its time", () => {
+  const table = new Table();
+  table.append("time_s,x_m,bed_m,connected_m\n0.5,0,0.1,0.4\n0.5,1,0.2,0\n0.5,2,0.1,0.3\n");
+  assert.deepEqual(wetLines(table, "connected_m").filter((line) => line.length > 0), [[[0, 0.5]], [[2, 0.4]]]);
+  const lab = { probe: "p", column: "connected_m", file: "f", time: [0.5, 0.5, 0.4, 0.6], value: [7, 8, 9, 10], x: [2, 1, 0, 0] };
+  assert.deepEqual(measuredFor(lab, 0.4001, 0.5002), [[1, 8], [2, 7]]);
+  assert.deepEqual(measuredFor(lab, -Infinity, 0.4001), [[0, 9]]);
 });
 
 test("axes have round ticks, and the drawing of a plot is whole SVG", () => {
