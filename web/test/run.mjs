@@ -1,4 +1,4 @@
-// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser|speed [name of a file]
+// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser|speed|pictures [name of a file]
 // Exit 77: skipped, because what it takes is not installed.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
