@@ -92,7 +92,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
         </select>
       </header>
       <div class="read" aria-live="off" />
-      {owner.table(probe.name) || measured.length > 0 ? (
+      {owner.table(probe.name) || (measured.length > 0 && !profile) ? (
         <Plot lines={lines} xLabel={profile ? "x, m" : "time, s"} yLabel={axisLabel(column)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
       ) : (
         <p class="hint">No reading yet.</p>
