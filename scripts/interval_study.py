@@ -52,7 +52,7 @@ FLOWS = {
     "ogee": ("discharge for the energy head, 2.18 H^1.5", "flume/ogee", "Hd/6", error_of("ogee", "coefficient_error")),
     "broad-weir": ("discharge for the energy head, critical flow", "flume/broad_weir", "P/6",
                    error_of("broad-weir", "coefficient_error")),
-    "gate": ("contraction, potential flow (0.61)", "flume/sluice_gate", "a/3", error_of("sluice-gate", "contraction_error")),
+    "gate": ("contraction, potential flow with gravity (0.599)", "flume/sluice_gate", "a/3", error_of("sluice-gate", "contraction_error")),
     "jump": ("depth behind the jump, momentum of its profile", "flume/hydraulic_jump", "h1/3",
              error_of("hydraulic-jump", "momentum_error")),
 }

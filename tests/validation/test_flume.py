@@ -10,6 +10,7 @@ import numpy as np
 from tailwater.errors import DataError
 from tailwater.run import Run
 from tailwater_validation import flume
+from tailwater_validation.potential_gate import contraction
 
 G = 9.81
 END = 8.0
@@ -69,10 +70,11 @@ class SteadyFlows(unittest.TestCase):
         self.assertAlmostEqual(numbers["coefficient_error"], 1.02 * (0.1 / (0.1 + raised)) ** 1.5 - 1, places=9)
 
     def test_a_gate_without_losses(self):
-        # Energy 0.2 + q^2/(2 g 0.04) = 0.0305 + q^2/(2 g 0.0305^2)
-        q = (2 * G * (0.2 - 0.0305) / (1 / 0.0305**2 - 1 / 0.04)) ** 0.5
+        # Energy 0.2 + q^2/(2 g 0.04) = jet + q^2/(2 g jet^2)
+        jet = contraction(0.25) * 0.05
+        q = (2 * G * (0.2 - jet) / (1 / jet**2 - 1 / 0.04)) ** 0.5
         numbers = flume.sluice_gate(self.run_with({"a": 0.05}, {"upstream": ("connected_m", 0.3, 0.2),
-                                                                "jet": ("connected_m", 0.1, 0.0305),
+                                                                "jet": ("connected_m", 0.1, jet),
                                                                 "discharge": ("volume_m3", 0.0, q)}))
         self.assertAlmostEqual(numbers["contraction_error"], 0.0, places=9)
         self.assertAlmostEqual(numbers["discharge_error"], 0.0, places=9)

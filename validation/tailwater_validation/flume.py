@@ -14,11 +14,11 @@ from tailwater.waves import crest, solitary
 
 from . import potential_wave
 from .floating import floating_box
+from .potential_gate import contraction
 from .profiles import profile_at, profile_table, rms
 from .wave_flume import irregular_waves, wave_flume
 
 STEADY = 0.5  # share of the run after which the flow counts as steady
-CONTRACTION = 0.61  # of the water behind a sluice gate
 SURFACE_TENSION_HEAD = 0.0011  # m, Rehbock's, of surface tension and viscosity
 
 
@@ -107,14 +107,15 @@ def ogee(run):
 
 
 def sluice_gate(run):
-    """contraction_error: depth of the jet over CONTRACTION times the opening, less 1. discharge_error: discharge over
-    that of the energy equation with the depths that were read, less 1."""
+    """contraction_error: depth of the jet over that of potential flow, less 1. discharge_error: discharge over that of the
+    energy equation with the depths that were read, less 1."""
     opening, g = run.parameters["a"], run.gravity
     upstream = steady_mean(run, "upstream", "connected_m")
     jet = steady_mean(run, "jet", "connected_m")
     discharge = steady_discharge(run, "discharge")
     without_losses = jet * upstream * (2 * g / (jet + upstream)) ** 0.5
-    return {"contraction_error": jet / (CONTRACTION * opening) - 1, "discharge_error": discharge / without_losses - 1,
+    return {"contraction_error": jet / (contraction(opening / upstream) * opening) - 1,
+            "discharge_error": discharge / without_losses - 1,
             "upstream_m": upstream, "jet_m": jet, "upstream_drift_m": drift(run, "upstream", "connected_m")}
 
 
