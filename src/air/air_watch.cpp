@@ -1,8 +1,11 @@
 #include "air/air_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -15,6 +18,20 @@ constexpr double cover = 1.1;
 /// [dx]; how far water may go between two looks: a cell.
 constexpr double way_between_looks = 0.5;
 
+/// With one bit each in six kinds of marks, and what is kept of each row of cells: some 2 GB.
+constexpr double most_cells_of_map = 2e9;
+
+/// Of the grid, with rows that fill words of marks.
+template <int Dim>
+double cells_over(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
+  double cells = 1.0;
+  for (int d = 0; d < Dim; ++d) {
+    const double size = domain[d] ? domain[d]->second - domain[d]->first : box.sizes()[d];
+    cells *= std::max(size / (0.5 * spacing), d == Dim - 1 ? 64.0 : 1.0);
+  }
+  return cells;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -23,6 +40,13 @@ AirWatch<Dim>::AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim
     : law_(air), spacing_(spacing) {
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
   if (air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
+  if (!(cells_over<Dim>(box, spacing, domain) <= most_cells_of_map)) {
+    throw InputError(fmt::format(
+        "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, with all their "
+        "ways, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
+        "\"none\"",
+        most_cells_of_map));
+  }
   grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing, domain);
 }
 

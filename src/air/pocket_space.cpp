@@ -241,7 +241,7 @@ void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<
     const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += part;
     const double weight = weight_of(k);
-    if (weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
+    if (part * weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
   });
   for (std::size_t n = 0; n < count; ++n) volumes[taken[n].first] -= volume * taken[n].second / all;
 }
@@ -314,7 +314,7 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
     for (int d = 0; d < Dim; ++d) weight *= weights[d][way[d]];
     const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += weight;
-    if (k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
+    if (weight > 0.0 && k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
   });
   for (PocketShare& share : shares) share.share /= all;
   return shares;

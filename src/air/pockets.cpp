@@ -34,9 +34,10 @@ struct Overlap {
 };
 
 template <int Dim>
-Overlap overlap_of(const AirPocket& pocket, const Voids<Dim>& voids) {
+Overlap overlap_of(const AirPocket& pocket, const VoidGrid<Dim>& grid, const Voids<Dim>& voids) {
   Overlap overlap;
   for (const CellRun& run : pocket.cells) {
+    if (run.row < 0 || run.row >= grid.rows()) continue;  // a checkpoint may say anything
     voids.visit_pieces(run, [&](const CellRun& piece, int part) {
       overlap.all += piece.cells();
       if (voids.parts()[part].is_open) {
@@ -97,7 +98,7 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
   }
   std::vector<FoundPocket> torn;
   for (const AirPocket& old : state.pockets) {
-    Overlap overlap = overlap_of(old, voids);
+    Overlap overlap = overlap_of(old, grid, voids);
     double lost = 1.0;
     for (const auto& [part, cells] : overlap.closed) {
       const auto gathered = parts.find(part);

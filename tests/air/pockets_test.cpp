@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "air/air_watch.h"
+#include "base/error.h"
+
 namespace tailwater {
 namespace pockets_test {
 
@@ -135,6 +138,25 @@ TEST(Pockets, LoseTheirGasWhenTheyHaveBeenOpenForAWhile) {
   EXPECT_NEAR(basin.state.gas_lost, gas, 1e-12);
   EXPECT_NEAR(basin.state.energy_lost, energy, 1e-9 * energy);
   EXPECT_EQ(basin.state.ended, 1);
+}
+
+TEST(Pockets, CellsThatThereAreNotAreGone) {
+  Basin basin;
+  basin.look({{0.5, 1.0}});
+  const double gas = basin.gas();
+  for (CellRun& run : basin.state.pockets[0].cells) run.row = run.row % 2 == 0 ? 100'000'000 : -1;
+  basin.look({});
+  EXPECT_TRUE(basin.state.pockets.empty());
+  EXPECT_EQ(basin.state.gas_lost, gas);
+}
+
+TEST(Pockets, MoreSpaceThanMemoryIsRefused) {
+  const AirTable air{.pockets = AirPockets::adiabatic};
+  EXPECT_NO_THROW(AirWatch<2>(air, {Vec<2>::Zero(), Vec<2>::Ones()}, dx, {}));
+  for (const double length : {1e5, 1e15, 1e100}) {
+    const Eigen::AlignedBox<double, 2> box(Vec<2>::Zero(), Vec<2>::Constant(length));
+    EXPECT_THROW(AirWatch<2>(air, box, dx, {}), InputError) << length;
+  }
 }
 
 TEST(Pockets, TakeInAirThatIsShutInBesideThem) {

@@ -120,6 +120,21 @@ TEST(PocketVolumeOfBlock, InsideOfABlockIsNone) {
   EXPECT_TRUE(flow.state.air.pockets.empty());
 }
 
+// Of its cube nothing is in front of the wall, and the cells beside it are the pocket's.
+TEST(PocketVolumeOfBlock, WaterBehindAWallTakesNothing) {
+  CaseSpec spec = closed_tank<2>(0.75, 0.375);
+  spec.particles.spacing = 0.0625;  // edges of cells are whole numbers
+  Flow<2> flow = make_flow<2>(spec);
+  watch_air(flow, 0.0);
+  ASSERT_EQ(flow.state.air.pockets.size(), 1u);
+  const double volume = flow.state.air.pockets[0].volume;
+  Flow<2> leaky = make_flow<2>(spec);
+  leaky.state.particles.position[0] = Vec<2>(-0.03125, 0.5625);
+  watch_air(leaky, 0.0);
+  ASSERT_EQ(leaky.state.air.pockets.size(), 1u);
+  EXPECT_NEAR(leaky.state.air.pockets[0].volume, volume, 1e-12);
+}
+
 // A plate is no way for air: of a closed tank it makes two pockets.
 TEST(PocketVolumeOfPlate, PlateParts) {
   CaseSpec spec = closed_tank<2>(1.0, 0.4);
