@@ -42,8 +42,8 @@ AirWatch<Dim>::AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim
   if (air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
   if (!(cells_over<Dim>(box, spacing, domain) <= most_cells_of_map)) {
     throw InputError(fmt::format(
-        "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, with all their "
-        "ways, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
+        "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, wherever they "
+        "go, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
         "\"none\"",
         most_cells_of_map));
   }

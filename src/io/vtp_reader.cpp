@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <ranges>
 
 #include "base/error.h"
 
@@ -93,7 +95,7 @@ void add_array(std::string_view element, std::size_t count, const Appended& appe
   array.components = number_in<std::size_t>(attribute(element, "NumberOfComponents"));
   const auto offset = number_in<std::size_t>(attribute(element, "offset"));
   const std::size_t size_of_value = type == "Float32" ? 4 : 8;
-  if (array.components > 16) refuse("an array has too many components");
+  if (array.components < 1 || array.components > 16) refuse("an array has no or too many components");
   const std::string data = appended.at(offset, count * array.components * size_of_value);
   if (type == "Float32") return add_values<float>(data, array.values);
   if (type == "Float64") return add_values<double>(data, array.values);
@@ -138,6 +140,12 @@ VtpFile parsed(std::string_view bytes) {
                      [&](std::string_view element) { add_array(element, count, appended, file.points); });
   });
   if (file.points.components != 3) refuse("its points are no points");
+  const auto is_whole = [&](const VtpFile::Array& array) {
+    return array.values.size() == file.count * array.components;
+  };
+  if (!is_whole(file.points) || !std::ranges::all_of(std::views::values(file.fields), is_whole)) {
+    refuse("an array does not hold all points");
+  }
   return file;
 }
 

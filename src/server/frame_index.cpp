@@ -71,20 +71,23 @@ std::string frame_of_fields(std::string_view bytes, const std::string& name, std
   const VtpFile file = read_vtp_bytes(bytes, name);
   std::vector<std::size_t> order(file.count);
   std::iota(order.begin(), order.end(), std::size_t{0});
+  // Without ids a particle is known by its place in the file, which is in the order of ids.
+  std::vector<std::int64_t> id(order.begin(), order.end());
+  if (const auto ids = file.fields.find("id"); ids != file.fields.end()) {
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      const double number = ids->second.values[i];
+      if (!std::isfinite(number) || std::abs(number) > 0x1p53) {
+        throw IoError(fmt::format("cannot read '{}': an id is no whole number", name));
+      }
+      id[i] = static_cast<std::int64_t>(number);
+    }
+    std::ranges::sort(order, {}, [&](std::size_t i) { return id[i]; });
+  }
   Frame frame;
   frame.head.index = index;
   frame.head.time = file.time;
   FrameParticles& particles = frame.particles;
-  // Without ids a particle is known by its place in the file, which is in the order of ids.
-  const auto ids = file.fields.find("id");
-  if (ids != file.fields.end()) {
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return ids->second.values[a] < ids->second.values[b]; });
-  }
-  for (const std::size_t i : order) {
-    particles.id.push_back(ids == file.fields.end() ? static_cast<std::int64_t>(i)
-                                                    : static_cast<std::int64_t>(ids->second.values[i]));
-  }
+  for (const std::size_t i : order) particles.id.push_back(id[i]);
   for (std::size_t d = 0; d < dimension; ++d) {
     std::vector<double> x = picked(file.points, d, order);
     const auto [low, high] = range_of(x);

@@ -103,7 +103,7 @@ template <class Number>
 void put_ascending(std::string& bytes, const std::vector<Number>& numbers) {
   Number before = 0;
   for (const Number number : numbers) {
-    put_varint(bytes, static_cast<std::uint64_t>(number - before));
+    put_varint(bytes, static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(before));
     before = number;
   }
 }
@@ -114,7 +114,7 @@ std::vector<Number> take_ascending(Taker& bytes, std::size_t count) {
   std::vector<Number> numbers(count);
   Number before = 0;
   for (Number& number : numbers) {
-    number = before + static_cast<Number>(bytes.take_varint());
+    number = static_cast<Number>(static_cast<std::uint64_t>(before) + bytes.take_varint());
     before = number;
   }
   return numbers;

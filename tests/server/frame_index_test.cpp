@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "base/error.h"
 #include "io/pvd_series.h"
 #include "io/temporary_folder.h"
 #include "io/write_file.h"
@@ -109,6 +112,43 @@ TEST(FrameIndex, MakesFramesOfFieldFiles) {
     index.look();
     index.bytes_of(1);
   }
+}
+
+TEST(FrameIndex, AFieldFileThatLacksArraysIsNoFrame) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "fields");
+  const Water water;
+  PvdSeries(folder.path() / "fields", "fields", 0)
+      .write<2>(0.0, {.position = water.position, .fields = {{"id", std::span<const std::int64_t>(water.id)}}});
+  const std::string bytes = text_of(folder.path() / "fields" / "fields_00000.vtp");
+  const std::size_t begin = bytes.find("<Piece ");
+  const std::size_t end = bytes.find("</Piece>") + std::string_view("</Piece>").size();
+  const std::string piece = bytes.substr(begin, end - begin);
+  const auto with_second = [&](const std::string& second) {
+    return frame_of_fields(bytes.substr(0, end) + second + bytes.substr(end), "name", 0, 2);
+  };
+  EXPECT_EQ(decode_frame(with_second(piece), {}).particles.size(), 4U);
+  for (std::size_t at = piece.find("<DataArray "); at < piece.find("</Points>");
+       at = piece.find("<DataArray ", at + 1)) {
+    std::string second = piece;
+    second.replace(at, 5, "<Date");
+    EXPECT_THROW(with_second(second), IoError);
+  }
+}
+
+TEST(FrameIndex, AnIdIsAWholeNumber) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "fields");
+  const Water water;
+  const std::vector<double> id(water.position.size(), std::nan(""));
+  PvdSeries(folder.path() / "fields", "fields", 0)
+      .write<2>(0.0, {.position = water.position, .fields = {{"id", std::span<const double>(id)}}});
+  const std::string bytes = text_of(folder.path() / "fields" / "fields_00000.vtp");
+  EXPECT_THROW(frame_of_fields(bytes, "name", 0, 2), IoError);
+  std::string none = bytes;
+  const std::size_t at = none.find("NumberOfComponents=", none.find("Name=\"id\""));
+  none.replace(at, 22, "NumberOfComponents=\"0\"");
+  EXPECT_THROW(frame_of_fields(none, "name", 0, 2), IoError);
 }
 
 TEST(FolderReader, OpensNothingOutsideAndFollowsNoLink) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "base/error.h"
@@ -51,12 +52,13 @@ class EachOrder : public testing::TestWithParam<int> {};
 
 TEST_P(EachOrder, IsReadBackBitForBit) {
   std::mt19937 random(1);
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   for (const std::size_t dimension : {2U, 3U}) {
     // Gone since the last frame: the first, one inside and the last. Come: one before, one inside and one behind all.
     const FramesBefore before{random_particles({5, 6, 7, 9, 12, 40}, dimension, random),
                               random_particles({5, 7, 9, 11, 40}, dimension, random)};
     for (const std::vector<std::int64_t>& ids :
-         {std::vector<std::int64_t>{2, 6, 8, 9, 12, 1000000000000}, {5, 6, 7, 9, 12, 40}, {}, {41}}) {
+         {std::vector<std::int64_t>{2, 6, 8, 9, 12, 1000000000000}, {5, 6, 7, 9, 12, 40}, {}, {41}, {-most, 7, most}}) {
       const Frame frame = frame_of(random_particles(ids, dimension, random), GetParam(), dimension);
       EXPECT_EQ(decode_frame(encode_frame(frame, before), before), frame);
     }
