@@ -84,6 +84,11 @@ FILES = {
     "gauge.csv": "t [s],value\n0,0.5\n0.1,0.498\n5,0.4\n",
     "body.obj": "v 1 1 0.1\nv 2 1 0.1\nv 1 2 0.1\nv 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
     "sheet.obj": "v 0.8 0 0\nv 0.8 1 0\nv 0.8 1 1\nv 0.8 0 1\nf 1 2 3\nf 1 3 4\n",
+    "slope.obj": "v -1 -1 -0.0078125\nv 5 -1 0.3671875\nv 5 2 0.3671875\nv -1 2 -0.0078125\nf 1 2 3\nf 1 3 4\n",
+    "chamfer.obj": "".join(f"v {x} {y} {z}\n" for x in (0, 1000) for y, z in (
+        (150, 0), (450, 0), (600, 150), (600, 450), (450, 600), (150, 600), (0, 450), (0, 150))) +
+        "f 8 7 6 5 4 3 2 1\nf 9 10 11 12 13 14 15 16\n" +
+        "".join(f"f {k} {k % 8 + 1} {k % 8 + 9} {k + 8}\n" for k in range(1, 9)),
     "ground.stl": "solid g\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 3 0 0\nvertex 0 3 0\nendloop\nendfacet\n"
                   "facet normal 0 0 1\nouter loop\nvertex 3 0 0\nvertex 3 3 0\nvertex 0 3 0\nendloop\nendfacet\nendsolid g\n",
 }

@@ -20,6 +20,11 @@ class Folder : public TemporaryFolder {
     std::ofstream(path() / "way.csv") << "t [s], way [mm]\n0, 0\n0.1, 5\n1000, 300\n";
     std::ofstream(path() / "flood.csv") << "t [s], discharge [l/s]\n0, 10\n1000, 20\n";
     std::ofstream(path() / "tide.csv") << "t [s], level [m]\n0, 0.4\n1000, 0.45\n";
+    std::ofstream(path() / "slope.obj") << "v -1 -1 0\nv 5 -1 0.37\nv 5 2 0.37\nv -1 2 0\nf 1 2 3\nf 1 3 4\n";
+    std::ofstream(path() / "chamfer.obj")
+        << "v 0 150 0\nv 0 450 0\nv 0 600 150\nv 0 600 600\nv 0 0 600\nv 0 0 150\n"
+           "v 1000 150 0\nv 1000 450 0\nv 1000 600 150\nv 1000 600 600\nv 1000 0 600\nv 1000 0 150\n"
+           "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
     std::ofstream(path() / "body.obj") << "v 1 1 0\nv 2 1 0\nv 1 2 0\nv 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   }
 };
