@@ -20,22 +20,30 @@ import zlib
 
 import fuzzing
 from program import PROGRAM, SMALL_CASE
+from test_resume import BARGE, FLUME, GATE, POCKET, WAVES
 
 MUTATE = os.environ["MUTATE_CHECKPOINT"]
+
+# Whose checkpoints differ in what they hold.
+CASES = ((), GATE, WAVES, BARGE, FLUME, POCKET)
 
 COUNT_IN_SUITE = 25
 
 
-def make_run(folder):
-    """A run that was done at 0.05 s, in `folder`; its newest checkpoint."""
+def make_runs(folder):
+    """A run of each case that was done at 0.05 s, in `folder`; their newest checkpoints."""
     (folder / "small.toml").write_text(SMALL_CASE)
-    subprocess.run([PROGRAM, "run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=0.05"], cwd=folder,
-                   check=True)
-    return max((folder / "run/checkpoints").iterdir())
+    newest = []
+    for k, changes in enumerate(CASES):
+        subprocess.run([PROGRAM, "run", "small.toml", "--out", str(k), "--quiet", "--set", "time.end=0.05", *changes],
+                       cwd=folder, check=True)
+        newest.append(max((folder / str(k) / "checkpoints").iterdir()))
+    return newest
 
 
-def resume_one(number, seed, keep, original):
+def resume_one(number, seed, keep, originals):
     """(exit code, finding)."""
+    original = originals[number % len(originals)]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         shutil.copytree(original.parents[1], folder / "run")
@@ -55,9 +63,9 @@ def resume_one(number, seed, keep, original):
 class MutatedCheckpoints(unittest.TestCase):
     def test_each_is_answered(self):
         with tempfile.TemporaryDirectory() as scratch:
-            original = make_run(pathlib.Path(scratch))
-            codes, findings = fuzzing.campaign(functools.partial(resume_one, original=original), range(COUNT_IN_SUITE),
-                                               "suite")
+            originals = make_runs(pathlib.Path(scratch))
+            codes, findings = fuzzing.campaign(functools.partial(resume_one, originals=originals),
+                                               range(COUNT_IN_SUITE), "suite")
         self.assertEqual(findings, [])
         self.assertGreater(codes[4], COUNT_IN_SUITE / 4, "most of what is wrong is seen")
 
@@ -65,8 +73,8 @@ class MutatedCheckpoints(unittest.TestCase):
 def main():
     options = fuzzing.arguments(__doc__).parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        original = make_run(pathlib.Path(scratch))
-        return fuzzing.main(options, functools.partial(resume_one, original=original))
+        originals = make_runs(pathlib.Path(scratch))
+        return fuzzing.main(options, functools.partial(resume_one, originals=originals))
 
 
 if __name__ == "__main__":

@@ -38,6 +38,8 @@ BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull'
          "centre=[0.6, 0.6], inertia=[17]}]", "--set", "mooring=[{body='barge', at=[0.2, 0.3], anchor=[0, 0], "
          "stiffness=100}]", "--set", "probe=[{name='barge', type='motion', body='barge'}, {name='energy', "
          "type='energy'}]")
+POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}]", "--set", "air={pockets='adiabatic', pressure=1000}",
+          "--set", "fluid[0].velocity=[1, 0]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -55,8 +57,7 @@ FEATURES = {
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,
     "three dimensions and multigrid": (*CUBE, "--set", "pressure_solver.preconditioner=gamg"),
-    "a pocket of air": ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}]", "--set",
-                        "air={pockets='adiabatic', pressure=1000}", "--set", "fluid[0].velocity=[1, 0]"),
+    "a pocket of air": POCKET,
     "a published formulation": ("--set", "scheme.name=farmani2020", "--set", "scheme.formulation=published"),
 }
 WARN = ("--set", "limits.volume_warning=1e-9")
