@@ -127,7 +127,7 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
       const bool is_closed = wall->shape == WallShape::polygon || wall->shape == WallShape::mesh ||
                              (wall->shape == WallShape::box && wall->open.empty());
       if (const auto [first, is_new] = body_of_wall.emplace(name, body.name); !is_new) {
-        wrong(fmt::format("wall '{}' is of body '{}' already; each wall is of one body", name, first->second));
+        wrong(fmt::format("wall '{}' is of body '{}' already; remove it from one of them", name, first->second));
       } else if (is_moved) {
         wrong(fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
       } else if (!is_closed) {

@@ -75,6 +75,7 @@ void check(const BodyTable& body, TableReader& reader) {
   if (body.walls.empty() && !reader.is_wrong("walls")) {
     reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
   }
+  if (reader.dimension() == 0) return;  // what is free goes with it
   const bool is_flat = reader.dimension() == 2;
   for (const std::string& way : body.free) {
     const bool is_turn = way.starts_with("rotation");

@@ -136,6 +136,13 @@ const std::vector<BadInput> table{
          "\"t\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n",
      "14:9",
      {"body[0].walls", "has a motion of its own"}},
+    {"wall_of_two_bodies",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = \"outside\"\n"
+         "[[body]]\nname = \"a\"\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n"
+         "[[body]]\nname = \"b\"\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n",
+     "20:9",
+     {"body[1].walls", "wall 'hull' is of body 'a' already", "remove it from one of them"}},
     {"body_that_turns_about_a_third_axis",
      required_keys + water +
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
@@ -308,6 +315,12 @@ const std::vector<BadInput> table{
     {"field_not_a_text", required_keys + "[output]\nfields = [3]\n" + water, "4:11", {"output.fields[0] = 3"}},
     // Dimension and coordinates
     {"dimension_four", "case.dimension = 4\n" + required_keys + water, "1:18", {"case.dimension = 4", "2 to 3"}},
+    {"dimension_four_with_a_body",
+     "case.dimension = 4\n" + required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = \"outside\"\n"
+         "[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\ninertia = [1]\n",
+     "1:18",
+     {"case.dimension = 4", "2 to 3"}},
     {"three_numbers_in_2d",
      required_keys + "[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1]\n",
      "4:7",
