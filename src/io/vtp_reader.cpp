@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <ranges>
 
 #include "base/error.h"
 
@@ -143,9 +142,8 @@ VtpFile parsed(std::string_view bytes) {
   const auto is_whole = [&](const VtpFile::Array& array) {
     return array.values.size() == file.count * array.components;
   };
-  if (!is_whole(file.points) || !std::ranges::all_of(std::views::values(file.fields), is_whole)) {
-    refuse("an array does not hold all points");
-  }
+  const bool are_whole = std::ranges::all_of(file.fields, [&](const auto& field) { return is_whole(field.second); });
+  if (!is_whole(file.points) || !are_whole) refuse("an array does not hold all points");
   return file;
 }
 
