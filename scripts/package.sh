@@ -50,7 +50,7 @@ configure() {  # NAME ARCH [cmake arguments]
     -D TAILWATER_PYTHON=ON -D CMAKE_DISABLE_FIND_PACKAGE_benchmark=ON -D CMAKE_INSTALL_PREFIX=/usr "${@:3}" >/dev/null
 }
 scripts/site.py build/site
-configure v3 x86-64-v3
+configure v3 x86-64-v3 -D CMAKE_BUILD_WITH_INSTALL_RPATH=ON  # as it is packed: CMake takes no paths of libraries out
 cmake --build build/package-v3 --target tailwater
 strip -o "$files/tailwater-v3" build/package-v3/bin/tailwater
 configure v2 x86-64-v2 -D TAILWATER_FASTER_PROGRAM="$PWD/$files/tailwater-v3" -D TAILWATER_DEBIAN_FILES="$PWD/$files" \
