@@ -55,6 +55,10 @@ struct ProbeContext {
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
   std::span<const BodyState<Dim>> bodies = {};   ///< that float
+  /// Pa; of the air at a place, above the atmosphere's. On all ranks the same; empty where there are no pockets of it.
+  std::function<double(const Vec<Dim>&)> air_pressure = {};
+
+  double air_pressure_at(const Vec<Dim>& x) const { return air_pressure ? air_pressure(x) : 0.0; }
 
   /// The same moment of other particles. What belongs to particles or ranks is left out.
   ProbeContext of(const Particles<Dim>& others, const CellGrid<Dim>& their_grid) const {
@@ -66,7 +70,8 @@ struct ProbeContext {
             .gravity = gravity,
             .spacing = spacing,
             .time = time,
-            .totals = totals};
+            .totals = totals,
+            .air_pressure = air_pressure};
   }
 };
 

@@ -64,7 +64,7 @@ Reading<Dim> pressure_reading(const ProbeTable& probe) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
   return {{"pressure_Pa", "wet"},
           [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            if (water_share(context, at) <= surface_share) return {{0.0, 0.0}};
+            if (water_share(context, at) <= surface_share) return {{context.air_pressure_at(at), 0.0}};
             return {{interpolate(context, at, context.particles.pressure, 0.0), 1.0}};
           },
           [at](double) {

@@ -43,23 +43,23 @@ struct PressureMap {
 
   /// Collective.
   Row read(const ProbeContext<Dim>& context) const {
-    const std::vector<std::optional<double>> pressure = pressures(context);
+    const std::vector<PressureOnWall> pressure = pressures(context);
     const double since_last = context.time - last_time();
     last_time() = context.time;
     duration() += since_last;
     double mean = 0.0;
     double wet = 0.0;
     for (std::size_t k = 0; k < patches.size(); ++k) {
-      const double p = pressure[k].value_or(0.0);
+      const double p = pressure[k].value;
       sum(k) += since_last * p;
       mean += patches[k].measure / area * p;
-      if (pressure[k]) wet += patches[k].measure / area;
+      if (pressure[k].is_wet) wet += patches[k].measure / area;
       if (p <= largest(k)) continue;
       largest(k) = p;
       time_of_largest(k) = context.time;
     }
-    const std::size_t highest = first_of_highest([&](std::size_t k) { return pressure[k].value_or(0.0); });
-    Row row{pressure[highest].value_or(0.0)};
+    const std::size_t highest = first_of_highest([&](std::size_t k) { return pressure[k].value; });
+    Row row{pressure[highest].value};
     const Vec<Dim> place = patches[highest].centre(context.boundary);
     row.insert(row.end(), place.begin(), place.end());
     row.insert(row.end(), {mean, wet});
@@ -71,14 +71,14 @@ struct PressureMap {
   template <class Of>
   std::size_t first_of_highest(Of&& of) const {
     constexpr double rounding = 1e-9;
-    double highest = 0.0;
-    for (std::size_t k = 0; k < patches.size(); ++k) highest = std::max(highest, of(k));
+    double highest = of(0);
+    for (std::size_t k = 1; k < patches.size(); ++k) highest = std::max(highest, of(k));
     std::size_t first = 0;
-    while (of(first) < (1.0 - rounding) * highest) ++first;
+    while (of(first) < highest - rounding * std::abs(highest)) ++first;
     return first;
   }
 
-  std::vector<std::optional<double>> pressures(const ProbeContext<Dim>& context) const {
+  std::vector<PressureOnWall> pressures(const ProbeContext<Dim>& context) const {
     std::vector<double> sums(3 * patches.size());
     std::vector<double> least(patches.size());
     const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
@@ -93,9 +93,11 @@ struct PressureMap {
     });
     context.ranks.sum_of_each(sums);
     context.ranks.least_of_each(least);
-    std::vector<std::optional<double>> pressure(patches.size());
+    std::vector<PressureOnWall> pressure(patches.size());
     for_each(patches.size(), [&](std::size_t k) {
-      pressure[k] = WallPressureSums<Dim>{sums[3 * k], sums[3 * k + 1], sums[3 * k + 2], least[k]}.value();
+      pressure[k] = wall_pressure<Dim>(context, patches[k].centre(context.boundary),
+                                       context.boundary.faces[patches[k].face].normal,
+                                       {sums[3 * k], sums[3 * k + 1], sums[3 * k + 2], least[k]});
     });
     return pressure;
   }

@@ -16,6 +16,7 @@
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/places.h"
+#include "probes/wall_pressure.h"
 #include "sampling/wall_particles.h"
 
 namespace tailwater {
@@ -141,7 +142,7 @@ class WallForceProbe {
       return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity);
     });
     loads.gather(context.ranks);
-    return loads;
+    return loads + loads_of_air(context, velocity);
   }
 
  private:
@@ -181,6 +182,17 @@ class WallForceProbe {
       maps[wall].constant = of_drawn.constant - maps[wall].linear * now.constant;
     }
     return maps;
+  }
+
+  /// What pockets of air do to the chosen patches that look into them; the same on all ranks. Collective.
+  Loads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
+    Loads<Dim> loads;
+    for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, chosen_)) {
+      loads.pressure += push.force;
+      loads.moment += moment(push.centre, push.force);
+      loads.power -= push.force.dot(velocity[push.wall](push.centre));
+    }
+    return loads;
   }
 
   Moment<Dim> moment(const Vec<Dim>& x, const Vec<Dim>& force) const { return moment_of<Dim>(x - about_, force); }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/for_each.h"
 #include "case/formulation.h"
 #include "motion/wall_motion.h"
 #include "probes/places.h"
@@ -121,6 +122,12 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   }
 }
 
+/// Pa; of the air at a place on a wall with this normal. It is read dx in front of it: a plate has other air behind it.
+template <int Dim>
+double air_pressure_on(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& normal) {
+  return context.air_pressure_at(x_w + context.spacing * normal);
+}
+
 /// The mean over points of walls.
 template <int Dim>
 Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& probe, const CaseSpec& spec,
@@ -132,10 +139,9 @@ Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& pr
             double sum = 0.0;
             double wet = 0.0;
             for (const PointOnWall<Dim>& point : points) {
-              if (const std::optional<double> pressure = wall_pressure(context, point.at(context.time))) {
-                sum += *pressure;
-                wet += 1.0;
-              }
+              const PressureOnWall pressure = wall_pressure(context, point.at(context.time));
+              sum += pressure.value;
+              wet += pressure.is_wet ? 1.0 : 0.0;
             }
             const double count = static_cast<double>(points.size());
             return {{sum / count, wet / count}};
@@ -175,12 +181,51 @@ std::optional<double> WallPressureSums<Dim>::value() const {
 }
 
 template <int Dim>
-std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w) {
+PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& normal,
+                             const WallPressureSums<Dim>& sums) {
+  if (const std::optional<double> of_water = sums.value()) return {*of_water, true};
+  return {air_pressure_on(context, x_w, normal), false};
+}
+
+template <int Dim>
+PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w) {
   WallPressureSums<Dim> sums;
   for_each_weight(context, x_w, [&](std::int32_t j, double weight) {
     sums.add(context, x_w, j, context.particles.position[j], weight);
   });
-  return sums.value();
+  Vec<Dim> normal = Vec<Dim>::Zero();
+  if (context.air_pressure) {
+    const NearestWall<Dim> wall = context.boundary.nearest(x_w, context.spacing);
+    if (wall.face >= 0) normal = context.boundary.faces[wall.face].normal;
+  }
+  return wall_pressure(context, x_w, normal, sums);
+}
+
+template <int Dim>
+std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::span<const WallPatch<Dim>> patches,
+                                        std::span<const double> chosen) {
+  std::vector<AirPush<Dim>> pushes;
+  if (!context.air_pressure) return pushes;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Vec<Dim> centre = patches[k].centre(context.boundary);
+    const WallFace<Dim>& face = context.boundary.faces[patches[k].face];
+    const double pressure = chosen[k] > 0.0 ? air_pressure_on(context, centre, face.normal) : 0.0;
+    if (pressure == 0.0) continue;
+    pushes.push_back({face.wall, centre, -chosen[k] * patches[k].measure * pressure * face.normal});
+  }
+  std::vector<double> sums(2 * pushes.size());
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
+  for_each(pushes.size(), [&](std::size_t n) {
+    WallPressureSums<Dim> here;
+    for (const Vec<Dim>& shift : shifts) here.add_owned(context, pushes[n].centre, shift);
+    sums[2 * n] = here.water;
+    sums[2 * n + 1] = here.wall;
+  });
+  context.ranks.sum_of_each(sums);
+  for_each(pushes.size(), [&](std::size_t n) {
+    pushes[n].force *= 1.0 - std::min(1.0, water_share<Dim>(sums[2 * n], sums[2 * n + 1]));
+  });
+  return pushes;
 }
 
 template <int Dim>
@@ -190,7 +235,7 @@ Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec
   const PointOnWall<Dim> point = point_on_wall(probe, centre, spec, boundary);
   return {{"pressure_Pa"},
           [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            return {{wall_pressure(context, point.at(context.time)).value_or(0.0)}};
+            return {{wall_pressure(context, point.at(context.time)).value}};
           },
           [point](double time) { return region_of<Dim>({point}, time); }};
 }
@@ -202,8 +247,16 @@ Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec&
 
 template struct WallPressureSums<2>;
 template struct WallPressureSums<3>;
-template std::optional<double> wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);
-template std::optional<double> wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&);
+template std::vector<AirPush<2>> pushes_of_air<2>(const ProbeContext<2>&, std::span<const WallPatch<2>>,
+                                                  std::span<const double>);
+template std::vector<AirPush<3>> pushes_of_air<3>(const ProbeContext<3>&, std::span<const WallPatch<3>>,
+                                                  std::span<const double>);
+template PressureOnWall wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);
+template PressureOnWall wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&);
+template PressureOnWall wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&, const Vec<2>&,
+                                         const WallPressureSums<2>&);
+template PressureOnWall wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&, const Vec<3>&,
+                                         const WallPressureSums<3>&);
 template Reading<2> wall_pressure_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
 template Reading<3> wall_pressure_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
 template Reading<2> wall_pressure_mean_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);

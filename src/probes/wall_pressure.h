@@ -5,13 +5,16 @@
 // The second term extrapolates each particle's pressure to the wall along the hydrostatic gradient. In still water the
 // result is exactly rho g times the depth, at any distance of the particles from the wall. In a falling jet the
 // gradient is not hydrostatic; there the term may not create a suction that no particle has. Where the wall is dry,
-// c(x_w) <= 1/2 (water_share.h), the pressure is 0. A wall in still water is wet up to the surface; a layer one
-// particle thick wets it, a single particle does not.
+// c(x_w) <= 1/2 (water_share.h), the pressure is that of the air: 0, or that of a pocket. A wall in still water is wet
+// up to the surface; a layer one particle thick wets it, a single particle does not.
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "case/spec.h"
+#include "geometry/wall_patches.h"
 #include "probes/context.h"
 
 namespace tailwater {
@@ -35,8 +38,32 @@ struct WallPressureSums {
 };
 
 /// Pressure on the wall at `x_w`, Pa; none where it is dry.
+struct PressureOnWall {
+  double value = 0.0;  ///< Pa; of the water, or of the air where the wall is dry
+  bool is_wet = false;
+};
+
 template <int Dim>
-std::optional<double> wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w);
+PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w);
+
+/// The same from the sums at a place of a wall with this normal.
+template <int Dim>
+PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& normal,
+                             const WallPressureSums<Dim>& sums);
+
+/// The force of the air on a patch of a wall.
+template <int Dim>
+struct AirPush {
+  int wall;  ///< index into Boundary::walls
+  Vec<Dim> centre;
+  Vec<Dim> force;  ///< N; in 2D per metre of width
+};
+
+/// What pockets of air do to the chosen shares of patches that look into them, each as far as it is dry, 1 - c; the
+/// same on all ranks. Collective.
+template <int Dim>
+std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::span<const WallPatch<Dim>> patches,
+                                        std::span<const double> chosen);
 
 /// Pressure at the point of a wall nearest to `at`: column pressure_Pa. With a `diameter` the mean over a disc in the
 /// wall (2D: a stretch), with the columns of a mean. Throws InputError when no wall is within a support of `at`, or of
@@ -45,8 +72,8 @@ template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Mean pressure over the stretch from `from` to `to`, with a `width` over the rectangle in the wall around it, from
-/// places at most dx/2 apart; dry places count as 0. Columns pressure_Pa, wet_share. Throws InputError as above, for
-/// any of these places, and for a width in 2D.
+/// places at most dx/2 apart; dry places count with the air's. Columns pressure_Pa, wet_share. Throws InputError as
+/// above, for any of these places, and for a width in 2D.
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

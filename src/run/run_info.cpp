@@ -36,6 +36,27 @@ std::string water_line(const Json& water) {
   return line;
 }
 
+std::string pockets_in_words(double count, double volume, double pressure) {
+  if (count == 0.0) return "no pocket";
+  return fmt::format("{:.0f} pocket{}, {:.4g} m3, {:.4g} Pa in the largest", count, count == 1.0 ? "" : "s", volume,
+                     pressure);
+}
+
+std::string air_line(const Json& air) {
+  double volume = 0.0;
+  double largest = 0.0;
+  double pressure = 0.0;
+  for (const Json& pocket : air.at("now")) {
+    const double own = number_of(pocket, "volume_m3");
+    volume += own;
+    if (own > largest) pressure = number_of(pocket, "pressure_Pa");
+    largest = std::max(largest, own);
+  }
+  return fmt::format("{}; {:.0f} begun, {:.0f} ended, which lost {:.4g} m3 of gas",
+                     pockets_in_words(static_cast<double>(air.at("now").size()), volume, pressure),
+                     number_of(air, "begun"), number_of(air, "ended"), number_of(air, "gas_lost_m3"));
+}
+
 /// The last whole line of steps.csv by the names of its columns; empty if there is none.
 std::map<std::string, double> last_step(const fs::path& run) {
   constexpr std::streamoff enough = 4096;
@@ -90,6 +111,10 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
     lines.push_back({"speed", fmt::format("{:.3g} m/s at most", value("speed_max_m_per_s"))});
     lines.push_back(
         {"energy", fmt::format("{:.6g} J kinetic, {:.6g} J potential", value("kinetic_J"), value("potential_J"))});
+    if (step.contains("pockets")) {
+      lines.push_back(
+          {"air", pockets_in_words(value("pockets"), value("pockets_volume_m3"), value("pocket_pressure_Pa"))});
+    }
     lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
@@ -187,6 +212,7 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
                                             number_of(particles, "wall"), number_of(summary, "spacing_m"))});
   lines.push_back({"water", water_line(summary.at("water_balance"))});
+  if (const auto air = summary.find("pockets"); air != summary.end()) lines.push_back({"air", air_line(*air)});
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, largest rise {:.2g} J",
                                          number_of(energy, "start_J"), number_of(energy, "end_J"),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/writer.h"
+#include "flow/air_pressure.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
@@ -242,7 +243,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,
-                  .bodies = flow.state.motion.bodies.each});
+                  .bodies = flow.state.motion.bodies.each,
+                  .air_pressure = air_pressure_of(flow)});
 }
 
 template <int Dim>

@@ -34,6 +34,16 @@ TYPED_TEST(PointTest, LinearPressureIsReadExactlyInsideAtWallsAndNearTheSurface)
   }
 }
 
+TYPED_TEST(PointTest, ReadsTheAirOfAPocketAndDry) {
+  constexpr int dim = TypeParam::value;
+  using T = Tank<dim>;
+  const T tank = T::filled(0.8);
+  ProbeContext<dim> context = tank.context();
+  context.air_pressure = [](const Vec<dim>& x) { return 100.0 * x[dim - 1]; };
+  const Reading<dim> reading = pressure_reading<dim>(probe_at(ProbeType::pressure, T::at(0.5, 1.25)));
+  EXPECT_EQ(reading.take(context).at(0), (Row{125.0, 0.0}));
+}
+
 TYPED_TEST(PointTest, AirReadsZeroAndDry) {
   using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.8);

@@ -68,6 +68,29 @@ TYPED_TEST(PressureMapTest, OfStillWaterIsHydrostatic) {
   EXPECT_EQ(again.summary(), lines);
 }
 
+/// Above the water of the right wall, 0.7 m of 1.5 m, there is air below the pressure of the atmosphere. Where all is
+/// dry, the highest pressure is below 0.
+TYPED_TEST(PressureMapTest, OfDryPatchesIsThatOfTheAir) {
+  constexpr int Dim = TypeParam::value;
+  using T = Tank<Dim>;
+  ProbeTable probe = map_probe();
+  probe.region_min.assign(Dim, 0.0);
+  probe.region_max.assign(Dim, 2.0);
+  probe.region_min[0] = T::width;
+  const auto read = [&](double level) {
+    const T tank = T::filled(level);
+    ProbeContext<Dim> context = tank.context(0.0);
+    context.air_pressure = [](const Vec<Dim>&) { return -50.0; };
+    return pressure_map_reading<Dim>(probe, tank.spec, tank.boundary).take(context).at(0);
+  };
+  const Row dry = read(0.0);
+  EXPECT_EQ(dry[0], -50.0);
+  EXPECT_NEAR(dry[1 + Dim], -50.0, 1e-10);
+  const Row half = read(0.8);
+  const double of_water = 0.5 * T::rho * T::g * 0.8 * 0.8;
+  EXPECT_NEAR(half[1 + Dim], (of_water - 50.0 * 0.7) / T::height, T::rho * T::g * std::pow(1.5 * T::dx, 2) / T::height);
+}
+
 TEST(ChosenWalls, ForAWallOrARegionThatDoesNotExistAreRefused) {
   const Tank<2> tank = Tank<2>::filled(0.5);
   const auto message_for = [&](const ProbeTable& probe) -> std::string {

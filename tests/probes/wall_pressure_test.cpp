@@ -42,6 +42,28 @@ TYPED_TEST(WallPressureTest, StillWaterIsReadExactlyAtAnyHeightUpToTheSurface) {
   }
 }
 
+/// Of the air a pressure that grows away from the right wall, on which it is 0: it is read dx in front of the wall.
+TYPED_TEST(WallPressureTest, OfADryPlaceIsThatOfTheAirInFrontOfIt) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  const double level = 0.8;
+  const T tank = T::filled(level);
+  ProbeContext<dim> context = tank.context();
+  context.air_pressure = [](const Vec<dim>& x) { return 1000.0 * (T::width - x[0]); };
+  const double of_air = 1000.0 * T::dx;
+  const auto read = [&](const Coordinates& at) {
+    return wall_pressure_reading<dim>(probe_at(ProbeType::wall_pressure, at), tank.spec, tank.boundary)
+        .take(context)
+        .at(0)[0];
+  };
+  EXPECT_NEAR(read(T::at(T::width, 1.2)), of_air, TestFixture::rounding);
+  EXPECT_NEAR(read(T::at(T::width, 0.3)), T::rho * T::g * 0.5, TestFixture::rounding);
+  const ProbeTable stretch = probe_along(ProbeType::wall_pressure_mean, T::at(T::width, 1.0), T::at(T::width, 1.2));
+  const Row mean = wall_pressure_mean_reading<dim>(stretch, tank.spec, tank.boundary).take(context).at(0);
+  EXPECT_NEAR(mean[0], of_air, TestFixture::rounding);
+  EXPECT_EQ(mean[1], 0.0);
+}
+
 TYPED_TEST(WallPressureTest, IsReadOnTheNearestPlaceOfAWall) {
   using T = typename TestFixture::TankOf;
   const T tank = T::filled(0.8);

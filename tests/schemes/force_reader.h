@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "flow/air_pressure.h"
 #include "probes/wall_force.h"
 #include "schemes/cases.h"
 
@@ -39,7 +40,8 @@ class Reader {
                .ranks = flow_.setup.ranks,
                .domain = flow_.setup.domain,
                .dt = dt,
-               .wall_forces = &flow_.wall_forces})
+               .wall_forces = &flow_.wall_forces,
+               .air_pressure = air_pressure_of(flow_)})
         .at(0);
   }
   Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>(row(dt).data()); }

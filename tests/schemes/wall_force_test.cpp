@@ -18,6 +18,10 @@ namespace {
 /// units of the whole weight of 1e2 particles at least: eps 1e5 1e2/1e2, and ten times that.
 constexpr double rounding = 2e-10;
 
+template <class D>
+class WallForceOfAir : public testing::Test {};
+TYPED_TEST_SUITE(WallForceOfAir, Dimensions);
+
 template <int Dim>
 struct Momentum {
   double mass = 0.0;
@@ -292,6 +296,30 @@ TEST(WallForce, HasNoMomentWithoutAPointForIt) {
   const Reading<2> reading = force_reading<2>(spec.probes[0], spec, flow.walls.boundary);
   EXPECT_EQ(reading.columns.size(), 6U);  // force, pressure, friction
   for (const std::string& column : reading.columns) EXPECT_EQ(column.find("moment"), std::string::npos) << column;
+}
+
+// A column of water falls onto a closed column of air. The floor, which looks at the air alone, bears its pressure.
+TYPED_TEST(WallForceOfAir, IsItsPressureTimesTheArea) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double width = 0.4;
+  CaseSpec spec = tank_case<Dim>(0.05, width, 0.8);
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.fluid[0].min[Dim - 1] = 0.5;
+  spec.fluid[0].velocity = VectorField(Dim, 0.0);
+  spec.fluid[0].velocity[Dim - 1] = -2.0;
+  spec.air.pockets = AirPockets::adiabatic;
+  ProbeTable floor = force_probe(Coordinates(Dim, 0.0));
+  floor.region_min = Coordinates(Dim, -1.0);
+  floor.region_max = Coordinates(Dim, 1.0);
+  floor.region_max[Dim - 1] = 1e-6;
+  spec.probes = {floor};
+  Flow<Dim> flow = make_flow<Dim>(spec);
+  start(flow);
+  for (int n = 0; n < 5; ++n) step(flow);
+  const double pressure = measure_air(flow).pressure;
+  ASSERT_GT(std::abs(pressure), 100.0);
+  const double expected = -pressure * std::pow(width, Dim - 1);
+  EXPECT_NEAR(Reader<Dim>(spec, flow).force()[Dim - 1], expected, rounding * std::abs(expected));
 }
 
 }  // namespace
