@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "pressure/solve_rows.h"
+#include "pressure/tolerance.h"
 
 namespace tailwater {
 namespace {
@@ -112,94 +113,138 @@ class GasStep {
   Eigen::MatrixXd answers_;
 };
 
+/// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts what their owners have.
 template <int Dim>
-void add_gain(int pocket, const Vec<Dim>& gain, std::vector<PocketGain<Dim>>& gains) {
-  const auto known = std::ranges::find(gains, pocket, &PocketGain<Dim>::pocket);
-  if (known == gains.end()) {
-    gains.push_back({pocket, gain});
-  } else {
-    known->gain += gain;
-  }
+void spread(const Flow<Dim>& flow, std::vector<double>& field) {
+  flow.halo().exchange(field);
+  const LinearSystem& rows = flow.pressure_rows;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] == Role::wall) field[i] = rows.scale(i) * rows.whole().sum(i, field.data());
+  });
+  flow.halo().exchange(field);
 }
 
-/// Dummies glide along with the water, u_j = (1 - 2 M_j) u_i, and the force between them and the water has a part along
-/// the wall where the pressure has a slope: walls at rest do work, -sum_ij w_i w_j a_ij . (p_i u_j + p_j u_i). Of the
-/// pressure of pocket k, which is chi_k beside it, this work is that of its gas.
+/// chi_k of all particles.
 template <int Dim>
-void add_gains_at_walls(const Flow<Dim>& flow, PocketSide<Dim>& side) {
-  const Pairs<Dim>& pairs = flow.pairs();
-  const Particles<Dim>& particles = flow.state.particles;
-  const std::size_t i = side.particle;
-  if (pairs.sees_wall[i] == 0) return;
-  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-    const auto j = pairs.j[k];
-    if (particles.is_fluid(j)) continue;
-    const Mat<Dim>& blocked = flow.walls.particles.blocked[particles.wall_row[j]];
-    const Vec<Dim> a = particles.volume[j] * flow.here.pair_vectors.at(pairs, i, k);
-    const Vec<Dim> along = a - 2.0 * (blocked * a);
-    for (const PocketShare& share : side.shares) add_gain<Dim>(share.pocket, -share.share * along, side.gains);
-    const Vec<Dim> way = -pairs.d(i, k);
-    for (const PocketShare& share : flow.air.shares_at(particles.position[i] + way - blocked * way)) {
-      add_gain<Dim>(share.pocket, -share.share * a, side.gains);
+std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
+  std::vector<double> field(flow.state.particles.size(), 0.0);
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) {
+      if (share.pocket == pocket) field[side.particle] = share.share;
     }
   }
+  spread(flow, field);
+  return field;
+}
+
+/// The water that has a share of a pocket, or a neighbour that has.
+template <int Dim>
+std::vector<PocketSide<Dim>> water_beside_pockets(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  std::vector<PocketSide<Dim>> seeing;
+  std::vector<double> sees(particles.size(), 0.0);
+  std::vector<char> is_beside(particles.owned, 0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
+    if (flow.role[i] != Role::water) continue;
+    std::vector<PocketShare> shares = flow.air.shares_at(particles.position[i]);
+    if (shares.empty()) continue;
+    seeing.push_back({.particle = i, .shares = std::move(shares)});
+    sees[i] = 1.0;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      if (static_cast<std::size_t>(pairs.j[k]) < particles.owned) is_beside[pairs.j[k]] = 1;
+    }
+  }
+  flow.halo().exchange(sees);
+  for_each(particles.owned, [&](std::size_t i) {
+    for (std::size_t k = pairs.end(i); k > pairs.begin(i) && is_beside[i] == 0; --k) {
+      const auto j = static_cast<std::size_t>(pairs.j[k - 1]);
+      if (j < particles.owned) break;  // ghosts come last
+      if (sees[j] > 0.0) is_beside[i] = 1;
+    }
+  });
+  std::vector<PocketSide<Dim>> water;
+  auto next = seeing.begin();
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
+    if (flow.role[i] != Role::water) continue;
+    if (sees[i] > 0.0) {
+      water.push_back(std::move(*next++));
+    } else if (is_beside[i] != 0) {
+      water.push_back({.particle = i, .shares = {}});
+    }
+  }
+  return water;
 }
 
 template <int Dim>
 void find_sides(Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.state.particles;
   std::vector<PocketSide<Dim>>& water = flow.sides.water;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (flow.role[i] != Role::water) continue;
-    std::vector<PocketShare> shares = flow.air.shares_at(particles.position[i]);
-    if (!shares.empty()) water.push_back({.particle = i, .shares = std::move(shares)});
-  }
+  water = water_beside_pockets(flow);
   const std::vector<std::size_t> beside = particles_of(flow.sides);
   std::vector<double> weight(beside.size());
   flow.discretisation().find_air_weights(flow, beside, weight);
-  const std::vector<Vec<Dim>> push = gradient_at_sides(flow, std::vector<double>(particles.size(), 1.0));
-  for (std::size_t n = 0; n < water.size(); ++n) {  // lists
+  const std::vector<Vec<Dim>> push = gradient_at_sides(flow, std::vector<double>(flow.state.particles.size(), 1.0));
+  for_each(water.size(), [&](std::size_t n) {
     water[n].push = push[n];
     water[n].weight = weight[n];
-    for (const PocketShare& share : water[n].shares) {
-      add_gain<Dim>(share.pocket, share.share * push[n], water[n].gains);
+  });
+  for (int k = 0; k < static_cast<int>(flow.state.air.pockets.size()); ++k) {
+    const std::vector<double> share = shares_of(flow, k);
+    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, share);
+    for (std::size_t n = 0; n < water.size(); ++n) {  // lists
+      const Vec<Dim> gain = share[water[n].particle] * push[n] - slope[n];
+      if (!gain.isZero(0.0)) water[n].gains.push_back({k, gain});
     }
-    add_gains_at_walls(flow, water[n]);
   }
 }
 
+template <int Dim>
+double pressure_at_start(const Flow<Dim>& flow, std::size_t pocket) {
+  const AirPocket& it = flow.state.air.pockets[pocket];
+  return flow.air.law().pressure(it.gas, it.volume);
+}
+
 /// By how much the pressure that the pockets alone make, with what they have at the start of the step, is off that of
-/// the air.
+/// the air; on walls that of the water beside them.
 template <int Dim>
 std::vector<double> find_own_drop(Flow<Dim>& flow) {
-  std::vector<double> drop(flow.state.particles.owned, 0.0);
+  std::vector<double> drop(flow.state.particles.size(), 0.0);
   const std::vector<AirPocket>& pockets = flow.state.air.pockets;
   std::vector<double> pressure;
-  for (const AirPocket& pocket : pockets) {
-    pressure.push_back(flow.air.law().pressure(pocket.gas, pocket.volume));
-    const std::vector<double>& response = flow.air.response(pocket.number);
+  for (std::size_t k = 0; k < pockets.size(); ++k) {
+    pressure.push_back(pressure_at_start(flow, k));
+    const std::vector<double>& response = flow.air.response(pockets[k].number);
     for_each(drop.size(), [&](std::size_t i) { drop[i] += pressure.back() * response[i]; });
   }
   for (const PocketSide<Dim>& side : flow.sides.water) {
     for (const PocketShare& share : side.shares) drop[side.particle] -= share.share * pressure[share.pocket];
   }
-  for_each(drop.size(), [&](std::size_t i) { drop[i] = flow.role[i] == Role::water ? std::abs(drop[i]) : 0.0; });
+  const std::size_t owned = flow.state.particles.owned;
+  for_each(owned, [&](std::size_t i) { drop[i] = flow.role[i] == Role::water ? std::abs(drop[i]) : 0.0; });
+  spread(flow, drop);
   return drop;
 }
 
-/// q_k: the answer of the pressure to 1 Pa in pocket k, up to date on ghosts.
+/// q_k: the answer of the pressure to 1 Pa in pocket k, up to date on ghosts. Adds to `left` the right-hand side, as
+/// the rows have it, of what it leaves undone of the pressure that the pocket has at the start of the step.
 template <int Dim>
-void find_response(Flow<Dim>& flow, int pocket) {
-  for_each(flow.state.particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, 0.0); });
+void find_response(Flow<Dim>& flow, int pocket, std::vector<double>& left) {
+  LinearSystem& rows = flow.pressure_rows;
+  std::vector<double>& response = flow.air.response(flow.state.air.pockets[pocket].number);
+  const bool is_new = response.empty();
+  response.resize(flow.state.particles.size(), 0.0);
+  std::ranges::fill(rows.rhs(), 0.0);
   for (const PocketSide<Dim>& side : flow.sides.water) {
     for (const PocketShare& share : side.shares) {
-      if (share.pocket == pocket) flow.pressure_rows.set_rhs(side.particle, share.share * side.weight);
+      if (share.pocket != pocket) continue;
+      rows.set_rhs(side.particle, share.share * side.weight);
+      if (is_new) response[side.particle] = share.share;
     }
   }
-  std::vector<double>& response = flow.air.response(flow.state.air.pockets[pocket].number);
-  response.resize(flow.state.particles.size(), 0.0);
-  flow.sides.iterations += solve_rows(flow, response, flow.pressure_solver.tolerance()).iterations;
+  flow.sides.iterations += solve_rows(flow, response, rough_tolerance(flow.pressure_solver.tolerance())).iterations;
   flow.halo().exchange(response);
+  const double pressure = pressure_at_start(flow, pocket);
+  for_each(left.size(), [&](std::size_t i) { left[i] += pressure * (rows.answer(i, response.data()) - response[i]); });
 }
 
 /// By how much [m^Dim/s per Pa] each pocket (row) grows within dt under the pressure of each (column). Collective.
@@ -230,8 +275,8 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   const auto pockets = static_cast<int>(flow.state.air.pockets.size());
   if (pockets == 0) return;
   find_sides(flow);
-  const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
-  for (int k = 0; k < pockets; ++k) find_response(flow, k);
+  std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
+  for (int k = 0; k < pockets; ++k) find_response(flow, k, rhs);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
   sides.own_drop = find_own_drop(flow);
   const Vec<Dim> gravity =

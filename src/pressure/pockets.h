@@ -3,11 +3,10 @@
 //
 //   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i closes the row (robust/rows.cpp)
 //   water at i:  grad p_i - sum_k P_k chi_ik grad 1_i
-//   pocket k:    dV_k/dt = sum_i w_i chi_ik grad 1_i . u_i + what moving walls sweep
-//                          - sum_i sum_{j wall} w_i w_j a_ij . (chi_ik u_j + chi_jk u_i)
+//   pocket k:    dV_k/dt = sum_ij w_i w_j a_ij . u_i (chi_ik - chi_jk) + what moving walls sweep
 //
-// The first sum is adjoint to the force, and the last is the work of dummies, which glide with the water, at 1 Pa: the
-// gas does on the water the work P dV. The pressure is linear in P,
+// The last is the flow of water through the rows in which chi falls, where the force on the water as a whole acts: the
+// gas does on it the work P dV. Dummies have the mean chi of the water beside them. The pressure is linear in P,
 //
 //   p = p_w + sum_k P_k q_k,
 //

@@ -43,9 +43,12 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   std::vector<double>& pressure = flow.state.particles.pressure;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
-  if (flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure)) {
-    flow.halo().exchange(pressure);
-  }
+  const std::vector<double>& drop = flow.sides.own_drop;  // walls may pull by as much, too
+  for_each(drop.size(), [&](std::size_t i) { pressure[i] += drop[i]; });
+  const bool has_followed =
+      flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure);
+  for_each(drop.size(), [&](std::size_t i) { pressure[i] -= drop[i]; });
+  if (has_followed) flow.halo().exchange(pressure);
 }
 
 template <int Dim>

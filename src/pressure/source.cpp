@@ -30,12 +30,12 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   take_out_mean(flow, equation.fullness, source.density);
   equation.density_source = std::move(source.density);
   equation.fallback_rows = assemble_weights(flow, drive);
-  pose_pockets<Dim>(flow, predicted.velocity, dt);
   const std::vector<double>& beside = equation.density_source;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;
     flow.pressure_rows.set_rhs(i, source.rows[i] + (beside.empty() ? 0.0 : beside[i]));
   });
+  pose_pockets<Dim>(flow, predicted.velocity, dt);
   return equation;
 }
 

@@ -13,9 +13,9 @@ double suction_share(const Flow<Dim>& flow, std::size_t i) {
   return flow.state.particles.is_fluid(i) ? 1.0 : 0.0;
 }
 
-/// Pa; suction that owned particle i may keep in full: what the pressure that pockets alone make there is off that of
-/// their air. In the outermost rows this pressure makes a velocity with a divergence, and what mends that pulls by as
-/// much at most. 0 without pockets.
+/// Pa; suction that owned particle i, water or wall, may keep in full: what the pressure that pockets alone make there
+/// is off that of their air. In the outermost rows this pressure makes a velocity with a divergence, and what mends
+/// that pulls by as much at most. 0 without pockets.
 template <int Dim>
 double free_suction(const Flow<Dim>& flow, std::size_t i) {
   return flow.sides.own_drop.empty() ? 0.0 : flow.sides.own_drop[i];
