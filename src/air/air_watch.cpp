@@ -15,8 +15,9 @@ namespace {
 /// holes then.
 constexpr double cover = 1.1;
 
-/// [dx]; how far water may go between two looks: a cell.
-constexpr double way_between_looks = 0.5;
+/// [dx]; how far water may go between two looks: a cell, and where there is no pocket yet the size of the least one.
+constexpr double way_beside_pockets = 0.5;
+constexpr double way_without = 2.0;
 
 /// With one bit each in six kinds of marks, and what is kept of each row of cells: some 2 GB.
 constexpr double most_cells_of_map = 2e9;
@@ -52,7 +53,8 @@ AirWatch<Dim>::AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim
 
 template <int Dim>
 bool AirWatch<Dim>::is_due(const AirState& state) const {
-  return is_on() && (!has_looked_ || state.way >= way_between_looks * spacing_);
+  const double way = state.pockets.empty() ? way_without : way_beside_pockets;
+  return is_on() && (!has_looked_ || state.way >= way * spacing_);
 }
 
 template <int Dim>

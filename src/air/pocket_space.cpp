@@ -43,23 +43,32 @@ void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
   }
 }
 
-/// That the cube of a particle can be in: three along each axis, or four where cells are a little smaller than dx/2.
-constexpr std::size_t most_cells = 64;
+/// Cells of a block along an axis, at most: the cube of a particle is in three, or in four where cells are a little
+/// smaller than dx/2.
+constexpr int most_along = 4;
 
-/// Calls `visit(way, c)` for the cells `first` + `way` of a block, `cells` along each axis: c is the cell, across a
-/// periodic border too, or null outside of the grid.
+/// Calls `visit(way, place)` for the cells `first` + `way` of a block, `cells` along each axis, across a periodic
+/// border too. The place is that in a box of `count` cells from `low`; -1 outside of it.
 template <int Dim, class Visit>
-void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& first,
+void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& low,
+                 const typename VoidGrid<Dim>::Cell& count, const typename VoidGrid<Dim>::Cell& first,
                  const typename VoidGrid<Dim>::Cell& cells, Visit&& visit) {
+  constexpr std::int64_t outside = std::numeric_limits<std::int64_t>::min() / 4;
+  std::array<std::array<std::int64_t, most_along>, Dim> parts;  // of the place, by axis
+  std::int64_t stride = 1;
+  for (int d = Dim - 1; d >= 0; --d) {
+    for (int k = 0; k < cells[d]; ++k) {
+      int c = first[d] + k;
+      const bool is_inside = grid.wrap(d, c) && c >= low[d] && c < low[d] + count[d];
+      parts[d][k] = is_inside ? stride * (c - low[d]) : outside;
+    }
+    stride *= count[d];
+  }
   typename VoidGrid<Dim>::Cell way{};
   for (int axis = 0; axis < Dim;) {
-    typename VoidGrid<Dim>::Cell c;
-    bool is_cell = true;
-    for (int d = 0; d < Dim; ++d) {
-      c[d] = first[d] + way[d];
-      is_cell = grid.wrap(d, c[d]) && is_cell;
-    }
-    visit(way, is_cell ? &c : nullptr);
+    std::int64_t place = 0;
+    for (int d = 0; d < Dim; ++d) place += parts[d][way[d]];
+    visit(way, std::max<std::int64_t>(place, -1));
     for (axis = 0; axis < Dim && ++way[axis] == cells[axis]; ++axis) way[axis] = 0;
   }
 }
@@ -189,22 +198,16 @@ void PocketSpace<Dim>::grow() {
 
 template <int Dim>
 double PocketSpace<Dim>::in_front(const Cell& c, const Boundary<Dim>& boundary) const {
-  bool is_beside_wall = false;
   Cell first;
-  for (int d = 0; d < Dim; ++d) first[d] = -1;
-  for (Cell way = first;;) {
-    Cell other = c;
-    bool is_cell = true;
-    for (int d = 0; d < Dim; ++d) {
-      other[d] += way[d];
-      is_cell = grid_->wrap(d, other[d]) && is_cell;
-    }
-    const std::int64_t k = is_cell ? place(other) : -1;
-    is_beside_wall = is_beside_wall || (k >= 0 && owner_[k] == behind_wall);
-    int axis = 0;
-    for (; axis < Dim && ++way[axis] > 1; ++axis) way[axis] = -1;
-    if (axis == Dim) break;
+  Cell cells;
+  for (int d = 0; d < Dim; ++d) {
+    first[d] = c[d] - 1;
+    cells[d] = 3;
   }
+  bool is_beside_wall = false;
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& /*way*/, std::int64_t k) {
+    is_beside_wall = is_beside_wall || (k >= 0 && owner_[k] == behind_wall);
+  });
   if (!is_beside_wall) return 1.0;
   const NearestWall<Dim> nearest = boundary.nearest(grid_->centre(c), spacing_);
   if (nearest.face < 0 || boundary.walls[boundary.faces[nearest.face].wall].is_plate) return 1.0;
@@ -228,17 +231,16 @@ void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<
     first[d] = static_cast<int>(std::floor(at[d] - half + 0.5));
     cells[d] = static_cast<int>(std::floor(at[d] + half + 0.5)) - first[d] + 1;
   }
-  std::array<std::pair<int, double>, most_cells> taken;  // by pocket
+  std::array<std::pair<int, double>, static_cast<std::size_t>(power<Dim>(most_along))> taken;  // by pocket
   std::size_t count = 0;
   double all = 0.0;
-  visit_block(*grid_, first, cells, [&](const Cell& way, const Cell* c) {
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& way, std::int64_t k) {
     double part = 1.0;
     for (int d = 0; d < Dim; ++d) {
       const double half = 0.5 * spacing_ / grid_->edge()[d];
       const int here = first[d] + way[d];
       part *= std::max(0.0, std::min(here + 0.5, at[d] + half) - std::max(here - 0.5, at[d] - half));
     }
-    const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += part;
     const double weight = weight_of(k);
     if (part * weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
@@ -309,10 +311,9 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
     for (int k = 0; k < edge; ++k) weights[d][k] = sight - std::abs(first[d] + k - at[d]);
   }
   double all = 0.0;
-  visit_block(*grid_, first, cells, [&](const Cell& way, const Cell* c) {
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& way, std::int64_t k) {
     double weight = 1.0;
     for (int d = 0; d < Dim; ++d) weight *= weights[d][way[d]];
-    const std::int64_t k = c != nullptr ? place(*c) : -1;
     if (k < 0 || owner_[k] != behind_wall) all += weight;
     if (weight > 0.0 && k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
   });
