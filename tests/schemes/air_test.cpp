@@ -207,7 +207,7 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
     const Motion found = move_column<Dim>(column<Dim>(dx, 0.2, order, speed), 3.0, 80, 0.0);
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
     EXPECT_NEAR(found.period / exact_motion(speed).period, 1.0, 0.01) << which;
-    EXPECT_NEAR(found.kept, 1.0, 0.02) << which;
+    EXPECT_NEAR(found.kept, 1.0, Dim == 2 ? 0.003 : 0.006) << which;
   }
 }
 
@@ -222,8 +222,9 @@ TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
       const double half = 0.5 * exact.largest_pressure;
       const Motion between_walls = move_column<2>(column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(between_walls.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
-      if (speed < 6.0 || (speed < 10.0 && order.name == SchemeName::farzin2014)) {
-        EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
+      if (speed < 10.0) {
+        const double grown = speed < 6.0 || order.name == SchemeName::farzin2014 ? 0.03 : 0.1;
+        EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, grown) << speed;
       }
       const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(found.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
