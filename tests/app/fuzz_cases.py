@@ -52,7 +52,7 @@ REMEDY = re.compile(
     r"\b(give|gives|giving|add|remove|write|use|move|moving|correct|choose|draw|put|let|close|complete|keep|name|make|start|"
     r"did you mean|valid|remedy|at least|at most|export|exchange|lower|higher|larger|smaller|fewer|begin|lift|leave|need|"
     r"needs|check|unite|split|turn|reverse|raise|belongs|several|slower|increase|shorten|without a unit|correct it|must|"
-    r"takes|allowed|end|say|change|begins)\b")
+    r"takes|allowed|end|say|change|begins|brings the file up to date)\b")
 
 
 LONGEST_LINE = 2100
