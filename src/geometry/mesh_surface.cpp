@@ -75,8 +75,8 @@ struct MeshSurface::Tree {
       const auto [rank, node] = waiting.back();
       waiting.pop_back();
       if (rank > limit()) continue;
-      Hierarchy::VolumeIterator branch, last_branch;
-      Hierarchy::ObjectIterator triangle, last_triangle;
+      Hierarchy::VolumeIterator branch = nullptr, last_branch = nullptr;  // set for those that there are
+      Hierarchy::ObjectIterator triangle = nullptr, last_triangle = nullptr;
       boxes.getChildren(node, branch, last_branch, triangle, last_triangle);
       for (; triangle != last_triangle; ++triangle) visit(*triangle);
       const std::size_t before = waiting.size();
