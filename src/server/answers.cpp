@@ -32,9 +32,18 @@ std::optional<std::uint32_t> whole_number(std::string_view text) {
   return number;
 }
 
-void answer_json(Response& response, const Json& json, int status) {
+void answer_text(Response& response, std::string text, const char* type, int status) {
   response.status = status;
-  response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+  if (text.empty()) return response.set_content("", type);
+  const std::size_t length = text.size();
+  response.set_content_provider(length, type,
+                                [text = std::move(text)](std::size_t offset, std::size_t count, auto& sink) {
+                                  return sink.write(text.data() + offset, count);
+                                });
+}
+
+void answer_json(Response& response, const Json& json, int status) {
+  answer_text(response, json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json", status);
 }
 
 void answer_error(Response& response, int status, std::string_view message) {

@@ -19,6 +19,9 @@ std::vector<std::string> segments_of(std::string_view path);
 
 std::optional<std::uint32_t> whole_number(std::string_view text);
 
+/// A text as it is. httplib would compress `set_content` with Brotli at its highest quality, which takes more than a
+/// second for the page, and who reads it is on this machine.
+void answer_text(httplib::Response& response, std::string text, const char* type, int status = 200);
 void answer_json(httplib::Response& response, const nlohmann::ordered_json& json, int status = 200);
 /// {"error": message}
 void answer_error(httplib::Response& response, int status, std::string_view message);

@@ -162,8 +162,7 @@ class ViewServer::Service {
       // The page has a policy of its own for what it may load; only the header can say who may frame it.
       response.headers.erase("Content-Security-Policy");
       response.set_header("Content-Security-Policy", "frame-ancestors 'none'");
-      response.status = 200;
-      response.set_content(view_page().data(), view_page().size(), "text/html; charset=utf-8");
+      answer_text(response, std::string(view_page()), "text/html; charset=utf-8");
       return true;
     }
     if (path.size() < 3 || path[1] != "api") return false;
@@ -174,8 +173,7 @@ class ViewServer::Service {
     }
     if (what == "template" && path.size() == 4) {
       const std::optional<std::string> text = actions_.template_text(path[3]);
-      if (text) response.set_content(*text, "application/toml");
-      response.status = 200;
+      if (text) answer_text(response, *text, "application/toml");
       return text.has_value();
     }
     if (path.size() != 3) return false;
@@ -185,8 +183,7 @@ class ViewServer::Service {
     if (what == "sweeps") answer_json(response, actions_.sweeps());
     if (what == "case" && case_file_) {
       const FolderReader folder(folder_of_case());
-      response.status = 200;
-      response.set_content(folder.text_of({case_file_->filename().string()}), "application/toml");
+      answer_text(response, folder.text_of({case_file_->filename().string()}), "application/toml");
       return true;
     }
     return what == "state" || what == "spec" || what == "templates" || what == "sweeps";
@@ -213,8 +210,7 @@ class ViewServer::Service {
     if (what == "scene") {
       const std::lock_guard lock(run.mutex);
       if (run.scene.empty()) run.scene = scene_of_run(run.what.path).dump();
-      response.status = 200;
-      response.set_content(run.scene, "application/json");
+      answer_text(response, run.scene, "application/json");
     } else if (what == "frames") {
       answer_json(response, frames_of(run, request.get_param_value("from")));
     } else if (what == "info") {
