@@ -10,11 +10,13 @@ test("a done run: no blank and no jump of the camera through all its frames; a p
   await withProgram(context, async (place, open) => {
     place.call("run", "dam.toml", "--out", "run", "--quiet", "--set", "particles.spacing=0.03", "--set", "time.end=2", "--set", "output.view_interval=0.005");
     assert.ok(readdirSync(place.path("run/view")).length > 300, "400 frames");
-    const began = Date.now();
     const page = await open(await place.view("run"));
     await until(page, "app.view?.eye && app.shown()[0]?.frames.at(0)?.exact");
-    const took = Date.now() - began; // with the start of the browser
-    assert.ok(took < (await allowed(page, 5000)), `first picture within 1 s of a browser that is open; here ${took} ms with its start`);
+    const began = Date.now();
+    await page.reload(); // in a browser that is open, whose start takes as long as the machine wants
+    await until(page, "app.view?.eye && app.shown()[0]?.frames.at(0)?.exact");
+    const took = Date.now() - began;
+    assert.ok(took < (await allowed(page, 1000)), `the first picture is there within 1 s; here ${took} ms`);
     const before = await camera(page);
     const blanks = await page.evaluate(`(async () => {
       let blanks = 0;
