@@ -734,8 +734,10 @@ struct OutputTable {
   static void describe(Self& self, Visitor& v) {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between field files; 0: a hundredth of the end time");
-    v.number("view_interval", self.view_interval, "s", Range::at_least(0.0),
-             "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time");
+    v.number(
+        "view_interval", self.view_interval, "s", Range::at_least(0.0),
+        "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time, and at least "
+        "six steps");
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.number(
         "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),

@@ -82,7 +82,7 @@ class Viewed(ProgramTest):
 class OfADoneRun(Viewed):
     def setUp(self):
         super().setUp()
-        self.call("run", "small.toml", "--out", "run", "--quiet")
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set", "output.view_interval=0.01")
 
     def test_tells_what_the_run_has_left(self):
         self.view("run")
