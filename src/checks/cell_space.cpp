@@ -65,7 +65,7 @@ template <int Dim>
 typename CellSpace<Dim>::Cell CellSpace<Dim>::cell_of(const Vec<Dim>& x) const {
   Cell c;
   for (int axis = 0; axis < Dim; ++axis) {
-    c[axis] = std::clamp(static_cast<int>(std::floor((x[axis] - low_[axis]) / size_[axis])), 0, count_[axis] - 1);
+    c[axis] = static_cast<int>(std::clamp(std::floor((x[axis] - low_[axis]) / size_[axis]), 0.0, count_[axis] - 1.0));
   }
   return c;
 }

@@ -11,7 +11,7 @@ namespace tailwater {
 /// Points dx apart along the face's first edge; at least one, and at most 50, so that a long wall costs no more.
 template <int Dim>
 int samples_along(const WallFace<Dim>& face, double dx) {
-  return std::clamp(static_cast<int>(std::ceil((face.corners[1] - face.corners[0]).norm() / dx)), 1, 50);
+  return static_cast<int>(std::clamp(std::ceil((face.corners[1] - face.corners[0]).norm() / dx), 1.0, 50.0));
 }
 
 /// One of these points; in 3D on the line from the middle of the edge between corners 0 and 2 to corner 1.

@@ -19,7 +19,7 @@ constexpr double least_downward = 0.9;   // cosine between gravity and the way o
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
 template <int Dim>
 std::vector<Vec<Dim>> points_along(const Vec<Dim>& first, const Vec<Dim>& last, double step) {
-  const int pieces = std::clamp(static_cast<int>(std::ceil((last - first).norm() / step)), 1, 200);
+  const int pieces = static_cast<int>(std::clamp(std::ceil((last - first).norm() / step), 1.0, 200.0));
   std::vector<Vec<Dim>> points;
   for (int k = 0; k <= pieces; ++k) points.push_back(first + (static_cast<double>(k) / pieces) * (last - first));
   return points;

@@ -135,6 +135,7 @@ void gather_all(FrameParticles& particles, const Communicator& ranks) {
     column.clear();
   });
   for (const std::string& part : ranks.gather(bytes)) {
+    if (part.empty()) continue;
     const std::size_t count = part.size() / bytes_of_one;
     const char* next = part.data();
     for_each_column(particles, [&](auto& column) {
