@@ -48,7 +48,8 @@ PetscErrorCode keep_reason(MPI_Comm, int, const char*, const char*, PetscErrorCo
 
 /// Alone, Open MPI would start a daemon for processes that this one might spawn, and make folders in one that all its
 /// programs share and remove when they end: of two, one may lose its folder while it makes it, and then does not start.
-/// A process alone needs none of this. Processes that it starts itself get no word of it.
+/// And it would ask for networks that need a quarter of a second to say that they are not there. A process alone needs
+/// none of this. Processes that it starts itself get no word of it.
 class StartAlone {
  public:
   StartAlone() {
@@ -66,7 +67,9 @@ class StartAlone {
 
  private:
   static constexpr std::pair<const char*, const char*> settings_[] = {{"OMPI_MCA_ess_singleton_isolated", "1"},
-                                                                      {"OMPI_MCA_orte_create_session_dirs", "0"}};
+                                                                      {"OMPI_MCA_orte_create_session_dirs", "0"},
+                                                                      {"OMPI_MCA_pml", "ob1"},
+                                                                      {"OMPI_MCA_btl", "self"}};
   static constexpr const char* chosen_ = "OMPI_MCA_pmix";  ///< Open MPI sets this itself
   std::vector<const char*> set_;
 };
@@ -88,8 +91,8 @@ LinearSession::LinearSession() {
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
   // Open MPI's hwloc looks for graphics cards by asking every X server of this machine, also where DISPLAY is not set.
-  // If one ends just then, as those of pictures do, Xlib ends the whole program.
-  setenv("HWLOC_COMPONENTS", "-gl", 0);
+  // If one ends just then, as those of pictures do, Xlib ends the whole program. By OpenCL it loads a compiler.
+  setenv("HWLOC_COMPONENTS", "-gl,-opencl", 0);
   const StartAlone alone;
   // Signals stay ours: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
