@@ -5,7 +5,6 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/files_of_others.h"
 #include "case/case_toml.h"
 #include "case/migration.h"
 #include "io/messages.h"

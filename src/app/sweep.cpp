@@ -10,7 +10,6 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
-#include <limits>
 #include <system_error>
 #include <utility>
 

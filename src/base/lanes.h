@@ -5,13 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <span>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 #if defined(__AVX__)
 #include <immintrin.h>

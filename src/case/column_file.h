@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 #include <istream>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>

@@ -1,7 +1,6 @@
 // Tables that name files: what is read from them, and what they exclude.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <span>

@@ -11,7 +11,6 @@
 #include "case/problems.h"
 #include "case/removed_keys.h"
 #include "case/spec.h"
-#include "case/toml_text.h"
 
 namespace tailwater {
 namespace {

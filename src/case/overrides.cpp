@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
-#include <optional>
 #include <variant>
 
 #include "case/nearest_name.h"

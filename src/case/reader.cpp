@@ -15,7 +15,6 @@
 #include "case/case_toml.h"
 #include "case/driven_walls.h"
 #include "case/expression.h"
-#include "case/formulation.h"
 #include "case/measurements.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
@@ -23,7 +22,6 @@
 #include "case/problems.h"
 #include "case/table_reader.h"
 #include "case/table_rules.h"
-#include "case/toml_text.h"
 
 namespace tailwater {
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "base/fp_traps.h"
 #include "checks/checks.h"

@@ -1,6 +1,5 @@
 #include "case/formulation.h"
 #include "checks/checks.h"
-#include "sampling/wall_particles.h"
 
 namespace tailwater {
 

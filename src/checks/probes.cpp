@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <string>
-#include <vector>
 
 #include "checks/checks.h"
 #include "geometry/from_spec.h"

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <span>
 
 #include "closures/surroundings.h"

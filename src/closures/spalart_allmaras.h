@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "closures/wall_law.h"
 #include "neighbours/pairs.h"

@@ -1,7 +1,6 @@
 #include "closures/viscosity.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -8,7 +8,6 @@
 // wall_law.h and spalart_allmaras.h.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "operators/pair_vectors.h"

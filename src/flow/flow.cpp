@@ -1,7 +1,6 @@
 #include "flow/flow.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/assert.h"
 #include "base/for_each.h"

@@ -1,8 +1,6 @@
 // Measures of the whole flow.
 #pragma once
 
-#include <algorithm>
-
 #include "flow/flow.h"
 
 namespace tailwater {

@@ -1,7 +1,6 @@
 // What does not change during a run: the case as the steps need it.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "closures/time_step.h"

@@ -8,7 +8,6 @@
 //     crc32 89abcdef
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -1,7 +1,6 @@
 // Reads back the VTP files that vtp_writer.h writes, those of several ranks too; no others.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>

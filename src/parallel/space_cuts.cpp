@@ -2,8 +2,6 @@
 
 #include <zoltan.h>
 
-#include <vector>
-
 #include "base/error.h"
 #include "base/fp_traps.h"
 

@@ -3,7 +3,6 @@
 
 #include <functional>
 
-#include "base/error.h"
 #include "parallel/communicator.h"
 
 namespace tailwater {

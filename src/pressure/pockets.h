@@ -15,7 +15,6 @@
 #pragma once
 
 #include "flow/flow.h"
-#include "flow/step.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {

@@ -1,7 +1,6 @@
 #include "probes/pressure_map.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include "base/for_each.h"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 
-#include "base/for_each.h"
 #include "probes/chosen_walls.h"
 #include "probes/front.h"
 #include "probes/places.h"

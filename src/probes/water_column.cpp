@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
 
 #include "base/for_each.h"
 #include "geometry/from_spec.h"

@@ -2,7 +2,6 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
-#include "flow/measure.h"
 #include "flow/verbs.h"
 #include "operators/pair_vectors.h"
 #include "published/gradient_consistent.h"

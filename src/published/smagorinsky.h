@@ -8,7 +8,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "neighbours/pairs.h"
 #include "particles/particles.h"

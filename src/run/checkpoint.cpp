@@ -8,7 +8,6 @@
 #include <numeric>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 #include "case/reader.h"
 #include "io/hdf5_image.h"

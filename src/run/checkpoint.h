@@ -1,7 +1,6 @@
 // A checkpoint: all that a run needs to go on bit for bit, and the file that holds it.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <utility>
 
-#include "case/driven_walls.h"
 #include "case/named_numbers.h"
 #include "run/progress.h"
 

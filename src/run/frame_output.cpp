@@ -1,7 +1,6 @@
 #include "run/frame_output.h"
 
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "base/for_each.h"

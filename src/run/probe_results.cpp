@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "case/probe_columns.h"
 #include "run/probe_table.h"

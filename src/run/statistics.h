@@ -1,7 +1,6 @@
 // Statistics of a run over its steps, for summary.json.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,7 +1,6 @@
 #include "sampling/wall_particles.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>

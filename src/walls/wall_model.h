@@ -4,7 +4,6 @@
 // run over wall particles only and are dispatched once per loop.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
