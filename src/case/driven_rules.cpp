@@ -76,17 +76,18 @@ void check(const BodyTable& body, TableReader& reader) {
   }
   if (reader.dimension() == 0) return;  // what is free goes with it
   const bool is_flat = reader.dimension() == 2;
-  for (const std::string& way : body.free) {
-    const bool is_turn = way.starts_with("rotation");
-    if (way.find('z') != std::string::npos ? is_flat : is_turn && (way == "rotation") != is_flat) {
+  for (const std::string& degree : body.free) {
+    const bool is_turn = degree.starts_with("rotation");
+    if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
       reader.wrong(
           "free", *reader.given("free"),
-          fmt::format("\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", way,
+          fmt::format("\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
                       reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
       return;
     }
   }
-  const bool turns = std::ranges::any_of(body.free, [](const std::string& way) { return way.starts_with("rotation"); });
+  const bool turns =
+      std::ranges::any_of(body.free, [](const std::string& degree) { return degree.starts_with("rotation"); });
   const std::size_t needed = is_flat ? 1 : 3;
   if (reader.is_wrong("inertia") || reader.is_wrong("free")) return;
   if (body.inertia.empty()) {

@@ -160,16 +160,16 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
 template <int Dim>
 void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
   const double dx = spec.particles.spacing;
-  const auto has_walls = [&](double way) {
+  const auto has_walls = [&](double distance) {
     std::vector<Vec<Dim>> rim = closed_rim(end, gravity_of<Dim>(spec), dx);
     return std::ranges::any_of(
-        rim, [&](const Vec<Dim>& x) { return boundary.nearest(x + way * end.normal, 0.5 * dx).face >= 0; });
+        rim, [&](const Vec<Dim>& x) { return boundary.nearest(x + distance * end.normal, 0.5 * dx).face >= 0; });
   };
   if (has_walls(-2.0 * dx) || !has_walls(2.0 * dx)) return;
   findings.push_back(Finding::error(
       "{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}; give "
       "the opposite direction",
-      end.label(), place(end.corner), place(end.way())));
+      end.label(), place(end.corner), place(end.direction())));
 }
 
 }  // namespace

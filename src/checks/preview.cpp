@@ -202,7 +202,7 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
       }
     }
     const Vec<2> middle = view(project(Vec<Dim>(0.5 * (end.corner + far_corner))));
-    const Vec<2> out(project(end.way())[0], -project(end.way())[1]);
+    const Vec<2> out(project(end.direction())[0], -project(end.direction())[1]);
     const Vec<2> aside(-out[1], out[0]);
     const Vec<2> tip = middle + arrow * out;
     svg.line(middle, tip, opening_colour, 2.0);

@@ -35,14 +35,14 @@ const WallMesh* Boundary<Dim>::mesh_of(int face) const {
 template <int Dim>
 double Boundary<Dim>::height_above(const WallMesh& mesh, const Vec<Dim>& x, double search_distance) const {
   if constexpr (Dim == 3) {
-    const SurfacePlace place = mesh.surface->nearest(x - way_of(mesh), search_distance);
+    const SurfacePlace place = mesh.surface->nearest(x - displacement_of(mesh), search_distance);
     if (place.triangle >= 0) return place.signed_distance;
   }
   return std::numeric_limits<double>::infinity();
 }
 
 template <int Dim>
-Vec<Dim> Boundary<Dim>::way_of(const WallMesh& mesh) const {
+Vec<Dim> Boundary<Dim>::displacement_of(const WallMesh& mesh) const {
   if constexpr (Dim == 3) return faces[mesh.first_face].corners[0] - mesh.surface->mesh().corner(0, 0);
   return Vec<Dim>::Zero();
 }
@@ -93,14 +93,14 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
   }
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : meshes) {
-      const Vec<3> way = way_of(mesh);
-      const SurfacePlace place = mesh.surface->nearest(x - way, best_distance);
+      const Vec<3> moved = displacement_of(mesh);
+      const SurfacePlace place = mesh.surface->nearest(x - moved, best_distance);
       if (place.triangle < 0) continue;
       // Where a mesh touches another wall, what is behind either is behind the walls.
       const double distance = std::abs(place.signed_distance);
       const bool is_tie = best.face >= 0 && best_distance - distance <= 1e-9 * distance;
       if (is_tie && place.signed_distance >= 0.0) continue;
-      best = {mesh.first_face + place.triangle, place.point + way, place.signed_distance};
+      best = {mesh.first_face + place.triangle, place.point + moved, place.signed_distance};
       best_distance = distance;
     }
   }

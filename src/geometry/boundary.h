@@ -91,7 +91,7 @@ struct Boundary {
   double height_above(const WallMesh& mesh, const Vec<Dim>& x, double search_distance) const;
 
   /// How far a mesh that moves is from where it is drawn.
-  Vec<Dim> way_of(const WallMesh& mesh) const;
+  Vec<Dim> displacement_of(const WallMesh& mesh) const;
 
   /// Calls visit(f) for every face that is not of a mesh.
   template <class Visit>

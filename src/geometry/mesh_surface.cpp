@@ -23,13 +23,13 @@ bool meets(const AxisBox& box, const Vec<3>& from, const Vec<3>& to) {
   double begin = 0.0;
   double end = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double way = to[axis] - from[axis];
-    if (way == 0.0) {
+    const double length = to[axis] - from[axis];
+    if (length == 0.0) {
       if (from[axis] < box.min()[axis] || from[axis] > box.max()[axis]) return false;
       continue;
     }
-    const double at_low = (box.min()[axis] - from[axis]) / way;
-    const double at_high = (box.max()[axis] - from[axis]) / way;
+    const double at_low = (box.min()[axis] - from[axis]) / length;
+    const double at_high = (box.max()[axis] - from[axis]) / length;
     begin = std::max(begin, std::min(at_low, at_high));
     end = std::min(end, std::max(at_low, at_high));
   }
@@ -190,9 +190,9 @@ int MeshSurface::first_crossed(const Vec<3>& from, const Vec<3>& to, double tole
       [&](int t) {
         const WallFace<3> face = face_of(mesh_, t);
         if (!crosses(face, from, to, tolerance)) return;
-        const double way = (meet(face, from, to) - from).norm();
-        if (way < least) {
-          least = way;
+        const double distance = (meet(face, from, to) - from).norm();
+        if (distance < least) {
+          least = distance;
           first = t;
         }
       });

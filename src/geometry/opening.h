@@ -24,8 +24,8 @@ struct Opening {
 
   /// "outlet 'weir'": its name in messages.
   std::string label() const;
-  /// The way on which water is meant to pass.
-  Vec<Dim> way() const { return kind == OpeningKind::inlet ? Vec<Dim>(-normal) : normal; }
+  /// The direction in which water is meant to pass.
+  Vec<Dim> direction() const { return kind == OpeningKind::inlet ? Vec<Dim>(-normal) : normal; }
   /// Distance beyond the plane, along its normal, m.
   double beyond(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether `x` is straight in front of the opening or behind it.

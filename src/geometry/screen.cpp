@@ -13,11 +13,11 @@ namespace {
 /// The front of one piece, without other walls.
 Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int piece) {
   const WallFace<2>& face = boundary.faces[plate.first_face + piece];
-  const Vec<2> way = face.corners[1] - face.corners[0];
+  const Vec<2> along = face.corners[1] - face.corners[0];
   return {face.corners[0],
           face.normal,
-          {way.normalized()},
-          {{{0.0, way.norm()}}},
+          {along.normalized()},
+          {{{0.0, along.norm()}}},
           plate.wall,
           plate.first_face + piece,
           plate.first_face + plate.pieces + piece};
@@ -39,11 +39,11 @@ bool is_closed_by_walls(const Boundary<3>& boundary, const Vec<3>& from, const V
 }
 
 /// How far a plate from a mesh is from where it is drawn.
-Vec<3> way_of(const Boundary<3>& boundary, const WallPlate& plate) {
+Vec<3> displacement_of(const Boundary<3>& boundary, const WallPlate& plate) {
   return boundary.faces[plate.first_face].corners[0] - plate.sheet->mesh().corner(0, 0);
 }
 
-Screen<3> triangle_screen(const TriangleMesh& mesh, int t, const Vec<3>& way, const WallPlate& plate, int piece) {
+Screen<3> triangle_screen(const TriangleMesh& mesh, int t, const Vec<3>& moved, const WallPlate& plate, int piece) {
   const Vec<3> corner = mesh.corner(t, 0);
   const Vec<3> along = (mesh.corner(t, 1) - corner).normalized();
   const Vec<3> normal = mesh.area_normal(t).normalized();
@@ -53,7 +53,7 @@ Screen<3> triangle_screen(const TriangleMesh& mesh, int t, const Vec<3>& way, co
     const Vec<3> x = mesh.corner(t, c) - corner;
     flat[c] = {along.dot(x), across.dot(x)};
   }
-  Screen<3> screen{corner + way,
+  Screen<3> screen{corner + moved,
                    normal,
                    {along, across},
                    {{{std::min(0.0, flat[2][0]), std::max(flat[1][0], flat[2][0])}, {0.0, flat[2][1]}}},
@@ -78,13 +78,13 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
 }
 
 std::vector<Screen<3>> screens_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, double gap, double reach) {
-  const Vec<3> way = way_of(boundary, plate);
+  const Vec<3> moved = displacement_of(boundary, plate);
   const WidenedSheet wide = widened(*plate.sheet, reach, [&](const Vec<3>& from, const Vec<3>& to) {
-    return is_closed_by_walls(boundary, from + way, to + way, gap);
+    return is_closed_by_walls(boundary, from + moved, to + moved, gap);
   });
   std::vector<Screen<3>> screens;
   for (int t = 0; t < static_cast<int>(wide.mesh.triangles.size()); ++t) {
-    screens.push_back(triangle_screen(wide.mesh, t, way, plate, wide.from[t]));
+    screens.push_back(triangle_screen(wide.mesh, t, moved, plate, wide.from[t]));
   }
   return screens;
 }

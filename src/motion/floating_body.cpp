@@ -11,13 +11,13 @@ namespace {
 
 /// Entries of a Twist, by the names of the case file.
 template <int Dim>
-int entry_of(std::string_view way) {
+int entry_of(std::string_view degree) {
   constexpr std::array<std::string_view, 3> in_plane{"x", "y", "rotation"};
   constexpr std::array<std::string_view, 6> in_space{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
   if constexpr (Dim == 2) {
-    return static_cast<int>(std::ranges::find(in_plane, way) - in_plane.begin());
+    return static_cast<int>(std::ranges::find(in_plane, degree) - in_plane.begin());
   } else {
-    return static_cast<int>(std::ranges::find(in_space, way) - in_space.begin());
+    return static_cast<int>(std::ranges::find(in_space, degree) - in_space.begin());
   }
 }
 
@@ -52,7 +52,7 @@ FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
     : name(table.name), mass(table.mass), inertia(Turn<Dim>::Ones()) {
   const std::string owner = "body '" + name + "'";
   for (std::size_t k = 0; k < table.inertia.size(); ++k) inertia[static_cast<int>(k)] = table.inertia[k];
-  for (const std::string& way : table.free) free.push_back(entry_of<Dim>(way));
+  for (const std::string& degree : table.free) free.push_back(entry_of<Dim>(degree));
   std::ranges::sort(free);
   free.erase(std::unique(free.begin(), free.end()), free.end());
   drawn.centre = to_vec<Dim>(table.centre, owner, "centre");

@@ -19,7 +19,7 @@ GateLaw::GateLaw(const GateTable& gate, double length)
   }
 }
 
-double GateLaw::way(double time) const {
+double GateLaw::displacement(double time) const {
   if (file_) return file_->at(std::max(0.0, time - start_));
   const double since = time - start_;
   if (since <= 0.0) return 0.0;

@@ -13,8 +13,8 @@ class GateLaw {
   /// `length` [m] is the gate's own in the direction of its motion.
   GateLaw(const GateTable& gate, double length);
 
-  /// The way [m] at `time` [s].
-  double way(double time) const;
+  /// Its displacement [m] at `time` [s].
+  double displacement(double time) const;
 
  private:
   double start_;

@@ -73,7 +73,7 @@ template <int Dim>
 class MotionOfGate {
  public:
   MotionOfGate(const CaseSpec& spec, const GateTable& gate);
-  Placement<Dim> at(double time) const { return {law_.way(time) * direction_, 0.0}; }
+  Placement<Dim> at(double time) const { return {law_.displacement(time) * direction_, 0.0}; }
 
  private:
   Vec<Dim> direction_;

@@ -173,7 +173,7 @@ double UprightGauge<Dim>::highest_bed() const {
 template <int Dim>
 UprightLine<Dim> UprightGauge<Dim>::now(const ProbeContext<Dim>& context) const {
   if (!has_moving_walls_) return drawn_;
-  const AffineMap<Dim> map = way(context.time);
+  const AffineMap<Dim> map = displacement(context.time);
   UprightLine<Dim> line{map(drawn_.foot), map.linear * drawn_.up, {}};
   if (!path_) line.crossings = resting_;
   const auto counts = [&](int wall) { return path_ || context.boundary.walls[wall].moves(); };
@@ -183,7 +183,7 @@ UprightLine<Dim> UprightGauge<Dim>::now(const ProbeContext<Dim>& context) const 
 
 template <int Dim>
 Region<Dim> UprightGauge<Dim>::region(double time) const {
-  const AffineMap<Dim> map = way(time);
+  const AffineMap<Dim> map = displacement(time);
   const Vec<Dim> foot = map(drawn_.foot);
   return {foot, foot, map.linear * drawn_.up};
 }

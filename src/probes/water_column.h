@@ -54,7 +54,7 @@ class UprightGauge {
   Region<Dim> region(double time) const;
 
  private:
-  AffineMap<Dim> way(double time) const { return path_ ? path_->at(time) : AffineMap<Dim>{}; }
+  AffineMap<Dim> displacement(double time) const { return path_ ? path_->at(time) : AffineMap<Dim>{}; }
 
   Vec<Dim> at_;
   double spacing_;

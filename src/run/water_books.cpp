@@ -31,8 +31,8 @@ struct Landing {
 };
 
 template <int Dim>
-Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& way, double tolerance) {
-  const Vec<Dim> lowest = x + way;
+Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& fall, double tolerance) {
+  const Vec<Dim> lowest = x + fall;
   Landing first;
   const auto meets = [&](const WallFace<Dim>& face) {
     // Of the two faces of a plate the one that looks at x counts.
@@ -45,7 +45,7 @@ Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<D
   });
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {
-      const Vec<3> drawn = boundary.way_of(mesh);
+      const Vec<3> drawn = boundary.displacement_of(mesh);
       const int triangle = mesh.surface->first_crossed(x - drawn, lowest - drawn, tolerance);
       if (triangle >= 0) meets(boundary.faces[mesh.first_face + triangle]);
     }
@@ -53,15 +53,15 @@ Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<D
   return first;
 }
 
-/// The place and those of its images from which `way` may lead through the domain: what leaves a periodic domain on one
-/// side goes on at the other.
+/// The place and those of its images from which `fall` may lead through the domain: what leaves a periodic domain on
+/// one side goes on at the other.
 template <int Dim>
-std::vector<Vec<Dim>> images_on_the_way(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& way) {
+std::vector<Vec<Dim>> images_on_the_way(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& fall) {
   std::vector<Vec<Dim>> images{x};
   for (int axis = 0; axis < Dim; ++axis) {
     if (!domain[axis]) continue;
     const double period = domain[axis]->second - domain[axis]->first;
-    const int count = 1 + static_cast<int>(std::ceil(std::abs(way[axis]) / period));
+    const int count = 1 + static_cast<int>(std::ceil(std::abs(fall[axis]) / period));
     const std::vector<Vec<Dim>> before = images;
     for (const Vec<Dim>& image : before) {
       for (int k = 1; k <= count; ++k) {
@@ -84,10 +84,10 @@ bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box
   const Vec<Dim>& gravity = flow.setup.gravity;
   if (gravity.norm() == 0.0) return false;
   const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
-  const Vec<Dim> way = length * gravity.normalized();
+  const Vec<Dim> fall = length * gravity.normalized();
   Landing first;
-  for (const Vec<Dim>& place : images_on_the_way<Dim>(flow.setup.domain, x, way)) {
-    const Landing landing = landing_of<Dim>(flow.walls.boundary, place, way, corner_tolerance * flow.setup.spacing);
+  for (const Vec<Dim>& place : images_on_the_way<Dim>(flow.setup.domain, x, fall)) {
+    const Landing landing = landing_of<Dim>(flow.walls.boundary, place, fall, corner_tolerance * flow.setup.spacing);
     if (landing.share < first.share) first = landing;
   }
   return first.height > 0.0;

@@ -119,10 +119,10 @@ class Cutter {
     }
     if constexpr (Dim == 3) {
       for (const WallMesh& mesh : boundary_.meshes) {
-        const Vec<3> way = boundary_.way_of(mesh);
-        const SurfacePlace place = mesh.surface->nearest(x - way, reach_);
+        const Vec<3> moved = boundary_.displacement_of(mesh);
+        const SurfacePlace place = mesh.surface->nearest(x - moved, reach_);
         if (place.triangle < 0 || place.is_on_rim) continue;
-        tell(x, place.point + way, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal,
+        tell(x, place.point + moved, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal,
              visit);
       }
     }

@@ -107,8 +107,8 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if constexpr (Dim == 3) {
     // What is behind a mesh may be nearer to another wall, in front of it.
     for (const WallMesh& mesh : boundary.meshes) {
-      const Vec<3> way = boundary.way_of(mesh);
-      const SurfacePlace place = mesh.surface->nearest(x - way, 0.5 * dx);
+      const Vec<3> moved = boundary.displacement_of(mesh);
+      const SurfacePlace place = mesh.surface->nearest(x - moved, 0.5 * dx);
       if (place.triangle < 0 || place.is_on_rim || place.signed_distance >= 0.0) continue;
       x += (least_wall_distance * dx - place.signed_distance) * boundary.faces[mesh.first_face + place.triangle].normal;
     }

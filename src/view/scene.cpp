@@ -146,7 +146,7 @@ Json open_ends_json(const std::vector<Opening<Dim>>& ends, OpeningKind kind) {
       corners.push_back(point<Dim>(end.corner + end.edges[0] + end.edges[1]));
       corners.push_back(point<Dim>(end.corner + end.edges[1]));
     }
-    all.push_back({{"name", end.name}, {"corners", std::move(corners)}, {"direction", point<Dim>(end.way())}});
+    all.push_back({{"name", end.name}, {"corners", std::move(corners)}, {"direction", point<Dim>(end.direction())}});
   }
   return all;
 }

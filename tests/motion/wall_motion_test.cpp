@@ -224,21 +224,21 @@ GateTable gate_of(GateMotion motion) {
 TEST(GateLaw, BeginsStopsAndMovesAsItsTableSays) {
   GateTable steady = gate_of(GateMotion::speed);
   steady.speed = 2.0;
-  EXPECT_EQ(GateLaw(steady, 0.5).way(0.2), 0.0);
-  EXPECT_NEAR(GateLaw(steady, 0.5).way(0.3), 0.2, 4.0 * eps);
-  EXPECT_EQ(GateLaw(steady, 0.5).way(9.0), 0.5);
+  EXPECT_EQ(GateLaw(steady, 0.5).displacement(0.2), 0.0);
+  EXPECT_NEAR(GateLaw(steady, 0.5).displacement(0.3), 0.2, 4.0 * eps);
+  EXPECT_EQ(GateLaw(steady, 0.5).displacement(9.0), 0.5);
   steady.travel = 3.0;
-  EXPECT_EQ(GateLaw(steady, 0.5).way(9.0), 3.0);
+  EXPECT_EQ(GateLaw(steady, 0.5).displacement(9.0), 3.0);
 
   GateTable pulled = gate_of(GateMotion::acceleration);
   pulled.acceleration = 5.0;
   pulled.travel = 10.0;
-  EXPECT_NEAR(GateLaw(pulled, 0.5).way(1.2), 0.5 * 5.0, 16.0 * eps);
+  EXPECT_NEAR(GateLaw(pulled, 0.5).displacement(1.2), 0.5 * 5.0, 16.0 * eps);
 
   GateTable filmed = gate_of(GateMotion::file);
   filmed.series = {"gate.csv", {2, 3}, {0.0, 1.0}, {{0.0, 0.4}}};
-  EXPECT_EQ(GateLaw(filmed, 0.5).way(0.1), 0.0);
-  EXPECT_NEAR(GateLaw(filmed, 0.5).way(0.7), 0.2, 4.0 * eps);
+  EXPECT_EQ(GateLaw(filmed, 0.5).displacement(0.1), 0.0);
+  EXPECT_NEAR(GateLaw(filmed, 0.5).displacement(0.7), 0.2, 4.0 * eps);
 }
 
 }  // namespace
