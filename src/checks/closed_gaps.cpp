@@ -96,18 +96,18 @@ std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int pla
 }
 
 template <int Dim>
-using Box = Eigen::AlignedBox<double, Dim>;
+using EdgeBox = Eigen::AlignedBox<double, Dim>;
 
 template <int Dim>
-Box<Dim> box_of(const PlateEdge<Dim>& edge) {
-  Box<Dim> box;
+EdgeBox<Dim> box_of(const PlateEdge<Dim>& edge) {
+  EdgeBox<Dim> box;
   for (const Vec<Dim>& x : edge.points) box.extend(x);
   return box;
 }
 
 /// Which of these faces come nearer than `reach` to a box.
 template <int Dim>
-std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int>& faces, const Box<Dim>& box,
+std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int>& faces, const EdgeBox<Dim>& box,
                             double reach) {
   std::vector<int> near;
   for (const int f : faces) {
@@ -120,7 +120,7 @@ std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int
 template <int Dim>
 std::vector<int> faces_near_plate(const Boundary<Dim>& boundary, int plate, const std::vector<PlateEdge<Dim>>& edges,
                                   double reach) {
-  Box<Dim> box;
+  EdgeBox<Dim> box;
   for (const PlateEdge<Dim>& edge : edges) box.extend(box_of(edge));
   std::vector<int> others;
   for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double rim_on_wall = 0.1;          // dx, between the top of an opening and a lid
 constexpr double least_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
 constexpr double most_of_range = 0.5;  // of the largest value, that one may change by while a wave crosses the end
-constexpr double most_samples = 1e5;   // of a quantity over the run
+constexpr double most_moments = 1e5;   // of a quantity over the run
 /// Froude number beyond which a value is mistyped: a jet of 20 m/s and 0.1 m depth.
 constexpr double most_froude = 20.0;
 constexpr const char* unit_hint =
@@ -60,7 +60,7 @@ class EndFlowCheck {
   }
 
   /// The number of equal parts of the run at whose ends a quantity is looked at.
-  int samples() const { return static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_samples)); }
+  int samples() const { return static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_moments)); }
 
   void look_at_values(const char* key, const char* unit, const std::optional<TimeFunction>& quantity) {
     if (!quantity) return;

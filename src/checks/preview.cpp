@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_dots = 40000;
+constexpr std::size_t most_drawn = 40000;
 constexpr std::size_t most_drawn_faces = 20000;
 constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
 constexpr double plot_height = 620.0;
@@ -257,12 +257,12 @@ void draw_wall_particles(Svg& svg, const WallParticles<Dim>& walls, const View& 
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) shown.push_back(walls.position[i]);
   }
-  if (shown.size() <= most_dots) svg.dots(shown, view, dummy_colour, diameter);
+  if (shown.size() <= most_drawn) svg.dots(shown, view, dummy_colour, diameter);
 }
 
 template <int Dim>
 void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid, const View& view, double diameter) {
-  if (fluid.position.size() <= most_dots) {
+  if (fluid.position.size() <= most_drawn) {
     svg.dots(fluid.position, view, fluid_colour, diameter);
     return;
   }

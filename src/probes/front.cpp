@@ -20,12 +20,12 @@ bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
 
 namespace {
 
-constexpr double nowhere = -std::numeric_limits<double>::max();
+constexpr double behind_all = -std::numeric_limits<double>::max();
 
 /// The edges of the foremost particle and of the foremost connected particle of this rank.
 struct Front {
-  double all = nowhere;
-  double connected = nowhere;
+  double all = behind_all;
+  double connected = behind_all;
 };
 
 template <int Dim>
@@ -55,7 +55,7 @@ Row read_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   Row row;
   for (const double coordinate : {own.all, own.connected}) {
     const double foremost = context.ranks.largest(coordinate);
-    row.push_back(foremost == nowhere ? 0.0 : foremost);
+    row.push_back(foremost == behind_all ? 0.0 : foremost);
   }
   return row;
 }

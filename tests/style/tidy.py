@@ -23,7 +23,7 @@ CHECKS = """
     modernize-concat-nested-namespaces modernize-loop-convert modernize-make-unique
     modernize-use-equals-default modernize-use-equals-delete modernize-use-override
     bugprone-argument-comment bugprone-branch-clone bugprone-copy-constructor-init bugprone-integer-division
-    bugprone-move-forwarding-reference bugprone-sizeof-container bugprone-string-constructor
+    bugprone-move-forwarding-reference bugprone-string-constructor
     bugprone-swapped-arguments bugprone-too-small-loop-variable
     performance-for-range-copy performance-implicit-conversion-in-loop
     performance-noexcept-move-constructor
@@ -79,7 +79,7 @@ def main():
     if not sources or not entries:
         sys.exit(f"src/{{{','.join(rooms)}}} has {len(sources)} source files and {len(entries)} entries in "
                  f"{build}/compile_commands.json; give rooms of src/CMakeLists.txt that have source files")
-    folder = build / "style" / "_".join(rooms)
+    folder = build / "style" / rooms[0]
     unit = folder / "rooms.cpp"
     copies = [copied(source, root, folder) for source in sources]
     unit.write_text("".join(f'#include "{copy}"\n' for copy in copies), encoding="utf-8")
