@@ -23,8 +23,8 @@ VARIANTS = {
     "the kernel's own pair vectors": ["scheme.pair_vectors=kernel"],
     "implicit": ["scheme.integrator=implicit"],
     "jittered start (0.15 dx)": ["particles.jitter=0.15"],
-    "no noise viscosity": ["scheme.noise_viscosity=0"],
-    "artificial viscosity (0.02) instead": ["scheme.noise_viscosity=0", "study.artificial_viscosity=0.02"],
+    "no noise viscosity": ["study.noise_viscosity=0"],
+    "artificial viscosity (0.02) instead": ["study.noise_viscosity=0", "study.artificial_viscosity=0.02"],
     "divergence-free at the start (F18)": ["study.divergence_free=start"],
     "moved by the mean velocity (F17)": ["study.displacement=mean-velocity"],
     "no slip": ["wall[0].slip=no-slip"],
@@ -45,7 +45,7 @@ TWO_STEP_VARIANTS = {
     "share of the density error 0.1": TWO_STEP + ["study.density_relaxation=0.1"],
     "no density error": TWO_STEP + ["study.density_relaxation=0"],
     "no shifting": TWO_STEP + ["study.shifting=0"],
-    "no noise viscosity": TWO_STEP + ["scheme.noise_viscosity=0"],
+    "no noise viscosity": TWO_STEP + ["study.noise_viscosity=0"],
     "published": TWO_STEP + ["scheme.formulation=published"],
 }
 

@@ -55,10 +55,6 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
   if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
     reader.wrong("type", *reader.given("type"), "a solitary wave moves the water evenly over the depth; use a piston");
   }
-  if (const toml::node* node = reader.given("order");
-      node != nullptr && maker.type == MakerType::flap && maker.order == 2) {
-    reader.wrong("order", *node, "the theory of second order is for pistons; give 1, or type = \"piston\"");
-  }
   if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
       !reader.is_wrong("ramp")) {
     reader.wrong("ramp", *reader.given("ramp"), "irregular waves do not begin at rest; give a time above 0 s");

@@ -17,10 +17,20 @@ constexpr std::string_view in_study = "was moved to the table [study], under the
 
 /// Keys of tables of which a case may have several. What has become of them cannot be written by a rule.
 constexpr std::array removed_of_lists{
+    RemovedKey{"gate", "direction",
+               "was removed: a gate is pulled up, against gravity; one that moves otherwise is a [[wall]] with shape = "
+               "\"plate\" and a displacement"},
     RemovedKey{"gate", "weight", pulled},
     RemovedKey{"gate", "gate_mass", pulled},
     RemovedKey{"wave_maker", "components", "was removed: irregular waves have 200 components"},
+    RemovedKey{
+        "wave_maker", "order",
+        "was removed: pistons make regular waves of second order, which have no free harmonic, and flaps of first"},
+    RemovedKey{"mooring", "name", "was removed: messages call the lines mooring1, mooring2, ..."},
     RemovedKey{"damping", "name", "was removed: messages call the zones damping1, damping2, ..."},
+    RemovedKey{"probe", "region_points",
+               "was removed: a region is a box, region_min to region_max; for another part of a wall draw that part as "
+               "a wall with a name, and give it in `walls`"},
 };
 
 constexpr std::array removed{
@@ -44,6 +54,7 @@ constexpr std::array removed{
     RemovedKey{"scheme", "support", in_study, "support"},
     RemovedKey{"scheme", "length", in_study, "length"},
     RemovedKey{"scheme", "artificial_viscosity", in_study, "artificial_viscosity"},
+    RemovedKey{"scheme", "noise_viscosity", in_study, "noise_viscosity"},
     RemovedKey{"scheme", "density_relaxation", in_study, "density_relaxation"},
     RemovedKey{"scheme", "energy_slack", in_study, "energy_slack"},
     RemovedKey{"scheme", "divergence_free", in_study, "divergence_free"},

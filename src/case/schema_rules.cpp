@@ -74,11 +74,9 @@ Json rules_of_inlets() {
 }
 
 Json rules_of_wave_makers() {
-  const Json is_flap = is("type", {"flap"});
   return Json::array({
       if_then(is("waves", {"none"}), is("absorption", {"active"})),
-      if_then(is_flap, rule_for("waves", none_of({"solitary"}))),
-      if_then(is_flap, rule_for("order", {{"maximum", 1}})),
+      if_then(is("type", {"flap"}), rule_for("waves", none_of({"solitary"}))),
       if_then(is("waves", {"jonswap"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
   });
 }
@@ -102,8 +100,6 @@ Json rules_of_probes() {
       rule_for("name", {{"pattern", "^[A-Za-z0-9_][A-Za-z0-9_-]{0,99}$"}}),
       if_then(is_given("region_min"), needs("region_max")),
       if_then(is_given("region_max"), needs("region_min")),
-      not_both("region_min", "region_points"),
-      rule_for("region_points", at_least(3)),
       rule_for("times", {{"items", {{"minimum", 0}}}}),
       has_length(),
   });
@@ -171,8 +167,7 @@ Json dimension_rules_of_schema(int dimension) {
   return {{"physics", rule_for("channel_width", {{"maximum", 0}})},
           {"fluid", each("shape", none_of({"polygon"}))},
           {"wall", std::move(wall)},
-          {"body", each("free", {{"items", none_of({"rotation"})}})},
-          {"probe", each("region_points", {{"maxItems", 0}})}};
+          {"body", each("free", {{"items", none_of({"rotation"})}})}};
 }
 
 }  // namespace tailwater

@@ -310,7 +310,6 @@ struct GateTable {
   double acceleration = 0.0;
   std::string file;
   std::string checksum;
-  Coordinates direction;
   double travel = 0.0;
 
   TimeSeries series;  ///< what the file holds: t, way
@@ -331,9 +330,10 @@ struct GateTable {
     v.number("thickness", self.thickness, "m", Range::at_least(0.0),
              "Thickness of the gate; 0: none, as a plate (4 dx with a published formulation)");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
-    v.choice("motion", self.motion,
-             "How it moves: at a constant speed, with a constant acceleration, or as a file says; its seal has no "
-             "friction");
+    v.choice(
+        "motion", self.motion,
+        "How it moves up, against gravity: at a constant speed, with a constant acceleration, or as a file says; its "
+        "seal has no friction");
     v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
     v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
     v.text("file", self.file,
@@ -342,9 +342,7 @@ struct GateTable {
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);
-    v.coordinates("direction", self.direction, "", "Direction in which the gate moves (default: up, against gravity)");
-    v.number("travel", self.travel, "m", Range::at_least(0.0),
-             "Way after which the gate stops; 0: its own length in the direction of its motion");
+    v.number("travel", self.travel, "m", Range::at_least(0.0), "Way after which the gate stops; 0: its own height");
   }
 };
 
@@ -359,7 +357,6 @@ struct WaveMakerTable {
   WaveKind waves = WaveKind::regular;
   double height = 0.0;
   double period = 0.0;
-  int order = 2;
   double peak_enhancement = 3.3;
   int seed = 1;
   double start = 0.0;
@@ -388,9 +385,6 @@ struct WaveMakerTable {
     v.number("period", self.period, "s", Range::at_least(0.0),
              "Period of regular waves, of the peak of irregular ones; with waves = \"none\" that of the waves to be "
              "absorbed best (0: long waves)");
-    v.integer("order", self.order, "", Range::between(1, 2),
-              "Order of the maker's theory for regular waves: 2 has no free second harmonic (Madsen 1971; a flap has "
-              "order 1)");
     v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
              "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
     v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
@@ -448,7 +442,6 @@ struct MooringTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.text("name", self.name, "Name used in messages (default: mooring1, mooring2, ...)");
     v.texts("body", self.bodies, {}, "Name of the body that it holds, or names of the two that it ties together");
     v.coordinates("at", self.at, "m", "Where it is fastened to the first body, as that is drawn", Presence::required);
     v.coordinates("anchor", self.anchor, "m", "Its other end, which rests, or is on the second body, as that is drawn",
@@ -499,7 +492,7 @@ void describe_opening(Self& self, Visitor& v) {
 }
 
 struct InletTable {
-  std::string name;
+  std::string name;  ///< no key: mooring1, mooring2, ...
   Coordinates from;
   Coordinates to;
   Coordinates direction;
@@ -596,7 +589,6 @@ struct SchemeTable {
   Integrator integrator = Integrator::explicit_projection;
   PairVectors pair_vectors = PairVectors::corrected;
   double courant = 0.55;
-  double noise_viscosity = 0.2;
   Turbulence turbulence = Turbulence::spalart_allmaras;
 
   bool operator==(const SchemeTable&) const = default;
@@ -616,10 +608,6 @@ struct SchemeTable {
              "and still antisymmetric, inside the water or up to its surface (waves then keep their height, and "
              "jittered water takes longer to come to rest)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0), "alpha of the time-step rule (F40, F41, B20)");
-    v.number(
-        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
-        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
-        "a multiple of dx times the speed of the time-step rule");
     v.choice("turbulence", self.turbulence,
              "Mixing of momentum in the boundary layers of walls with friction: by the viscosity alone, or by the eddy "
              "viscosity of Spalart & Allmaras (1992) as well");
@@ -672,6 +660,7 @@ struct PressureSolverTable {
   PreconditionerName preconditioner = PreconditionerName::automatic;
   double tolerance = 1e-4;
   int max_iterations = 500;
+  double noise_viscosity = 0.2;
   std::string petsc_options;
 
   bool operator==(const PressureSolverTable&) const = default;
@@ -688,6 +677,10 @@ struct PressureSolverTable {
   }
 };
 
+    v.number(
+        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
+        "a multiple of dx times the speed of the time-step rule");
 struct ParallelTable {
   double imbalance = 0.03;
 
@@ -756,7 +749,6 @@ struct ProbeTable {
   std::vector<std::string> walls;
   Coordinates region_min;
   Coordinates region_max;
-  std::vector<Coordinates> region_points;
   Coordinates moment_about;
   std::string body;
   double diameter = 0.0;
@@ -789,7 +781,6 @@ struct ProbeTable {
     v.coordinates("region_min", self.region_min, "m",
                   "Lowest corner of a box; only what is inside of these walls, as drawn, counts");
     v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
-    v.points("region_points", self.region_points, "m", "Instead of the box: corners of a polygon, in order (2D)");
     v.coordinates("moment_about", self.moment_about, "m",
                   "Point, which does not move, that the moment is taken about (default: no moment is written)");
     v.text("body", self.body, "Name of the body whose motion is written");

@@ -31,10 +31,6 @@ void set_defaults(WallTable& wall, TableReader& reader) {
   wall.rotate = wall.translate = wall.axis = wall.pivot;
 }
 
-void set_defaults(GateTable& gate, TableReader& reader) {
-  gate.direction.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
-}
-
 void set_defaults(WaveMakerTable& maker, TableReader& reader) {
   reader.read_ahead(maker, {"waves", "period"});
   maker.ramp = 2.0 * maker.period;
@@ -192,12 +188,11 @@ void check(const OutletTable& outlet, TableReader& reader) {
 
 namespace {
 
-/// The region that limits a probe to a part of the walls: a box, which may be flat, or a polygon.
+/// The region that limits a probe to a part of the walls: a box, which may be flat.
 void check_region(const ProbeTable& probe, TableReader& reader) {
   const toml::node* min = reader.given("region_min");
   const toml::node* max = reader.given("region_max");
-  const toml::node* points = reader.given("region_points");
-  if (reader.is_wrong("region_min") || reader.is_wrong("region_max") || reader.is_wrong("region_points")) return;
+  if (reader.is_wrong("region_min") || reader.is_wrong("region_max")) return;
   if ((min == nullptr) != (max == nullptr)) {
     const bool lacks_max = max == nullptr;
     reader.wrong(lacks_max ? "region_min" : "region_max", lacks_max ? *min : *max,
@@ -210,13 +205,6 @@ void check_region(const ProbeTable& probe, TableReader& reader) {
                    fmt::format("lies below region_min in {}: {} and {}; exchange them", "xyz"[d], probe.region_min[d],
                                probe.region_max[d]));
     }
-  }
-  if (points == nullptr) return;
-  check_corner_count(probe.region_points, 3, reader, "region_points");
-  if (min != nullptr) {
-    reader.wrong("region_points", *points, "the probe has a box region_min to region_max as well; remove one of them");
-  } else if (reader.dimension() == 3) {
-    reader.wrong("region_points", *points, "a polygon is a region of two dimensions; give region_min and region_max");
   }
 }
 

@@ -17,7 +17,6 @@ template <class Table>
 void set_defaults(Table&, TableReader&) {}
 void set_defaults(FluidTable& fluid, TableReader& reader);
 void set_defaults(WallTable& wall, TableReader& reader);
-void set_defaults(GateTable& gate, TableReader& reader);
 void set_defaults(WaveMakerTable& maker, TableReader& reader);
 void set_defaults(BodyTable& body, TableReader& reader);
 void set_defaults(InletTable& inlet, TableReader& reader);

@@ -20,13 +20,11 @@ AffineMap<Dim> mean_velocity_between(const AffineMap<Dim>& before, const AffineM
   return {(after.linear - before.linear) / duration, (after.constant - before.constant) / duration};
 }
 
-/// Of a gate's motion; where its table gives none, against gravity.
+/// Against gravity; without it along the last axis.
 template <int Dim>
-Vec<Dim> unit_direction(const CaseSpec& spec, const GateTable& gate) {
-  Vec<Dim> direction =
-      gate.direction.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(gate.direction, "gate", "direction");
-  if (direction.norm() == 0.0) direction = -gravity_of<Dim>(spec);
-  return direction.norm() > 0.0 ? Vec<Dim>(direction.normalized()) : Vec<Dim>(Vec<Dim>::Unit(Dim - 1));
+Vec<Dim> upward(const CaseSpec& spec) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  return gravity.norm() > 0.0 ? Vec<Dim>(-gravity.normalized()) : Vec<Dim>(Vec<Dim>::Unit(Dim - 1));
 }
 
 }  // namespace
@@ -90,7 +88,7 @@ Placement<Dim> MotionOfFile<Dim>::at(double time) const {
 
 template <int Dim>
 MotionOfGate<Dim>::MotionOfGate(const CaseSpec& spec, const GateTable& gate)
-    : direction_(unit_direction<Dim>(spec, gate)),
+    : direction_(upward<Dim>(spec)),
       law_(gate,
            std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from")))) {}
 

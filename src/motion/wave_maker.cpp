@@ -93,7 +93,7 @@ PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double
   if (maker.waves == WaveKind::regular) {
     const double omega = 2.0 * std::numbers::pi / maker.period;
     sines_.push_back(sine(omega, 0.5 * maker.height, 0.0));
-    if (maker.order == 1 || maker.type == MakerType::flap) return;
+    if (maker.type == MakerType::flap) return;
     // O.S. Madsen (1971), (20): the free wave of twice the frequency that the plate must not make.
     const double k = sines_.front().wave_number;
     const double H = maker.height;

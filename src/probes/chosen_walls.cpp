@@ -6,7 +6,6 @@
 
 #include "base/for_each.h"
 #include "case/nearest_name.h"
-#include "geometry/polygon.h"
 #include "probes/places.h"
 
 namespace tailwater {
@@ -41,17 +40,6 @@ std::function<bool(const Vec<Dim>&)> region_of(const ProbeTable& probe, double t
     return [low, high, tolerance](const Vec<Dim>& x) {
       return (x - low).minCoeff() >= -tolerance && (high - x).minCoeff() >= -tolerance;
     };
-  }
-  if constexpr (Dim == 2) {
-    if (!probe.region_points.empty()) {
-      std::vector<Vec<2>> corners;
-      for (const Coordinates& point : probe.region_points) {
-        corners.push_back(to_vec<2>(point, label(probe), "region_points"));
-      }
-      return [region = Polygon(std::move(corners), tolerance)](const Vec<2>& x) {
-        return region.where(x) != Where::outside;
-      };
-    }
   }
   return {};
 }
@@ -90,7 +78,7 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
     }
     throw InputError(fmt::format(
         "{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn; choose "
-        "region_min and region_max (or region_points) around the part you mean",
+        "region_min and region_max around the part you mean",
         label(probe), place<Dim>(box.min()), place<Dim>(box.max())));
   }
   return shares;

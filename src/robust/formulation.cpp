@@ -32,7 +32,7 @@ FlowFormulation<Dim> robust(const CaseSpec& spec) {
   formulation.courant = spec.scheme.courant;
   formulation.length = study.length;
   formulation.artificial_viscosity = study.artificial_viscosity;
-  formulation.noise_viscosity = spec.scheme.noise_viscosity;
+  formulation.noise_viscosity = spec.study.noise_viscosity;
   formulation.has_eddy_viscosity = spec.scheme.turbulence == Turbulence::spalart_allmaras;
   formulation.energy_slack = study.energy_slack;
   return formulation;

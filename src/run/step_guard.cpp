@@ -144,7 +144,7 @@ void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& d
   const std::string reason = ranks.broadcast(is_here ? describe(*culprit) : std::string(), rank);
   fail(reason +
            ". The run has become unstable; remedy: a smaller scheme.courant, a larger "
-           "scheme.noise_viscosity, or scheme.formulation = \"robust\" where it is not chosen",
+           "study.noise_viscosity, or scheme.formulation = \"robust\" where it is not chosen",
        culprit);
 }
 

@@ -161,7 +161,6 @@ std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimensio
     places.push_back(std::move(x));
   }
   if (!places.empty()) return places;
-  if (!probe.region_points.empty()) return probe.region_points;
   const Coordinates& low = probe.region_min;
   const Coordinates& high = probe.region_max;
   if (low.size() != dimension || high.size() != dimension) return {};

@@ -73,8 +73,9 @@ TABLE = (
              (FLOOR, "points = [[0, 2], [0, 0], [1.5, 0], [2, 2.5], [2.5, 0], [3, 0], [3, 2]]")),
     BadInput("gate through the floor", ("wall 'gate' crosses wall 'tank'", "at t = ", "(1"),
              ("[time]", GATE + 'displacement = [0, "-t"]\n[time]')),
-    BadInput("gate table through the floor", ("case.toml:", "gate 'lock' crosses wall 'tank'", "at t = ", "(1"),
-             ("[time]", '[[gate]]\nname = "lock"\nfrom = [1, 0]\nto = [1, 1]\nspeed = 1\ndirection = [0, -1]\n[time]')),
+    BadInput("gate table through a roof", ("case.toml:", "gate 'lock' crosses wall 'roof'", "at t = ", "(1"),
+             ("[time]", '[[gate]]\nname = "lock"\nfrom = [1, 0]\nto = [1, 1]\nspeed = 10\n[[wall]]\nname = "roof"\n'
+              'points = [[0.5, 1.2], [3, 1.2]]\n[time]')),
     BadInput("wave maker too low", ("case.toml:", "wave_maker 'plate'", "its top is 0.4 m above its foot", "higher `to`"),
              ("[time]", '[[wave_maker]]\nname = "plate"\nfrom = [0.5, 0]\nto = [0.5, 0.4]\ndepth = 0.5\nheight = 0.1\n'
               'period = 1\n[time]')),

@@ -48,7 +48,7 @@ UNSEEN = {
         "probe outside", "wall probe off the wall", "fluid thinner than a particle", "open wall", "low wall",
         "fluid behind a wall", "fluid on both sides of a wall", "overlap", "too near to a wall",
         "wall that crosses itself", "crest higher than the channel", "gate through the floor",
-        "gate table through the floor", "wave maker too low", "gate that closes on the water",
+        "gate table through a roof", "wave maker too low", "gate that closes on the water",
         "lid that crushes the water", "outlet in a wall", "outlet in the water", "outlet above the bed",
         "inlet in a wall", "inlet that faces outwards", "litres for cubic metres", "millimetres per second",
         "level that is a depth", "section that is a point"},

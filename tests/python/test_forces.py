@@ -47,7 +47,6 @@ to = [0, 0.5]
 depth = 0.2
 height = 0.06
 period = 0.8
-order = 1
 ramp = 0.3
 [time]
 end = 0.5
@@ -178,12 +177,13 @@ class AtInlets(PackageTest):
 
 class OnWalls(PackageTest):
     def stroke(self, kind, time, height=0.06, period=0.8, depth=0.2, ramp=0.3):
-        """Of the plate at the still water's level, m: Dean & Dalrymple (1991), ch. 6."""
+        """Of the plate at the still water's level, m: Dean & Dalrymple (1991), ch. 6; second order: Madsen (1971)."""
         omega, y = 2 * np.pi / period, brentq(lambda y: y * np.tanh(y) - (2 * np.pi / period)**2 * depth / 9.81, 1e-3, 9)
         shape = np.sinh(y) + ((1 - np.cosh(y)) / y if kind == "flap" else 0)
         transfer = 4 * np.sinh(y) * shape / (np.sinh(2 * y) + 2 * y)
         share = 1 if time >= ramp else (1 - np.cos(np.pi * time / ramp)) / 2
-        return share * height / 2 / transfer * np.sin(omega * time)
+        bound = (3 * np.cosh(y) / np.sinh(y)**3 - 2 / transfer) * height**2 / 32 / depth if kind == "piston" else 0
+        return share * (height / 2 / transfer * np.sin(omega * time) + bound * np.sin(2 * omega * time))
 
     def motion(self, case, hook=None):
         with case.simulation(hook=hook) as simulation:

@@ -20,7 +20,7 @@ inline CaseSpec free_case(double spacing) {
   spec.particles.spacing = spacing;
   spec.physics.gravity = {0.0, 0.0};
   spec.physics.viscosity = 0.0;
-  spec.scheme.noise_viscosity = 0.0;
+  spec.study.noise_viscosity = 0.0;
   return spec;
 }
 

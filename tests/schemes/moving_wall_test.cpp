@@ -171,7 +171,7 @@ TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
   CaseSpec spec = case_with(GetParam(), dx);
   spec.physics.gravity = {0.0, 0.0};
   spec.physics.viscosity = 0.25;
-  spec.scheme.noise_viscosity = 0.0;
+  spec.study.noise_viscosity = 0.0;
   spec.particles.jitter = 0.1;
   spec.domain.periodic_x = {0.0, 0.6};
   WallTable bed = chain({{0.0, 0.0}, {0.6, 0.0}});

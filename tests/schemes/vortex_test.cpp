@@ -18,7 +18,7 @@ constexpr double end = 0.6;  // the fastest particles cross more than half the b
 /// Relative error of the rate at which kinetic energy decays; the momentum must stay 0.
 double decay_rate_error(double dx) {
   CaseSpec spec = free_case(dx);
-  spec.scheme.noise_viscosity = SchemeTable{}.noise_viscosity;
+  spec.study.noise_viscosity = StudyTable{}.noise_viscosity;
   spec.physics.viscosity = nu;
   spec.domain.periodic_x = {0.0, 1.0};
   spec.domain.periodic_y = {0.0, 1.0};

@@ -25,7 +25,7 @@ from .studies import zhou1999
 from .studies.zhou1999 import energy_at, wall_noise
 from .study import Plan, Study
 
-INVISCID = ("scheme.noise_viscosity=0",)
+INVISCID = ("study.noise_viscosity=0",)
 STARTS = {
     "regular": (),
     "shifted": ('fluid[0].min=["dx/2", "dx/2"]', 'fluid[0].max=["2*H+dx/2", "H+dx/2"]'),

@@ -143,7 +143,7 @@ def sill_time_step(plan):
 def devices(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
-    no_noise = ("scheme.noise_viscosity=0",)
+    no_noise = ("study.noise_viscosity=0",)
     return zhou_comparison(
         "devices", "With and without artificial viscosity and shifting",
         "The default damps only differences between neighbours that a smooth field does not explain. The papers damp the "
