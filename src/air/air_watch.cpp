@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/from_spec.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -36,19 +37,19 @@ double cells_over(const Eigen::AlignedBox<double, Dim>& box, double spacing, con
 }  // namespace
 
 template <int Dim>
-AirWatch<Dim>::AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim>& box, double spacing,
+AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& box,
                         const PeriodicDomain<Dim>& domain)
-    : law_(air), spacing_(spacing) {
+    : law_(spec.air), spacing_(spec.particles.spacing), starts_(spec.pockets), vents_(spec.vents) {
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
-  if (air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
-  if (!(cells_over<Dim>(box, spacing, domain) <= most_cells_of_map)) {
+  if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
+  if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
     throw InputError(fmt::format(
         "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, wherever they "
         "go, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
         "\"none\"",
         most_cells_of_map));
   }
-  grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing, domain);
+  grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing_, domain);
 }
 
 template <int Dim>
@@ -126,8 +127,41 @@ void AirWatch<Dim>::mark_resting(const Walls<Dim>& walls, const Communicator& ra
 }
 
 template <int Dim>
+void AirWatch<Dim>::find_openings() {
+  openings_.assign(wall_flow_.size(), 0.0);
+  for (const VentTable& vent : vents_) {
+    const int pocket = space_.pocket_at(to_vec<Dim>(vent.at, vent.name, "at"));
+    if (pocket >= 0) openings_[pocket] += vent.area / std::sqrt(vent.loss);
+  }
+}
+
+template <int Dim>
+void AirWatch<Dim>::set_start_pressures(AirState& state) const {
+  std::map<int, std::string> given;
+  for (const PocketTable& start : starts_) {
+    const std::string owner = fmt::format("pocket '{}'", start.name);
+    const Vec<Dim> x = to_vec<Dim>(start.at, owner, "at");
+    const int k = space_.pocket_at(x);
+    if (k < 0) {
+      throw InputError(
+          fmt::format("{}: at {} there is no air at the start that water and walls enclose; give a point in "
+                      "such air, or close the walls around it",
+                      owner, place(x)));
+    }
+    if (const auto [other, is_new] = given.emplace(k, owner); !is_new) {
+      throw InputError(fmt::format("{} is in the same air as {}; remove one of them", owner, other->second));
+    }
+    AirPocket& pocket = state.pockets[k];
+    const double gas = law_.gas(start.overpressure, pocket.volume);
+    state.gas_found += gas - pocket.gas;
+    pocket.gas = gas;
+  }
+}
+
+template <int Dim>
 void AirWatch<Dim>::look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
                          const Communicator& ranks, AirState& state) {
+  const bool is_first = state.begun == 0;
   if (!knows_walls_) mark_resting(walls, ranks);
   CellMarks solid = resting_;
   CellMarks water = resting_plates_;
@@ -144,6 +178,8 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, const WallVelocity& velocity, 
   const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
   wall_flow_ = space_.wall_flow(walls.boundary, velocity, ranks);
   take_over(std::move(found), volumes, spacing_, law_, state);
+  find_openings();
+  if (is_first) set_start_pressures(state);
   has_looked_ = true;
 }
 

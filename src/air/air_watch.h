@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "air/pocket_space.h"
+#include "case/spec.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -54,8 +55,7 @@ class AirWatch {
   /// Of a case in which enclosed air is nothing.
   AirWatch() = default;
   /// Of walls that all are within `box` during the whole run.
-  AirWatch(const AirTable& air, const Eigen::AlignedBox<double, Dim>& box, double spacing,
-           const PeriodicDomain<Dim>& domain);
+  AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& box, const PeriodicDomain<Dim>& domain);
 
   bool is_on() const { return grid_ != nullptr; }
   const GasLaw& law() const { return law_; }
@@ -66,7 +66,8 @@ class AirWatch {
   /// The velocity [m/s] of a wall at a place.
   using WallVelocity = std::function<Vec<Dim>(int wall, const Vec<Dim>& x)>;
 
-  /// Looks for the pockets of this moment. Collective.
+  /// Looks for the pockets of this moment. Those of the first look of a run may start at a pressure that the case
+  /// gives; throws InputError where it gives one and there is no enclosed air. Collective.
   void look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
             const Communicator& ranks, AirState& state);
 
@@ -76,6 +77,8 @@ class AirWatch {
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
   /// m^Dim/s; by which moving walls make each pocket grow.
   const std::vector<double>& wall_flow() const { return wall_flow_; }
+  /// m^(Dim-1); of each pocket the vents that its air is at (vent.h).
+  const std::vector<double>& openings() const { return openings_; }
 
   /// The same of the responses alone. Call when the order of particles has changed otherwise.
   void forget_responses() {
@@ -95,6 +98,8 @@ class AirWatch {
   void mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const;
   void mark_rows(const Walls<Dim>& walls, std::size_t from, std::size_t to, CellMarks& solid, CellMarks& plates) const;
   void mark_resting(const Walls<Dim>& walls, const Communicator& ranks);
+  void find_openings();
+  void set_start_pressures(AirState& state) const;
 
   std::shared_ptr<const VoidGrid<Dim>> grid_;
   GasLaw law_;
@@ -105,6 +110,9 @@ class AirWatch {
   bool has_looked_ = false;
   PocketSpace<Dim> space_;
   std::vector<double> wall_flow_;
+  std::vector<PocketTable> starts_;
+  std::vector<VentTable> vents_;
+  std::vector<double> openings_;
   std::map<std::int64_t, std::vector<double>> responses_;  ///< by the number of the pocket
   std::vector<double> air_pressure_;
 };

@@ -21,4 +21,8 @@ double GasLaw::energy(double gas, double volume) const {
   return atmosphere * (compressed + volume - gas);
 }
 
+double GasLaw::gas(double pressure, double volume) const {
+  return volume * std::pow(1.0 + pressure / atmosphere, 1.0 / exponent);
+}
+
 }  // namespace tailwater

@@ -21,6 +21,7 @@ struct GasLaw {
   double pressure(double gas, double volume) const;  ///< Pa
   double slope(double gas, double volume) const;     ///< Pa/m^Dim; dP/dV, below 0
   double energy(double gas, double volume) const;    ///< J
+  double gas(double pressure, double volume) const;  ///< m^Dim; that has this pressure in this volume
 };
 
 }  // namespace tailwater

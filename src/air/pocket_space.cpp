@@ -295,6 +295,24 @@ std::vector<double> PocketSpace<Dim>::wall_flow(const Boundary<Dim>& boundary,
 }
 
 template <int Dim>
+int PocketSpace<Dim>::pocket_at(const Vec<Dim>& x) const {
+  if (pockets_ == 0) return -1;
+  int pocket = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  grid_->visit_ball(x, spacing_, [&](int row, int begin, int end) {
+    for (int n = begin; n < end; ++n) {
+      const Cell c = grid_->cell(row, n);
+      const std::int64_t k = place(c);
+      const double square = (grid_->centre(c) - x).squaredNorm();
+      if (k < 0 || owner_[k] < 0 || layer_[k] > 0 || square >= nearest) continue;
+      nearest = square;
+      pocket = owner_[k] - 1;
+    }
+  });
+  return pocket;
+}
+
+template <int Dim>
 std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
   std::vector<PocketShare> shares;
   if (pockets_ == 0) return shares;

@@ -47,6 +47,9 @@ class PocketSpace {
                                 const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
                                 const Communicator& ranks) const;
 
+  /// The pocket whose air is nearest to x, within dx; -1 where open air is nearer, or there is no air.
+  int pocket_at(const Vec<Dim>& x) const;
+
   /// Which share of the air near x is of which pocket; nothing where there is no pocket. Deep in the water the shares
   /// fall to 0 together.
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const;

@@ -23,11 +23,13 @@ struct AirState {
   std::vector<AirPocket> pockets;
   std::int64_t begun = 0;
   std::int64_t ended = 0;
-  double way = 0.0;          ///< m; how far water may have gone since pockets were looked for
-  double gas_found = 0.0;    ///< m^Dim; of all that have begun, at the pressure of the atmosphere
-  double gas_lost = 0.0;     ///< m^Dim; of all that have ended
-  double energy_lost = 0.0;  ///< J; of the gas of those
-  double energy_set = 0.0;   ///< J; that the gas got where the volume was set right by what the cells tell
+  double way = 0.0;            ///< m; how far water may have gone since pockets were looked for
+  double gas_found = 0.0;      ///< m^Dim; of all that have begun, at the pressure of the atmosphere
+  double gas_lost = 0.0;       ///< m^Dim; of all that have ended
+  double gas_vented = 0.0;     ///< m^Dim; that has left through vents, less what came in
+  double energy_lost = 0.0;    ///< J; of the gas of those that have ended
+  double energy_vented = 0.0;  ///< J; that was lost in vents
+  double energy_set = 0.0;     ///< J; that the gas got where the volume was set right by what the cells tell
 };
 
 /// What a look at the void has found of one pocket.

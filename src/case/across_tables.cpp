@@ -147,8 +147,31 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
 }
 
+/// Without a gas in enclosed air there is nothing to start at another pressure, or to let out.
+void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const auto check_none = [&](std::string_view table, const auto& tables) {
+    if (tables.empty()) return;
+    problems.add(
+        &root[table][0].node()->source(),
+        fmt::format("{}[0]: enclosed air is nothing in this case; give pockets = \"{}\" or \"{}\" in [air], or "
+                    "remove the table",
+                    table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
+  };
+  check_none("pocket", spec.pockets);
+  check_none("vent", spec.vents);
+}
+
 /// Enclosed air acts in the robust formulation, on walls whose motion is known.
 void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  if (spec.air.pockets == AirPockets::none) check_no_air(spec, root, problems);
+  for (std::size_t k = 0; k < spec.pockets.size(); ++k) {
+    const toml::node* node = root["pocket"][k]["overpressure"].node();
+    if (node == nullptr || spec.pockets[k].overpressure > -spec.air.pressure) continue;
+    problems.add(&node->source(),
+                 fmt::format("pocket[{}].overpressure = {}: leaves no pressure of the atmosphere's {:.9g} Pa "
+                             "(air.pressure); give more than {:.9g} Pa",
+                             k, value_text(*node), spec.air.pressure, -spec.air.pressure));
+  }
   const toml::node* node = root["air"]["pockets"].node();
   if (spec.air.pockets == AirPockets::none || node == nullptr) return;
   const auto wrong = [&](const std::string& message) {

@@ -238,6 +238,8 @@ CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const st
       add_keys(*table, label + ": ");
     }
   };
+  add_tables("pocket", spec.pockets);
+  add_tables("vent", spec.vents);
   add_tables("fluid", spec.fluid);
   add_tables("wall", spec.walls);
   add_tables("gate", spec.gates);

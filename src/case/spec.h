@@ -146,6 +146,46 @@ struct AirTable {
   }
 };
 
+/// An enclosed space whose air is not at the atmosphere's pressure at the start.
+struct PocketTable {
+  std::string name;  ///< no key: pocket1, pocket2, ...
+  Coordinates at;
+  double overpressure = 0.0;
+
+  bool operator==(const PocketTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.coordinates("at", self.at, "m", "Point in the air of the space at the start", Presence::required);
+    v.number("overpressure", self.overpressure, "Pa", Range::any(),
+             "Pressure of this air at the start, above that of the atmosphere; below 0: less than the atmosphere's",
+             Presence::required);
+  }
+};
+
+/// An opening through which the air of an enclosed space comes and goes, and no water.
+struct VentTable {
+  std::string name;  ///< no key: vent1, vent2, ...
+  Coordinates at;
+  double area = 0.0;
+  double loss = 2.7;
+
+  bool operator==(const VentTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.coordinates("at", self.at, "m",
+                  "Where the opening is: a point in the air of the space, or on the wall around it. While water is "
+                  "there, nothing passes",
+                  Presence::required);
+    v.number("area", self.area, "m^2", Range::above(0.0), "Area of the opening; in 2D m^2 per metre of width",
+             Presence::required);
+    v.number("loss", self.loss, "", Range::above(0.0),
+             "Loss coefficient zeta: the pressure difference over that of the air's mean velocity in the opening, "
+             "rho u^2/2 (2.7: a sharp-edged hole; 1.5: a short pipe)");
+  }
+};
+
 /// Directions in which the domain repeats itself; an empty range: not periodic.
 struct DomainTable {
   std::vector<double> periodic_x;
@@ -430,7 +470,7 @@ struct BodyTable {
 
 /// A line that holds a body, or ties it to another.
 struct MooringTable {
-  std::string name;
+  std::string name;  ///< no key: mooring1, mooring2, ...
   std::vector<std::string> bodies;
   Coordinates at;
   Coordinates anchor;
@@ -492,7 +532,7 @@ void describe_opening(Self& self, Visitor& v) {
 }
 
 struct InletTable {
-  std::string name;  ///< no key: mooring1, mooring2, ...
+  std::string name;
   Coordinates from;
   Coordinates to;
   Coordinates direction;
@@ -620,6 +660,7 @@ struct StudyTable {
   double support = 3.0;
   double length = 0.0;
   double artificial_viscosity = 0.0;
+  double noise_viscosity = 0.2;
   double shifting = 3.0;
   double density_relaxation = 0.05;
   double energy_slack = 1e-4;
@@ -636,6 +677,10 @@ struct StudyTable {
              "open ends");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
              "c_a of the papers' artificial viscosity, nu_a = c_a |u| dx (F3)");
+    v.number(
+        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
+        "a multiple of dx times the speed of the time-step rule");
     v.number("shifting", self.shifting, "", Range::at_least(0.0),
              "Strength of the particle shifting along the concentration gradient; 0: none");
     v.number(
@@ -660,7 +705,6 @@ struct PressureSolverTable {
   PreconditionerName preconditioner = PreconditionerName::automatic;
   double tolerance = 1e-4;
   int max_iterations = 500;
-  double noise_viscosity = 0.2;
   std::string petsc_options;
 
   bool operator==(const PressureSolverTable&) const = default;
@@ -677,10 +721,6 @@ struct PressureSolverTable {
   }
 };
 
-    v.number(
-        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
-        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
-        "a multiple of dx times the speed of the time-step rule");
 struct ParallelTable {
   double imbalance = 0.03;
 
@@ -847,6 +887,8 @@ struct CaseSpec {
   CaseTable general;
   PhysicsTable physics;
   AirTable air;
+  std::vector<PocketTable> pockets;
+  std::vector<VentTable> vents;
   ParticlesTable particles;
   DomainTable domain;
   std::vector<FluidTable> fluid;
@@ -876,6 +918,9 @@ struct CaseSpec {
     v.table("case", self.general, "The case as a whole");
     v.table("physics", self.physics, "Fluid and gravity");
     v.table("air", self.air, "Air that water and walls enclose");
+    v.tables("pocket", self.pockets,
+             "An enclosed space that starts at another pressure than the atmosphere's; one table each");
+    v.tables("vent", self.vents, "An opening between an enclosed space and the atmosphere; one table each");
     v.table("particles", self.particles, "Resolution and initial arrangement");
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");

@@ -82,6 +82,10 @@ Findings check_speeds(const CaseSpec& spec);
 template <int Dim>
 Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Error: a vent, or the place of air that starts at another pressure, in a wall or outside of all.
+template <int Dim>
+Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
 /// Error: a probe where no water can come. Warning: times of a probe after the end of the run.
 template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);

@@ -67,7 +67,16 @@ AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, cons
       }
     }
   }
-  return AirWatch<Dim>(spec.air, box, setup.spacing, setup.domain);
+  return AirWatch<Dim>(spec, box, setup.domain);
+}
+
+/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything. Collective.
+template <int Dim>
+void require_start_pockets(Flow<Dim>& flow) {
+  AirState none;
+  const auto rest = [](int /*wall*/, const Vec<Dim>& /*x*/) { return Vec<Dim>(Vec<Dim>::Zero()); };
+  flow.air.look(flow.walls, rest, flow.state.particles, flow.setup.ranks, none);
+  flow.air.forget();
 }
 
 }  // namespace
@@ -103,6 +112,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, c
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);
   assign_roles(*this);
+  if (!spec.pockets.empty()) require_start_pockets(*this);
 }
 
 template <int Dim>

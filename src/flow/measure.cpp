@@ -64,6 +64,7 @@ AirMeasures measure_air(const Flow<Dim>& flow) {
   double largest = 0.0;
   for (const AirPocket& pocket : pockets) {
     air.volume += pocket.volume;
+    air.gas += pocket.gas;
     air.energy += flow.air.law().energy(pocket.gas, pocket.volume);
     if (pocket.volume <= largest) continue;
     largest = pocket.volume;

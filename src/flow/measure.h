@@ -25,6 +25,7 @@ double largest_speed(const Flow<Dim>& flow);
 struct AirMeasures {
   std::size_t pockets = 0;
   double volume = 0.0;    ///< m^Dim; of all
+  double gas = 0.0;       ///< m^Dim; of all, at the pressure of the atmosphere
   double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
   double energy = 0.0;    ///< J; of all the gas (air/gas_law.h)
 };

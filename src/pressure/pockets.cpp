@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "air/vent.h"
 #include "base/for_each.h"
 #include "pressure/solve_rows.h"
 #include "pressure/tolerance.h"
@@ -45,8 +46,14 @@ std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
 /// The pockets' part of one step: how far each grows, as a function of the pressures, and what the gas asks for.
 class GasStep {
  public:
-  GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, bool with_mean, double dt)
-      : law_(law), pockets_(pockets), dt_(dt), share_(with_mean ? 0.5 : 1.0), mean_(with_mean ? 0.5 : 0.0) {}
+  GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings, bool with_mean,
+          double dt)
+      : law_(law),
+        pockets_(pockets),
+        openings_(openings),
+        dt_(dt),
+        share_(with_mean ? 0.5 : 1.0),
+        mean_(with_mean ? 0.5 : 0.0) {}
 
   /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
   void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls) {
@@ -72,9 +79,8 @@ class GasStep {
       Eigen::VectorXd missing(count);
       Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
       for (Eigen::Index k = 0; k < count; ++k) {
-        const double gas = pockets_[k].gas;
-        missing[k] = pressure[k] - (1.0 - theta[k]) * start[k] - theta[k] * law_.pressure(gas, volume[k]);
-        slope.row(k) -= theta[k] * law_.slope(gas, volume[k]) * answers_.row(k);
+        missing[k] = pressure[k] - (1.0 - theta[k]) * start[k] - theta[k] * pressure_after(k, volume[k]);
+        slope.row(k) -= theta[k] * slope_after(k, volume[k]) * answers_.row(k);
       }
       if (missing.cwiseAbs().maxCoeff() <= settled * law_.atmosphere) break;
       Eigen::VectorXd way = -slope.partialPivLu().solve(missing);
@@ -85,6 +91,15 @@ class GasStep {
   }
 
  private:
+  /// Pa; of the gas at the end of the step, if its volume then is this.
+  double pressure_after(Eigen::Index k, double volume) const {
+    return law_.pressure(gas_after_venting(law_, pockets_[k].gas, volume, openings_[k], dt_), volume);
+  }
+  double slope_after(Eigen::Index k, double volume) const {
+    if (openings_[k] == 0.0) return law_.slope(pockets_[k].gas, volume);
+    const double little = 1e-6 * volume;
+    return (pressure_after(k, volume + little) - pressure_after(k, volume - little)) / (2.0 * little);
+  }
   /// How much of the pressure is that at the end of the step. With the square s of a pulsation's frequency times dt,
   /// s/(4 + s) is enough damping for any s, and damps what is resolved by some s^1.5 per period.
   Eigen::VectorXd blend() const {
@@ -106,6 +121,7 @@ class GasStep {
 
   const GasLaw& law_;
   const std::vector<AirPocket>& pockets_;
+  const std::vector<double>& openings_;
   double dt_;
   double share_;  ///< of the new velocity in that which moves the water
   double mean_;   ///< share of the pressure at the end with which a slow pulsation keeps its energy
@@ -266,6 +282,22 @@ Eigen::MatrixXd find_answers(Flow<Dim>& flow, double dt) {
   return answers;
 }
 
+/// The end of a step of a pocket: its new volume, and what flows through its vents. Returns the work of the gas on the
+/// water [J], the mean of what it is if the gas flows before the volume changes, and after.
+double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double opening, double dt, AirState& air) {
+  const double old_gas = pocket.gas;
+  const double old_volume = pocket.volume;
+  const double old_energy = law.energy(old_gas, old_volume);
+  pocket.volume = volume;
+  pocket.gas = gas_after_venting(law, old_gas, volume, opening, dt);
+  const double energy = law.energy(pocket.gas, volume);
+  if (opening == 0.0) return old_energy - energy;
+  const double work = 0.5 * (old_energy - law.energy(old_gas, volume) + law.energy(pocket.gas, old_volume) - energy);
+  air.gas_vented += old_gas - pocket.gas;
+  air.energy_vented += old_energy - energy - work;
+  return work;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -314,7 +346,7 @@ void add_air(Flow<Dim>& flow, double dt) {
   const std::vector<Vec<Dim>> gradient = gradient_at_sides(flow, pressure);
   std::vector<double> now = growth(flow, [&](std::size_t n) { return Vec<Dim>(-unit * gradient[n]); });
   for (std::size_t k = 0; k < now.size(); ++k) now[k] += sides.flow[k];
-  GasStep step(flow.air.law(), pockets, flow.setup.formulation.moves_with_mean_velocity, dt);
+  GasStep step(flow.air.law(), pockets, flow.air.openings(), flow.setup.formulation.moves_with_mean_velocity, dt);
   step.set_flow(now, sides.flow_before, flow.air.wall_flow());
   step.set_answers(find_answers(flow, dt));
   sides.pressure = step.solve();
@@ -339,10 +371,9 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
   const double share = flow.setup.formulation.moves_with_mean_velocity ? 0.5 : 1.0;
   for (std::size_t k = 0; k < flow_after.size(); ++k) {
     AirPocket& pocket = flow.state.air.pockets[k];
-    const double before = flow.air.law().energy(pocket.gas, pocket.volume);
     const double rate = share * flow_after[k] + (1.0 - share) * sides.flow_before[k] + flow.air.wall_flow()[k];
-    pocket.volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
-    sides.work += before - flow.air.law().energy(pocket.gas, pocket.volume);
+    const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
+    sides.work += change_pocket(pocket, volume, flow.air.law(), flow.air.openings()[k], dt, flow.state.air);
   }
 }
 

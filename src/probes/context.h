@@ -24,6 +24,16 @@
 
 namespace tailwater {
 
+/// Of all pockets of enclosed air. In 2D per metre of width.
+struct PocketTotals {
+  double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
+  double volume = 0.0;    ///< m^Dim
+  double gas = 0.0;       ///< m^Dim; at the pressure of the atmosphere
+  double vented = 0.0;    ///< m^Dim; the same of the gas that has left through vents, less what came in
+  double energy = 0.0;    ///< J
+  double pockets = 0.0;   ///< how many
+};
+
 /// Measures of the whole flow on all ranks. In 2D per metre of width.
 struct FlowTotals {
   double kinetic_energy = 0.0;      ///< J
@@ -33,6 +43,7 @@ struct FlowTotals {
   double volume_out = 0.0;                   ///< m^Dim; volume that has left through open ends
   double volume_in = 0.0;                    ///< m^Dim; volume that has come through them
   std::vector<double> section_volumes = {};  ///< m^Dim; one per discharge probe, what has passed it
+  PocketTotals air = {};
 };
 
 /// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, where they are now, and reaches as

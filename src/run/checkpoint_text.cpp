@@ -122,13 +122,16 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
 }
 
 nlohmann::json json_of(const AirState& air) {
-  const auto& [pockets, begun, ended, way, gas_found, gas_lost, energy_lost, energy_set] = air;
+  const auto& [pockets, begun, ended, way, gas_found, gas_lost, gas_vented, energy_lost, energy_vented, energy_set] =
+      air;
   nlohmann::json json{{"begun", begun},
                       {"ended", ended},
                       {"way", way},
                       {"gas_found", gas_found},
                       {"gas_lost", gas_lost},
+                      {"gas_vented", gas_vented},
                       {"energy_lost", energy_lost},
+                      {"energy_vented", energy_vented},
                       {"energy_set", energy_set},
                       {"pockets", nlohmann::json::array()}};
   for (const auto& [number, gas, volume, torn, cells] : pockets) {
@@ -147,7 +150,9 @@ AirState air_of(const nlohmann::json& json) {
                json.at("way"),
                json.at("gas_found"),
                json.at("gas_lost"),
+               json.at("gas_vented"),
                json.at("energy_lost"),
+               json.at("energy_vented"),
                json.at("energy_set")};
   for (const nlohmann::json& each : json.at("pockets")) {
     AirPocket pocket{each.at("number"), each.at("gas"), each.at("volume"), each.at("torn"), {}};

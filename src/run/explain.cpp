@@ -33,6 +33,8 @@ std::string told(const Varying& value, std::string_view unit) {
   return fmt::format("{} in {}", std::get<std::string>(value), unit);
 }
 
+std::string told(const Coordinates& at) { return fmt::format("({:.4g})", fmt::join(at, ", ")); }
+
 std::string_view per_width(const CaseSpec& spec) { return spec.general.dimension == 2 ? " per metre of width" : ""; }
 
 std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
@@ -133,6 +135,20 @@ void add_open_ends(const CaseSpec& spec, std::vector<std::string>& sentences) {
   }
 }
 
+void add_air(const CaseSpec& spec, std::vector<std::string>& sentences) {
+  if (spec.air.pockets == AirPockets::none) return;
+  sentences.push_back(fmt::format("Air that water and walls enclose is a gas ({}), in an atmosphere of {:.6g} Pa.",
+                                  name_of(spec.air.pockets), spec.air.pressure));
+  for (const PocketTable& pocket : spec.pockets) {
+    sentences.push_back(fmt::format("That at {} begins {:.4g} Pa {} it.", told(pocket.at),
+                                    std::abs(pocket.overpressure), pocket.overpressure < 0.0 ? "below" : "above"));
+  }
+  for (const VentTable& vent : spec.vents) {
+    sentences.push_back(fmt::format("A vent at {} has {:.3g} m^2{}, with a loss coefficient of {:.3g}.", told(vent.at),
+                                    vent.area, per_width(spec), vent.loss));
+  }
+}
+
 std::string about_probes(const CaseSpec& spec) {
   if (spec.probes.empty()) return "Nothing is measured: there are no probes.";
   std::map<std::string_view, std::vector<std::string>> by_type;
@@ -172,6 +188,7 @@ std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& e
                                      about_water(spec, estimate), about_walls(spec)};
   add_driven_walls(spec, sentences);
   add_open_ends(spec, sentences);
+  add_air(spec, sentences);
   sentences.push_back(about_physics(spec));
   sentences.push_back(about_probes(spec));
   sentences.push_back(about_method(spec));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <string_view>
@@ -51,9 +52,14 @@ std::string air_line(const Json& air) {
     if (own > largest) pressure = number_of(pocket, "pressure_Pa");
     largest = std::max(largest, own);
   }
-  return fmt::format("{}; {:.0f} begun, {:.0f} ended, which lost {:.4g} m3 of gas",
-                     pockets_in_words(static_cast<double>(air.at("now").size()), volume, pressure),
-                     number_of(air, "begun"), number_of(air, "ended"), number_of(air, "gas_lost_m3"));
+  std::string line = fmt::format("{}; {:.0f} begun, {:.0f} ended, which lost {:.4g} m3 of gas",
+                                 pockets_in_words(static_cast<double>(air.at("now").size()), volume, pressure),
+                                 number_of(air, "begun"), number_of(air, "ended"), number_of(air, "gas_lost_m3"));
+  const double vented = air.value("gas_vented_m3", 0.0);
+  if (vented != 0.0) {
+    line += fmt::format("; {:.4g} m3 {} through vents", std::abs(vented), vented > 0.0 ? "left" : "came in");
+  }
+  return line;
 }
 
 /// The last whole line of steps.csv by the names of its columns; empty if there is none.

@@ -11,6 +11,7 @@
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
+#include "run/air_books.h"
 #include "run/estimate.h"
 #include "run/field_output.h"
 #include "run/probe_results.h"
@@ -69,27 +70,6 @@ nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
                           {"mean_m3_per_s", time > 0.0 ? volume / time : 0.0}});
   }
   return discharges;
-}
-
-/// What became of enclosed air, and what there is of it.
-template <int Dim>
-nlohmann::ordered_json pockets_of(const Flow<Dim>& flow) {
-  const AirState& air = flow.state.air;
-  nlohmann::ordered_json now = nlohmann::ordered_json::array();
-  for (const AirPocket& pocket : air.pockets) {
-    now.push_back({{"number", pocket.number},
-                   {"volume_m3", pocket.volume},
-                   {"gas_m3", pocket.gas},
-                   {"pressure_Pa", flow.air.law().pressure(pocket.gas, pocket.volume)}});
-  }
-  return {{"begun", air.begun},
-          {"ended", air.ended},
-          {"gas_found_m3", air.gas_found},
-          {"gas_lost_m3", air.gas_lost},
-          {"energy_J", measure_air(flow).energy},
-          {"energy_lost_J", air.energy_lost},
-          {"energy_set_J", air.energy_set},
-          {"now", std::move(now)}};
 }
 
 }  // namespace
@@ -237,7 +217,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .density_error_rms = measures.density_error_rms,
                              .volume_out = measures.departed.volume,
                              .volume_in = measures.arrived.volume,
-                             .section_volumes = flow.state.section_volumes},
+                             .section_volumes = flow.state.section_volumes,
+                             .air = pocket_totals(flow)},
                   .ranks = ranks_,
                   .plate_of = plate_of,
                   .domain = flow.setup.domain,

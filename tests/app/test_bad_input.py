@@ -79,6 +79,12 @@ TABLE = (
     BadInput("wave maker too low", ("case.toml:", "wave_maker 'plate'", "its top is 0.4 m above its foot", "higher `to`"),
              ("[time]", '[[wave_maker]]\nname = "plate"\nfrom = [0.5, 0]\nto = [0.5, 0.4]\ndepth = 0.5\nheight = 0.1\n'
               'period = 1\n[time]')),
+    BadInput("vent in a wall", ("case.toml:", "vent 'vent1': (1, -0.3) is in wall 'tank', 0.3 m behind"),
+             ("[time]", '[air]\npockets = "adiabatic"\n[[vent]]\nat = [1, -0.3]\narea = 1e-4\n[time]')),
+    BadInput("vent outside of the walls", ("vent 'vent1': (1, 9) is outside of all walls", "enclose"),
+             ("[time]", '[air]\npockets = "adiabatic"\n[[vent]]\nat = [1, 9]\narea = 1e-4\n[time]')),
+    BadInput("pressure of open air", ("pocket 'pocket1': at (1, 1) there is no air at the start that water and walls",),
+             ("[time]", '[air]\npockets = "adiabatic"\n[[pocket]]\nat = [1, 1]\noverpressure = 500\n[time]')),
     BadInput("gate that closes on the water", ("wall 'gate' comes nearer than a spacing", "at t = ", "crushed"),
              ("[time]", GATE + 'displacement = [0, "10*min(t, max(0.06 - t, 0))"]\n[time]')),
     BadInput("lid that crushes the water", ("wall 'lid' crushes the water at t = ", "0.5 m^2 of water"),

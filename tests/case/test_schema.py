@@ -27,7 +27,7 @@ UNSEEN = {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
         "level_of_a_fill_where_gravity_is_sideways", "outlet_without_extent", "period_backwards", "period_empty",
         "probe_stretch_is_a_point", "probe_times_backwards",
-        "region_upside_down", "wave_that_breaks_at_once", "fluid inside out",
+        "region_upside_down", "wave_that_breaks_at_once", "less_than_a_vacuum", "vent_where_air_is_nothing", "fluid inside out",
         "wall without length"},
     "expressions": {
         "displacement_of_a_position", "gravity_of_itself", "infinite_expression", "inlet_discharge_of_position",
@@ -51,7 +51,8 @@ UNSEEN = {
         "gate table through a roof", "wave maker too low", "gate that closes on the water",
         "lid that crushes the water", "outlet in a wall", "outlet in the water", "outlet above the bed",
         "inlet in a wall", "inlet that faces outwards", "litres for cubic metres", "millimetres per second",
-        "level that is a depth", "section that is a point"},
+        "level that is a depth", "section that is a point", "vent in a wall", "vent outside of the walls",
+        "pressure of open air"},
     "amounts": {
         "spacing that needs more memory than there is", "end time that no run reaches", "spacing beyond the shapes",
         "endless walls", "probe that would fill the disk", "fields that would fill the disk"},

@@ -52,5 +52,16 @@ TEST(ExplainCase, TellsWhatMovesComesInAndLeaves) {
   }
 }
 
+TEST(ExplainCase, TellsOfEnclosedAir) {
+  const std::vector<std::string> sentences = sentences_of(
+      "[air]\npockets = \"isothermal\"\n[[pocket]]\nat = [0.5, 0.8]\noverpressure = -300\n[[vent]]\nat = [0.5, 1]\n"
+      "area = 2e-4\n");
+  for (const char* text :
+       {"is a gas (isothermal), in an atmosphere of 101325 Pa.", "That at (0.5, 0.8) begins 300 Pa below it.",
+        "A vent at (0.5, 1) has 0.0002 m^2 per metre of width, with a loss coefficient of 2.7."}) {
+    EXPECT_TRUE(tells(sentences, text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace tailwater

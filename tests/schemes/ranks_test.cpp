@@ -300,6 +300,12 @@ TYPED_TEST(RanksTest, APocketOfAirAcrossTheCuts) {
   run(flow, steps);
   ASSERT_EQ(flow.state.air.pockets.size(), 1u);
   EXPECT_GT(std::abs(measure_air(flow).pressure), 500.0) << "the gas is pressed together, or has thrown the water back";
+  spec.vents.resize(1);
+  spec.vents[0].at = Coordinates(Dim, 0.2);
+  spec.vents[0].area = 1e-3;
+  spec.pockets.resize(1);
+  spec.pockets[0].at = spec.vents[0].at;
+  spec.pockets[0].overpressure = 2000.0;
   expect_same<Dim>(spec, 0.8, as_it_is);
 }
 

@@ -1,0 +1,45 @@
+#include "run/air_books.h"
+
+#include "flow/measure.h"
+
+namespace tailwater {
+
+template <int Dim>
+nlohmann::ordered_json pockets_of(const Flow<Dim>& flow) {
+  const AirState& air = flow.state.air;
+  nlohmann::ordered_json now = nlohmann::ordered_json::array();
+  for (const AirPocket& pocket : air.pockets) {
+    now.push_back({{"number", pocket.number},
+                   {"volume_m3", pocket.volume},
+                   {"gas_m3", pocket.gas},
+                   {"pressure_Pa", flow.air.law().pressure(pocket.gas, pocket.volume)}});
+  }
+  return {{"begun", air.begun},
+          {"ended", air.ended},
+          {"gas_found_m3", air.gas_found},
+          {"gas_lost_m3", air.gas_lost},
+          {"gas_vented_m3", air.gas_vented},
+          {"energy_J", measure_air(flow).energy},
+          {"energy_lost_J", air.energy_lost},
+          {"energy_vented_J", air.energy_vented},
+          {"energy_set_J", air.energy_set},
+          {"now", std::move(now)}};
+}
+
+template <int Dim>
+PocketTotals pocket_totals(const Flow<Dim>& flow) {
+  const AirMeasures air = measure_air(flow);
+  return {.pressure = air.pressure,
+          .volume = air.volume,
+          .gas = air.gas,
+          .vented = flow.state.air.gas_vented,
+          .energy = air.energy,
+          .pockets = static_cast<double>(air.pockets)};
+}
+
+template nlohmann::ordered_json pockets_of(const Flow<2>&);
+template nlohmann::ordered_json pockets_of(const Flow<3>&);
+template PocketTotals pocket_totals(const Flow<2>&);
+template PocketTotals pocket_totals(const Flow<3>&);
+
+}  // namespace tailwater

@@ -1,0 +1,19 @@
+// What became of enclosed air, and what there is of it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "flow/flow.h"
+#include "probes/context.h"
+
+namespace tailwater {
+
+/// The block `pockets` of summary.json.
+template <int Dim>
+nlohmann::ordered_json pockets_of(const Flow<Dim>& flow);
+
+/// What a probe reads of all pockets.
+template <int Dim>
+PocketTotals pocket_totals(const Flow<Dim>& flow);
+
+}  // namespace tailwater
