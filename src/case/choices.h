@@ -48,6 +48,7 @@ enum class ProbeType {
   run_up,
   level_map,
   velocity_profile,
+  pockets,
 };
 
 template <class Enumeration>
@@ -133,10 +134,23 @@ struct Choices<PreconditionerName> {
 };
 template <>
 struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 16> names{
-      "depth",     "wall-pressure",   "wall-pressure-mean", "front", "profile",      "pressure", "velocity",
-      "energy",    "volume",          "discharge",          "force", "pressure-map", "motion",   "run-up",
-      "level-map", "velocity-profile"};
+  static constexpr std::array<std::string_view, 17> names{"depth",
+                                                          "wall-pressure",
+                                                          "wall-pressure-mean",
+                                                          "front",
+                                                          "profile",
+                                                          "pressure",
+                                                          "velocity",
+                                                          "energy",
+                                                          "volume",
+                                                          "discharge",
+                                                          "force",
+                                                          "pressure-map",
+                                                          "motion",
+                                                          "run-up",
+                                                          "level-map",
+                                                          "velocity-profile",
+                                                          "pockets"};
 };
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.

@@ -63,6 +63,7 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "run-up", {}, {"walls", "region_min", "region_max", "interval"}},
       {"probe", "type", "level-map", {"from", "to"}, {"step", "interval"}},
       {"probe", "type", "velocity-profile", {"at"}, {"step", "times", "interval"}},
+      {"probe", "type", "pockets", {}, {"interval"}},
   };
   return uses;
 }

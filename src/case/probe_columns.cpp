@@ -72,6 +72,11 @@ std::span<const SeriesColumn> all_columns_of(ProbeType type) {
   static constexpr std::array<SeriesColumn, 2> maps{{{"largest", Measure::pressure}, {"mean", Measure::pressure}}};
   static constexpr std::array<SeriesColumn, 2> run_ups{{{"connected"}, {"highest"}}};
   static constexpr std::array<SeriesColumn, 2> levels{{{"mean"}, {"highest"}}};
+  static constexpr std::array<SeriesColumn, 5> pockets{{{"pressure", Measure::pressure},
+                                                        {"volume", Measure::volume},
+                                                        {"gas", Measure::volume},
+                                                        {"vented", Measure::volume},
+                                                        {"energy", Measure::energy}}};
   switch (type) {
     case ProbeType::depth:
       return depths;
@@ -99,6 +104,8 @@ std::span<const SeriesColumn> all_columns_of(ProbeType type) {
       return run_ups;
     case ProbeType::level_map:
       return levels;
+    case ProbeType::pockets:
+      return pockets;
     case ProbeType::profile:
       return std::span(depths).first(2);
     case ProbeType::velocity_profile:

@@ -14,6 +14,7 @@
 #include "probes/front.h"
 #include "probes/gather.h"
 #include "probes/level_map.h"
+#include "probes/places.h"
 #include "probes/point.h"
 #include "probes/pressure_map.h"
 #include "probes/run_up.h"
@@ -41,6 +42,21 @@ Reading<Dim> volume_reading() {
             const std::size_t count = count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
             return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
                      context.totals.density_error_rms, context.totals.volume_out, context.totals.volume_in}};
+          }};
+}
+
+template <int Dim>
+Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
+  if (spec.air.pockets == AirPockets::none) {
+    throw InputError(
+        fmt::format("{}: reads enclosed air, which is nothing in this case; give pockets = \"{}\" in [air], "
+                    "or remove the probe",
+                    label(probe), name_of(AirPockets::adiabatic)));
+  }
+  return {{"pressure_Pa", "volume_m3", "gas_m3", "vented_m3", "energy_J", "pockets"},
+          [](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            const PocketTotals& air = context.totals.air;
+            return {{air.pressure, air.volume, air.gas, air.vented, air.energy, air.pockets}};
           }};
 }
 
@@ -95,6 +111,8 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
       return level_map_reading(probe, spec, boundary);
     case ProbeType::velocity_profile:
       return velocity_profile_reading(probe, spec, boundary);
+    case ProbeType::pockets:
+      return pockets_reading<Dim>(probe, spec);
     case ProbeType::volume:
       break;
   }

@@ -61,6 +61,9 @@ inline constexpr std::array run_up{Rule{"run-up", "", "connected_m", Tell::large
                                    Rule{"highest drop", "drops to", "highest_m", Tell::largest}};
 inline constexpr std::array level_map{Rule{"level", "", "mean_m", Tell::mean},
                                       Rule{"highest level", "highest", "highest_m", Tell::largest}};
+inline constexpr std::array pockets{Rule{"pressure", "", "pressure_Pa", Tell::range},
+                                    Rule{"volume", "volume", "volume_m3", Tell::last},
+                                    Rule{"pockets", "pockets", "pockets", Tell::last}};
 inline constexpr std::array velocity_profile{
     Rule{"mean u", "u", "mean_u_m_s", Tell::last}, Rule{"mean v", "v", "mean_v_m_s", Tell::last},
     Rule{"mean w", "w", "mean_w_m_s", Tell::last}, Rule{"depth", "depth", "depth_m", Tell::last}};
@@ -98,6 +101,8 @@ std::span<const Rule> rules_of(ProbeType type) {
       return rules::run_up;
     case ProbeType::level_map:
       return rules::level_map;
+    case ProbeType::pockets:
+      return rules::pockets;
     case ProbeType::velocity_profile:
       break;
   }

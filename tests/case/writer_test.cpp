@@ -74,6 +74,12 @@ TEST(EffectiveCase, OfAProbeWithAndWithoutARegionIsReadAgain) {
   }
 }
 
+TEST(EffectiveCase, OfEnclosedAirIsReadAgain) {
+  expect_round_trip(required_keys + "[air]\npockets = \"adiabatic\"\n" + water +
+                    "[[pocket]]\nat = [0, 1]\noverpressure = -500\n[[vent]]\nat = [0, 1]\narea = 1e-4\nloss = 1.5\n"
+                    "[[vent]]\nat = [1, 1]\narea = 1e-4\n[[probe]]\nname = \"a\"\ntype = \"pockets\"\n");
+}
+
 TEST(EffectiveCase, OfAStudyHasTheKeysThatItsSchemeUses) {
   for (const std::string scheme : {"farzin2014", "farmani2020"}) {
     expect_round_trip(required_keys + "[scheme]\nname = \"" + scheme + "\"\n[study]\nshifting = 0\n" + water);

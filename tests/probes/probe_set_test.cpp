@@ -42,12 +42,15 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
                       named("p", probe_at(ProbeType::pressure, {0.5, 0.1})),
                       named("u", probe_at(ProbeType::velocity, {0.5, 0.1})),
                       named("energy", of_type(ProbeType::energy)),
-                      named("volume", of_type(ProbeType::volume))};
+                      named("volume", of_type(ProbeType::volume)),
+                      named("air", of_type(ProbeType::pockets))};
+  tank.spec.air.pockets = AirPockets::isothermal;
   const TemporaryFolder temporary;
   const RunFolder folder = RunFolder::create(temporary.path(), false);
   ProbeSet<2> probes(make_probes<2>(tank.spec, tank.boundary), folder);
   ProbeContext<2> context = tank.context();
   context.totals = {1.5, -2.0, 0.25, 0.5, 0.125};
+  context.totals.air = {1e4, 0.5, 0.75, -0.25, 8.0, 2.0};
   probes.record(context);
 
   const std::vector<std::pair<std::string, std::string>> headers{{"depth", "time_s,connected_m,highest_m,wet_m"},
@@ -67,6 +70,8 @@ TEST(ProbeSet, WritesOneFilePerProbeWithItsColumns) {
   EXPECT_EQ(lines_of(folder.probe("volume")),
             (Lines{"time_s,particles,density_error_mean,density_error_rms,volume_out_m3,volume_in_m3",
                    "0,200,0.25,0.5,0.125,0"}));
+  EXPECT_EQ(lines_of(folder.probe("air")),
+            (Lines{"time_s,pressure_Pa,volume_m3,gas_m3,vented_m3,energy_J,pockets", "0,10000,0.5,0.75,-0.25,8,2"}));
 }
 
 TEST(ProbeSet, WritesAtEveryStepAtIntervalsOrAtTimes) {
@@ -154,6 +159,8 @@ TEST(ProbeSet, RefusesProbesThatCannotMeasure) {
     return message_of<InputError>([&] { make_probes<2>(spec, tank.boundary); });
   };
   EXPECT_NE(message({named("flat", probe_at(ProbeType::pressure, {0.5, 0.5, 0.5}))}).find("'flat'"), std::string::npos);
+  EXPECT_NE(message({named("air", of_type(ProbeType::pockets))}).find("pockets = \"adiabatic\" in [air]"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -128,8 +128,10 @@ class Runs(PackageTest):
                   "force": ("moment_about = [0, 0]", {"force_x": "force", "force_y": "force", "moment": "moment"}),
                   "pressure-map": ("", {"largest": "pressure", "mean": "pressure"}),
                   "run-up": ("", {"connected": "length", "highest": "length"}),
-                  "level-map": ("from = [0.2, 0]\nto = [0.8, 0]", {"mean": "length", "highest": "length"})}
-        text = DAM[:DAM.index("[[probe]]")].replace("end = 0.1", "end = 0.02")
+                  "level-map": ("from = [0.2, 0]\nto = [0.8, 0]", {"mean": "length", "highest": "length"}),
+                  "pockets": ("", {"pressure": "pressure", "volume": "volume", "gas": "volume", "vented": "volume",
+                                   "energy": "energy"})}
+        text = DAM[:DAM.index("[[probe]]")].replace("end = 0.1", "end = 0.02") + '[air]\npockets = "adiabatic"\n'
         for name, (keys, columns) in probes.items():
             text += f'[[probe]]\nname = "{name}"\ntype = "{name}"\n{keys}\n'
             for column, measure in columns.items():
