@@ -65,17 +65,16 @@ template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
                                                          const std::vector<CoveredParticle<Dim>>& covered) const {
   const Particles<Dim>& particles = flow_.state.particles;
-  std::vector<std::size_t> walls = walls_of_bodies(flow_);
-  const std::size_t of_bodies = walls.size();
+  const std::vector<std::size_t> of_bodies = walls_of_bodies(flow_);
+  std::vector<std::size_t> walls = of_bodies;
   for (const CoveredParticle<Dim>& one : covered) walls.push_back(one.i);
   const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow_, walls, pressure);
   const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
-  walls.resize(of_bodies);
-  add_on_bodies(flow_, walls, sums, force);
+  add_on_bodies(flow_, of_bodies, sums, force);
   for (std::size_t k = 0; k < covered.size(); ++k) {  // in order: all add to the same few sums
     const auto& [i, body, normal, share] = covered[k];
-    const Vec<Dim> whole = force(of_bodies + k);
+    const Vec<Dim> whole = force(of_bodies.size() + k);
     const Vec<Dim> along = whole - whole.dot(normal) * normal;
     sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * along);
   }
