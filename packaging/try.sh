@@ -8,6 +8,7 @@
 set -euo pipefail
 packages=$(realpath "$1")
 root=${2:-$(mktemp -d)}
+chmod 755 "$root"  # a user has to get in
 trap 'umount "$root"/{proc,sys,dev/pts,dev/shm} 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 if (($# < 2)); then
   echo "try.sh: making a bare Debian 12"
