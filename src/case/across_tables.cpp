@@ -153,7 +153,7 @@ void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& probl
     if (tables.empty()) return;
     problems.add(
         &root[table][0].node()->source(),
-        fmt::format("{}[0]: enclosed air is nothing in this case; give pockets = \"{}\" or \"{}\" in [air], or "
+        fmt::format("{}[0]: enclosed air is not computed in this case; give pockets = \"{}\" or \"{}\" in [air], or "
                     "remove the table",
                     table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
   };

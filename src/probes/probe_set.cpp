@@ -49,7 +49,7 @@ template <int Dim>
 Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
   if (spec.air.pockets == AirPockets::none) {
     throw InputError(
-        fmt::format("{}: reads enclosed air, which is nothing in this case; give pockets = \"{}\" in [air], "
+        fmt::format("{}: reads enclosed air, which this case does not compute; give pockets = \"{}\" in [air], "
                     "or remove the probe",
                     label(probe), name_of(AirPockets::adiabatic)));
   }

@@ -217,7 +217,7 @@ const std::vector<BadInput> table{
     {"vent_where_air_is_nothing",
      required_keys + water + "[[vent]]\nat = [0, 1]\narea = 1e-4\n",
      "6:1",
-     {"vent[0]: enclosed air is nothing in this case", "pockets = \"adiabatic\""}},
+     {"vent[0]: enclosed air is not computed in this case", "pockets = \"adiabatic\""}},
     {"vent_without_area",
      required_keys + "[air]\npockets = \"adiabatic\"\n" + water + "[[vent]]\nat = [0, 1]\narea = 0\n",
      "10:8",
