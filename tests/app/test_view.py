@@ -5,6 +5,7 @@ import concurrent.futures
 import http.client
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -151,7 +152,7 @@ class OfADoneRun(Viewed):
         for method in ("PUT", "DELETE", "PATCH", "OPTIONS"):
             self.assertIn(self.ask("api/state", method=method)[0], (403, 404, 405))
         # Only this machine can connect.
-        listening = open("/proc/net/tcp").read()
+        listening = pathlib.Path("/proc/net/tcp").read_text()
         local = f"0100007F:{self.port:04X} 00000000:0000 0A"
         self.assertIn(local, listening)
         self.assertNotIn(f"00000000:{self.port:04X} 00000000:0000 0A", listening)
