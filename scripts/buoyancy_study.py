@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Bodies in water at rest: the force on them over the weight of the water they displace (docs/theory/probes.md).
 
 A cylinder and a tilted square in two dimensions; a sphere, a cylinder and a tilted cube, each as STL, in three. Each is

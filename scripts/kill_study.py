@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Kills runs at random moments, resumes them, and compares what they leave with a run that nobody disturbed.
 
 A dam break is run on -n ranks with frequent checkpoints. At a moment drawn at random, when its processes have worked for
@@ -34,7 +34,7 @@ from resumed import results  # noqa: E402
 
 # Finer than the tests have it, and with checkpoints all the time.
 SETTINGS = ("particles.spacing=0.04", "particles.jitter=0.1", "output.checkpoint_interval=0.2",
-            "probe.energy.interval=0.01")
+            "probe.energy.interval=0.01", "output.view_interval=0.05")
 ENDLESS = 1e4  # s
 
 

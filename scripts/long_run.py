@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs a sloshing tank for a stretch of wall-clock time and judges whether anything drifts.
 
 A tank of 1 m with 0.3 m of water is shaken for as long as --minutes say. Every few seconds the memory, the CPU time and
