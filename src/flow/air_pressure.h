@@ -1,4 +1,4 @@
-// What probes ask of enclosed air.
+// Pressures of enclosed air.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,12 @@
 
 namespace tailwater {
 
+/// Pa; of the gas in a pocket, above the atmosphere's.
+template <int Dim>
+double pressure_of(const Flow<Dim>& flow, const AirPocket& pocket) {
+  return flow.air.law().pressure(pocket.gas, pocket.volume);
+}
+
 /// The pressure [Pa] of the air at a place, above the atmosphere's; empty without pockets. Borrows the flow.
 template <int Dim>
 std::function<double(const Vec<Dim>&)> air_pressure_of(const Flow<Dim>& flow) {
@@ -14,8 +20,7 @@ std::function<double(const Vec<Dim>&)> air_pressure_of(const Flow<Dim>& flow) {
   return [&flow](const Vec<Dim>& x) {
     double sum = 0.0;
     for (const PocketShare& share : flow.air.shares_at(x)) {
-      const AirPocket& pocket = flow.state.air.pockets[share.pocket];
-      sum += share.share * flow.air.law().pressure(pocket.gas, pocket.volume);
+      sum += share.share * pressure_of(flow, flow.state.air.pockets[share.pocket]);
     }
     return sum;
   };

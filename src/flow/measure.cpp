@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "flow/air_pressure.h"
 
 namespace tailwater {
 namespace {
@@ -68,7 +69,7 @@ AirMeasures measure_air(const Flow<Dim>& flow) {
     air.energy += flow.air.law().energy(pocket.gas, pocket.volume);
     if (pocket.volume <= largest) continue;
     largest = pocket.volume;
-    air.pressure = flow.air.law().pressure(pocket.gas, pocket.volume);
+    air.pressure = pressure_of(flow, pocket);
   }
   return air;
 }

@@ -5,6 +5,7 @@
 
 #include "air/vent.h"
 #include "base/for_each.h"
+#include "flow/air_pressure.h"
 #include "pressure/solve_rows.h"
 #include "pressure/tolerance.h"
 
@@ -214,12 +215,6 @@ void find_sides(Flow<Dim>& flow) {
   }
 }
 
-template <int Dim>
-double pressure_at_start(const Flow<Dim>& flow, std::size_t pocket) {
-  const AirPocket& it = flow.state.air.pockets[pocket];
-  return flow.air.law().pressure(it.gas, it.volume);
-}
-
 /// By how much the pressure that the pockets alone make, with what they have at the start of the step, is off that of
 /// the air; on walls that of the water beside them.
 template <int Dim>
@@ -227,9 +222,9 @@ std::vector<double> find_own_drop(Flow<Dim>& flow) {
   std::vector<double> drop(flow.state.particles.size(), 0.0);
   const std::vector<AirPocket>& pockets = flow.state.air.pockets;
   std::vector<double> pressure;
-  for (std::size_t k = 0; k < pockets.size(); ++k) {
-    pressure.push_back(pressure_at_start(flow, k));
-    const std::vector<double>& response = flow.air.response(pockets[k].number);
+  for (const AirPocket& pocket : pockets) {
+    pressure.push_back(pressure_of(flow, pocket));
+    const std::vector<double>& response = flow.air.response(pocket.number);
     for_each(drop.size(), [&](std::size_t i) { drop[i] += pressure.back() * response[i]; });
   }
   for (const PocketSide<Dim>& side : flow.sides.water) {
@@ -259,7 +254,7 @@ void find_response(Flow<Dim>& flow, int pocket, std::vector<double>& left) {
   }
   flow.sides.iterations += solve_rows(flow, response, rough_tolerance(flow.pressure_solver.tolerance())).iterations;
   flow.halo().exchange(response);
-  const double pressure = pressure_at_start(flow, pocket);
+  const double pressure = pressure_of(flow, flow.state.air.pockets[pocket]);
   for_each(left.size(), [&](std::size_t i) { left[i] += pressure * (rows.answer(i, response.data()) - response[i]); });
 }
 

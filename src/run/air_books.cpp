@@ -1,5 +1,6 @@
 #include "run/air_books.h"
 
+#include "flow/air_pressure.h"
 #include "flow/measure.h"
 
 namespace tailwater {
@@ -12,7 +13,7 @@ nlohmann::ordered_json pockets_of(const Flow<Dim>& flow) {
     now.push_back({{"number", pocket.number},
                    {"volume_m3", pocket.volume},
                    {"gas_m3", pocket.gas},
-                   {"pressure_Pa", flow.air.law().pressure(pocket.gas, pocket.volume)}});
+                   {"pressure_Pa", pressure_of(flow, pocket)}});
   }
   return {{"begun", air.begun},
           {"ended", air.ended},
