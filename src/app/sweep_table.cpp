@@ -44,7 +44,7 @@ constexpr std::array<SummaryColumn, 26> summary_columns{{
     {"mass_inside_kg", "/water_balance/inside/mass_kg"},
     {"mass_outside_kg", "/water_balance/outside/mass_kg"},
     {"mass_out_kg", "/water_balance/out/mass_kg"},
-    {"put_back_from_walls", "/interventions/put_back_from_walls"},
+    {"stopped_at_walls", "/interventions/stopped_at_walls"},
     {"capped_shifts", "/interventions/capped_shifts"},
     {"restarted_solves", "/interventions/restarted_solves"},
 }};

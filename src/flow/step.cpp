@@ -3,7 +3,7 @@
 namespace tailwater {
 
 Interventions& Interventions::operator+=(const Interventions& other) {
-  put_back += other.put_back;
+  stopped_at_walls += other.stopped_at_walls;
   capped_shifts += other.capped_shifts;
   fallback_rows += other.fallback_rows;
   restarted_solves += other.restarted_solves;

@@ -45,7 +45,7 @@ struct Prediction {
 
 /// Things a step did that the equations do not ask for. A sound run needs few.
 struct Interventions {
-  std::size_t put_back = 0;          ///< moves that would have ended behind a wall
+  std::size_t stopped_at_walls = 0;  ///< moves that would have ended behind a wall
   std::size_t capped_shifts = 0;     ///< shifts that would have been longer than their bound
   std::size_t fallback_rows = 0;     ///< consistent rows replaced where B2 is unsound
   std::size_t restarted_solves = 0;  ///< after a breakdown of the Krylov method; all ranks count the same

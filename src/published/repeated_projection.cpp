@@ -68,7 +68,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);
     relax(relax_pressure, pressure_before, particles.pressure);
     relax(relax_velocity, velocity_before, particles.velocity);
-    report.interventions.put_back += move(flow, start, dt);  // (F25)
+    report.interventions.stopped_at_walls += move(flow, start, dt);  // (F25)
     relax(relax_position, position_before, particles.position);
     place_walls(flow, flow.state.time + dt);  // walls are not relaxed
 

@@ -230,10 +230,9 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   const Json& interventions = summary.at("interventions");
   lines.push_back(
       {"solver",
-       fmt::format("{:.3g} iterations per solve, {:.0f} restarted; {:.0f} particles put back from "
-                   "walls, {:.0f} capped shifts",
+       fmt::format("{:.3g} iterations per solve, {:.0f} restarted; {:.0f} moves stopped at walls, {:.0f} capped shifts",
                    number_of(solver, "iterations_per_solve"), number_of(interventions, "restarted_solves"),
-                   number_of(interventions, "put_back_from_walls"), number_of(interventions, "capped_shifts"))});
+                   number_of(interventions, "stopped_at_walls"), number_of(interventions, "capped_shifts"))});
   const Json& cost = summary.at("cost");
   lines.push_back(
       {"cost", fmt::format("{}, {:.3g} CPU s per simulated s, {:.0f} MB on {:.0f} rank(s)",

@@ -78,7 +78,7 @@ void RunStatistics::for_each_sum(Self& self, Body&& body) {
   body("unexplained_rise", self.unexplained_rise_);
   body("most_escaped", self.most_escaped_);
   body("escaped", self.escaped_);
-  body("put_back", self.interventions_.put_back);
+  body("stopped_at_walls", self.interventions_.stopped_at_walls);
   body("capped_shifts", self.interventions_.capped_shifts);
   body("fallback_rows", self.interventions_.fallback_rows);
   body("restarted_solves", self.interventions_.restarted_solves);
@@ -134,12 +134,12 @@ nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::siz
         {"density_error_mean", density_error_sum_ / steps},
         {"density_error_rms", std::sqrt(density_error_squares_ / steps)}}},
       {"interventions",
-       {{"put_back_from_walls", interventions_.put_back},
+       {{"stopped_at_walls", interventions_.stopped_at_walls},
         {"capped_shifts", interventions_.capped_shifts},
         {"fallback_rows", interventions_.fallback_rows},
         {"restarted_solves", interventions_.restarted_solves},
-        {"put_back_and_capped_per_particle_step",
-         static_cast<double>(interventions_.put_back + interventions_.capped_shifts) / particle_steps}}}};
+        {"stopped_and_capped_per_particle_step",
+         static_cast<double>(interventions_.stopped_at_walls + interventions_.capped_shifts) / particle_steps}}}};
 }
 
 }  // namespace tailwater

@@ -18,7 +18,7 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   flow.state.approach = largest_approach(flow);
   count_passing(flow, start);
   Interventions& counts = report.interventions;
-  flow.setup.ranks.sum_each(counts.put_back, counts.capped_shifts, counts.fallback_rows);
+  flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);
   carry_over_guard(flow, dt);
   flow.state.time += dt;

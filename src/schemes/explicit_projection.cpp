@@ -8,7 +8,7 @@ template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = project(flow, start, dt);            // (F14)-(F16)
   const auto divergence_old = divergence_to_report(flow);  // (F18): the remainder at the old positions
-  report.interventions.put_back += move(flow, start, dt);  // (F17)
+  report.interventions.stopped_at_walls += move(flow, start, dt);  // (F17)
   report.interventions += shift(flow, dt);                 // (F28)-(F32)
   locate(flow);
   report.divergence = report_of_divergence(flow, divergence_old);

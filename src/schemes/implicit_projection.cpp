@@ -7,7 +7,7 @@ namespace tailwater {
 template <int Dim>
 StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = project(flow, start, dt);
-  report.interventions.put_back += move(flow, start, dt);
+  report.interventions.stopped_at_walls += move(flow, start, dt);
   report.interventions += shift(flow, dt);
   locate(flow);
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);

@@ -29,7 +29,7 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)
   report.work = book_works(flow, start, found.predicted, found.equation, dt);
   const auto divergence_old = divergence_to_report(flow);
-  report.interventions.put_back += move(flow, start, dt);  // (B19)
+  report.interventions.stopped_at_walls += move(flow, start, dt);  // (B19)
   report.interventions += shift(flow, dt);
   locate(flow);
   report.divergence = report_of_divergence(flow, divergence_old);

@@ -99,14 +99,14 @@ TEST(RunStatistics, DivideByNothingWithoutSteps) {
 TEST(RunStatistics, CountInterventionsPerParticleAndStep) {
   RunStatistics statistics(with_energy(0.0, 1.0));
   StepReport report = step_of(0.1, 1, 1);
-  report.interventions = {.put_back = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
+  report.interventions = {.stopped_at_walls = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
   statistics.add(report, with_energy(0.0, 1.0), 0);
   statistics.add(report, with_energy(0.0, 1.0), 0);
   const auto json = statistics.json(10, 10);
-  EXPECT_EQ(json["interventions"]["put_back_from_walls"], 6);
+  EXPECT_EQ(json["interventions"]["stopped_at_walls"], 6);
   EXPECT_EQ(json["interventions"]["fallback_rows"], 4);
   EXPECT_EQ(json["interventions"]["restarted_solves"], 2);
-  EXPECT_DOUBLE_EQ(json["interventions"]["put_back_and_capped_per_particle_step"].get<double>(), 8.0 / 20.0);
+  EXPECT_DOUBLE_EQ(json["interventions"]["stopped_and_capped_per_particle_step"].get<double>(), 8.0 / 20.0);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
   // Rows cut by the slope do not fit: nobody falls farther than a spacing to its place.
   const double settling = std::sqrt(2.0 * g * dx);
   while (flow.state.time < 1.0) {
-    EXPECT_EQ(step(flow).interventions.put_back, 0u);
+    EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
     ASSERT_LT(measure(flow).largest_speed, settling) << "t = " << flow.state.time;
   }
   const double unit = flow.setup.density * g * dx;
@@ -66,7 +66,7 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   Flow<2> flow = make_flow<2>(spec);
   const double reservoir = flow.setup.density * g * depth;
   const double bore = 2.0 * std::sqrt(g * depth);  // at most
-  std::size_t put_back = 0;
+  std::size_t stopped_at_walls = 0;
   std::size_t steps = 0;
   // A particle is stopped in the time in which it passes its own length, whatever dt: pressures count as means over it.
   const double passage = dx / bore;
@@ -76,7 +76,7 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   std::size_t beyond = 0;
   for (; flow.state.time < 1.5; ++steps) {
     const StepReport report = step(flow);
-    put_back += report.interventions.put_back;
+    stopped_at_walls += report.interventions.stopped_at_walls;
     double highest_of_step = 0.0;
     beyond = 0;
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
@@ -97,8 +97,8 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   EXPECT_GT(beyond, 20u);
   // Stopped and turned back the bore pushes with twice its momentum flux, 8 rho g h.
   EXPECT_LT(highest_pressure, 8.0 * reservoir);
-  // A particle that lies on a wall is put back every step: none does for as long as a tenth of the run.
-  EXPECT_LT(put_back, steps / 10);
+  // A particle that lies on a wall is stopped there every step: none is for as long as a tenth of the run.
+  EXPECT_LT(stopped_at_walls, steps / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Slopes, Hump, testing::Values(0.15, 1.0, std::numbers::sqrt3));

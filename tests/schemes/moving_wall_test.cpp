@@ -81,9 +81,9 @@ TEST_P(MovingWall, WhatAPistonSweepsTheWaterRises) {
   spec.walls = {chain({{-0.3, 0.0}, {1.0, 0.0}, {1.0, 1.0}}), piston};
   spec.fluid = {water_box({0.0, 0.0}, {1.0, depth})};
   Flow<2> flow = make_flow<2>(spec);
-  std::size_t put_back = 0;
-  while (flow.state.time < duration) put_back += step(flow).interventions.put_back;
-  EXPECT_EQ(put_back, 0u);
+  std::size_t stopped_at_walls = 0;
+  while (flow.state.time < duration) stopped_at_walls += step(flow).interventions.stopped_at_walls;
+  EXPECT_EQ(stopped_at_walls, 0u);
   expect_all_in_front(flow);
   double highest = 0.0;
   double nearest = 1.0;
@@ -130,7 +130,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   };
   expect_hydrostatic(0.0);
   for (int n = 0; n < 50; ++n) {
-    EXPECT_EQ(step(flow).interventions.put_back, 0u);
+    EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
     // Velocities are those of the end of the step, or of its middle.
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       if (!flow.state.particles.is_fluid(i)) continue;
@@ -153,7 +153,7 @@ TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
   Flow<2> flow = make_flow<2>(spec);
   const double settling = std::sqrt(g * dx / std::numbers::pi);
   while (flow.state.time < 0.8) {  // more than a period of the domain
-    EXPECT_EQ(step(flow).interventions.put_back, 0u);
+    EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
     ASSERT_LT(measure(flow).largest_speed, settling);
   }
   double momentum = 0.0;
@@ -200,13 +200,13 @@ TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
   Flow<2> flow = make_flow<2>(spec);
   // What the water can win is the fall into the room of the gate.
   const double won = flow.setup.density * g * depth * thickness * 0.5 * depth;
-  std::size_t put_back = 0;
+  std::size_t stopped_at_walls = 0;
   while (flow.state.time < 1.5) {
-    put_back += step(flow).interventions.put_back;
+    stopped_at_walls += step(flow).interventions.stopped_at_walls;
     ASSERT_LT(kinetic_energy(flow), won);
     expect_all_in_front(flow);
   }
-  EXPECT_EQ(put_back, 0u);
+  EXPECT_EQ(stopped_at_walls, 0u);
   EXPECT_LT(kinetic_energy(flow), 0.25 * won);
 }
 
@@ -229,14 +229,14 @@ void expect_clean_lock_gate(const Way& way) {
     spec.fluid = {water_box({0.0, 0.0, 0.0}, {0.5, width, 0.5}), water_box({0.65, 0.0, 0.0}, {1.65, width, 0.1})};
   }
   Flow<Dim> flow = make_flow<Dim>(spec);
-  std::size_t put_back = 0;
+  std::size_t stopped_at_walls = 0;
   std::size_t steps = 0;
   const double end = Dim == 2 ? 0.8 : 0.3;
   for (; flow.state.time < end; ++steps) {
-    put_back += step(flow).interventions.put_back;
+    stopped_at_walls += step(flow).interventions.stopped_at_walls;
     expect_all_in_front(flow);
   }
-  EXPECT_EQ(put_back, 0u);
+  EXPECT_EQ(stopped_at_walls, 0u);
   double front = 0.0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (flow.state.particles.is_fluid(i) && flow.state.particles.position[i][Dim - 1] > 0.2) {

@@ -80,7 +80,7 @@ TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
     Flow<Dim> flow = make_flow<Dim>(spec);
     const double settling = std::sqrt(g * dx / std::numbers::pi);
     for (int n = 0; n < (Dim == 2 ? 30 : 8); ++n) {
-      EXPECT_EQ(step(flow).interventions.put_back, 0u);
+      EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
       ASSERT_LT(measure(flow).largest_speed, settling);
     }
     const double unit = flow.setup.density * g * dx;
@@ -94,7 +94,7 @@ TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
   }
 }
 
-// A particle that would jump through the plate in one step is put back in front of the side from which it came.
+// A particle that would jump through the plate in one step is stopped in front of the side from which it came.
 TYPED_TEST(PlateTest, IsNotPassed) {
   constexpr int Dim = TypeParam::value;
   for (const double side : {-1.0, 1.0}) {

@@ -50,7 +50,7 @@ TYPED_TEST(TankTest, StaysAtRestForFiftySteps) {
     const double mass = flow.setup.density * depth * std::pow(width, Dim - 1);
     const double kinetic_bound = 0.5 * mass * settling * settling * 3.0 * dx / depth;
     for (int n = 0; n < 50; ++n) {
-      EXPECT_EQ(step(flow).interventions.put_back, 0u);
+      EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
       const FlowMeasures measures = measure(flow);
       ASSERT_LT(measures.largest_speed, settling);
       ASSERT_LT(measures.kinetic_energy, kinetic_bound);

@@ -52,7 +52,7 @@ if copied:
     "pressure_solver": {"iterations_per_solve": 8.0}, "cost": {"cpu_s": 1.0, "cpu_s_per_simulated_s": 2.0},
     "energy": {"start_J": 1.0, "end_J": 0.9, "largest_rise_over_start": 5e-5, "largest_rise_less_density_work_over_start": 0.0},
     "volume": {"outside_the_walls_most": 0, "density_error_mean": 0.001, "density_error_rms": 0.02},
-    "interventions": {"put_back_from_walls": 3, "capped_shifts": 1, "per_step": 0.5}}))
+    "interventions": {"stopped_at_walls": 3, "capped_shifts": 1, "per_step": 0.5}}))
 """
 
 

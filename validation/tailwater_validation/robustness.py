@@ -157,7 +157,7 @@ def density_gate(bench):
     return gate("density", "volume of the dam break", checks)
 
 
-INTERVENTIONS = ("put_back_from_walls", "capped_shifts", "fallback_rows", "restarted_solves")
+INTERVENTIONS = ("stopped_at_walls", "capped_shifts", "fallback_rows", "restarted_solves")
 
 
 def pressure_gate(bench):
