@@ -8,7 +8,7 @@
 #include "geometry/from_spec.h"
 #include "sampling/water_lattice.h"
 #include "walls/facing_walls.h"
-#include "walls/halfway.h"
+#include "walls/turning_walls.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {

@@ -53,11 +53,11 @@ WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt);
 template <int Dim>
 void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity);
 
-/// With `divergence_free = "midway"`: takes walls that turn along the way of the water as they are when the water is
-/// halfway (walls/halfway.h), in a step of dt from `start`. Sets the wall entries of `velocity`, which `show_walls` has
-/// set, and the flow's `turning`.
+/// With `divergence_free = "midway"`: shows curved and rotating walls as they are at mid-step (walls/turning_walls.h),
+/// in a step of dt from `start`. Sets the wall entries of `velocity`, which `show_walls` has set, and the flow's
+/// `turning`.
 template <int Dim>
-void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity);
+void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity);
 
 /// Gives each owned particle its role in this step. Call once per step, at the positions where it starts, before all
 /// that goes by roles.

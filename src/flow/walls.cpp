@@ -1,6 +1,6 @@
 #include "base/for_each.h"
 #include "flow/verbs.h"
-#include "walls/halfway.h"
+#include "walls/turning_walls.h"
 
 namespace tailwater {
 namespace {
@@ -70,7 +70,7 @@ void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<
 }
 
 template <int Dim>
-void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity) {
+void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity) {
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
   const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
   if (!flow.setup.formulation.is_divergence_free_midway || !may_turn) return;
@@ -96,7 +96,7 @@ void see_walls_halfway(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, 
   template void place_walls<Dim>(Flow<Dim>&, double);                                                 \
   template WallDisplacements<Dim> displacements_of_walls<Dim>(const Flow<Dim>&, double);              \
   template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&); \
-  template void see_walls_halfway<Dim>(Flow<Dim>&, const StepStart<Dim>&, double, std::vector<Vec<Dim>>&);
+  template void show_walls_at_mid_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double, std::vector<Vec<Dim>>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

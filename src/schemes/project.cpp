@@ -19,7 +19,7 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   WallDrive<Dim> drive = drive_walls(flow, start, dt);
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
-  see_walls_halfway(flow, start, dt, predicted.velocity);
+  show_walls_at_mid_step(flow, start, dt, predicted.velocity);
   grow_boundary_layers(flow, predicted);
   const PosedEquation equation =
       assemble(flow, predicted, aim(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)

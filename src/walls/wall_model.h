@@ -25,7 +25,7 @@ struct Walls {
   std::vector<double> friction;        ///< lambda of each row of the table: 0 free slip, 1 no slip
   std::vector<double> roughness;       ///< m; k_s of each row
   std::vector<double> depth;           ///< m; of each row behind its wall, where it has friction
-  std::vector<Mat<Dim>> curvature;     ///< 1/m; of each row's wall as it is drawn (halfway.h)
+  std::vector<Mat<Dim>> curvature;     ///< 1/m; of each row's wall as it is drawn (turning_walls.h)
   std::vector<double> share_of_water;  ///< of the force of a pair; for a force probe, as drawn (facing_walls.h)
   bool is_curved = false;              ///< whether any wall is; on all ranks the same
   std::size_t moving = 0;              ///< rows of walls that move
@@ -70,7 +70,7 @@ struct WallForce {
   Vec<Dim> gravity;                        ///< m/s^2
   std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each moving row, along the directions the wall blocks
 
-  std::span<const Vec<Dim>> turning = {};  ///< m/s^2; of the water along each owned wall particle (halfway.h), or none
+  std::span<const Vec<Dim>> turning = {};  ///< m/s^2; of the water at each owned wall particle (turning_walls.h)
 
   /// g - a at a row of the table.
   Vec<Dim> felt(std::int32_t row) const { return gravity - entry_of<Dim>(acceleration, row); }

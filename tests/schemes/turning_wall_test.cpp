@@ -61,7 +61,7 @@ double loss_in_a_turn(Integrator integrator, double courant) {
 }
 
 // A wall whose tangent the water leaves along takes from it the energy dt |grad p|^2/rho of the rows beside it: 11 % in
-// a turn with explicit steps of 0.55 dx. Walls seen halfway leave less than a fifth of that.
+// a turn with explicit steps of 0.55 dx. Walls taken at mid-step leave less than a fifth of that.
 TEST(TurningWall, TakesLittleEnergyFromWaterAlongIt) {
   const double loss = loss_in_a_turn(Integrator::explicit_projection, 0.55);
   EXPECT_LT(loss, 0.02);
@@ -91,7 +91,7 @@ struct Asked {
     std::vector<Vec<2>> images = flow.state.particles.velocity;
     show_walls<2>(flow, flow.state.wall_velocity, images);
     const std::vector<Vec<2>> mirrored_at_rest = images;
-    see_walls_halfway(flow, start, dt, images);
+    show_walls_at_mid_step(flow, start, dt, images);
     by_rows.resize(flow.state.particles.owned, 0.0);
     by_images.resize(by_rows.size(), 0.0);
     for (std::size_t i = 0; i < by_rows.size(); ++i) {
@@ -196,7 +196,7 @@ TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   show_walls<2>(flow, flow.state.wall_velocity, velocity);
   const std::vector<Vec<2>> plain = velocity;
   const double dt = 1e-3;
-  see_walls_halfway(flow, start, dt, velocity);
+  show_walls_at_mid_step(flow, start, dt, velocity);
   std::size_t wet = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (flow.state.particles.is_fluid(i) || flow.here.is_wet[i] == 0) continue;

@@ -1,4 +1,4 @@
-#include "walls/halfway.h"
+#include "walls/turning_walls.h"
 
 #include <algorithm>
 #include <array>
@@ -24,13 +24,13 @@ Vec<Dim> normal_near(const Boundary<Dim>& boundary, int body, const Vec<Dim>& x,
   return normal.dot(like) > corner_cosine ? normal : Vec<Dim>(Vec<Dim>::Zero());
 }
 
-/// The normal at the end of a way along the wall, on which it was n; 0 if there is a corner.
+/// The normal at the end of a displacement along the wall, on which it was n; 0 if there is a corner.
 template <int Dim>
 Vec<Dim> normal_along(const Boundary<Dim>& boundary, int body, const Vec<Dim>& foot, const Vec<Dim>& n,
-                      const Vec<Dim>& way, double reach) {
+                      const Vec<Dim>& along, double reach) {
   Vec<Dim> normal = n;
   for (int look = 1; look <= looks && !normal.isZero(0.0); ++look) {
-    const Vec<Dim> x = foot + static_cast<double>(look) / looks * way;
+    const Vec<Dim> x = foot + static_cast<double>(look) / looks * along;
     normal = normal_near<Dim>(boundary, body, x, normal, reach);
   }
   return normal;
@@ -74,7 +74,7 @@ bool may_be_curved(const Boundary<Dim>& boundary) {
          std::ranges::any_of(boundary.plates, [](const WallPlate& plate) { return plate.sheet != nullptr; });
 }
 
-/// By how much the normal at a row turns until the water there is halfway, in the wall's frame.
+/// By how much the normal at a row turns until mid-step, in the wall's frame.
 template <int Dim>
 Vec<Dim> turn_of_normal(const Walls<Dim>& walls, const WallTurns<Dim>& turns, std::size_t row, const Vec<Dim>& t) {
   const Mat<Dim>& S = walls.curvature[row];

@@ -1,11 +1,11 @@
-// Walls that turn along the way of the water: curved ones, and those that rotate (docs/theory/moving_walls.md#halfway).
-// Water stays on such a wall by a chord, which is tangential where the water is after half of a step. At the start of
-// the step its velocity into the wall is therefore not that of the wall, but
+// Walls that turn while water runs along them, seen at mid-step: curved ones, and those that rotate
+// (docs/theory/moving_walls.md#walls-at-mid-step). In a step water moves along a chord of such a wall, tangential to it
+// at mid-step. At the start of the step its velocity into the wall is therefore not that of the wall, but
 //
 //   n . (u - V) = -c,   c = t . (dt/2 S t + (Q - I) n),   t = (I - M) (u - V)
 //
 // V, n, M  velocity, normal and blocked directions of the wall
-// S        its curvature: the normal turns by S d over a way d along the wall
+// S        its curvature: the normal turns by S d over a distance d along the wall
 // Q        its rotation in the step
 //
 // At the end of the chord it is +c. So water that comes from a chord has to be turned by 2 c: by an acceleration of the
