@@ -108,8 +108,8 @@ def draw_floating_box(runs, names):
     barge = floating.Tank(width=12, depth=4, breadth=10, height=4, mass=25000, inertia=0, density=1000, gravity=9.81)
     print(f"potential theory: period {floating.theory(barge, False, 20)[0]:.2f} s")
     picture(runs[-1], 0.25 * names["period"], "floating_box")
-    curves(runs, "box", "displacement_y_m", lambda value: value * 1e3, "way of the barge upwards (mm)",
-           {"Archimedes": 100.0}, "floating_box_way")
+    curves(runs, "box", "displacement_y_m", lambda value: value * 1e3, "displacement of the barge upwards (mm)",
+           {"Archimedes": 100.0}, "floating_box_displacement")
 
 
 def walk(guide):

@@ -17,8 +17,8 @@ namespace {
 constexpr double cover = 1.1;
 
 /// [dx]; how far water may go between two looks: a cell, and where there is no pocket yet the size of the least one.
-constexpr double way_beside_pockets = 0.5;
-constexpr double way_without = 2.0;
+constexpr double distance_beside_pockets = 0.5;
+constexpr double distance_without = 2.0;
 
 /// With one bit each in six kinds of marks, and what is kept of each row of cells: some 2 GB.
 constexpr double most_cells_of_map = 2e9;
@@ -54,8 +54,8 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Di
 
 template <int Dim>
 bool AirWatch<Dim>::is_due(const AirState& state) const {
-  const double way = state.pockets.empty() ? way_without : way_beside_pockets;
-  return is_on() && (!has_looked_ || state.way >= way * spacing_);
+  const double distance = state.pockets.empty() ? distance_without : distance_beside_pockets;
+  return is_on() && (!has_looked_ || state.displacement >= distance * spacing_);
 }
 
 template <int Dim>

@@ -71,7 +71,7 @@ class AirWatch {
   void look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
             const Communicator& ranks, AirState& state);
 
-  /// Forgets what the last look has found, and the responses. Call when particles have been shared out and sorted.
+  /// Forgets what the last look has found, and the responses. Call when particles have been repartitioned and sorted.
   void forget();
 
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }

@@ -47,7 +47,7 @@ void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
 /// smaller than dx/2.
 constexpr int most_along = 4;
 
-/// Calls `visit(way, place)` for the cells `first` + `way` of a block, `cells` along each axis, across a periodic
+/// Calls `visit(offset, place)` for the cells `first` + `offset` of a block, `cells` along each axis, across a periodic
 /// border too. The place is that in a box of `count` cells from `low`; -1 outside of it.
 template <int Dim, class Visit>
 void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& low,
@@ -64,12 +64,12 @@ void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& 
     }
     stride *= count[d];
   }
-  typename VoidGrid<Dim>::Cell way{};
+  typename VoidGrid<Dim>::Cell offset{};
   for (int axis = 0; axis < Dim;) {
     std::int64_t place = 0;
-    for (int d = 0; d < Dim; ++d) place += parts[d][way[d]];
-    visit(way, std::max<std::int64_t>(place, -1));
-    for (axis = 0; axis < Dim && ++way[axis] == cells[axis]; ++axis) way[axis] = 0;
+    for (int d = 0; d < Dim; ++d) place += parts[d][offset[d]];
+    visit(offset, std::max<std::int64_t>(place, -1));
+    for (axis = 0; axis < Dim && ++offset[axis] == cells[axis]; ++axis) offset[axis] = 0;
   }
 }
 
@@ -205,7 +205,7 @@ double PocketSpace<Dim>::in_front(const Cell& c, const Boundary<Dim>& boundary) 
     cells[d] = 3;
   }
   bool is_beside_wall = false;
-  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& /*way*/, std::int64_t k) {
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& /*offset*/, std::int64_t k) {
     is_beside_wall = is_beside_wall || (k >= 0 && owner_[k] == behind_wall);
   });
   if (!is_beside_wall) return 1.0;
@@ -234,11 +234,11 @@ void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<
   std::array<std::pair<int, double>, static_cast<std::size_t>(power<Dim>(most_along))> taken;  // by pocket
   std::size_t count = 0;
   double all = 0.0;
-  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& way, std::int64_t k) {
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& offset, std::int64_t k) {
     double part = 1.0;
     for (int d = 0; d < Dim; ++d) {
       const double half = 0.5 * spacing_ / grid_->edge()[d];
-      const int here = first[d] + way[d];
+      const int here = first[d] + offset[d];
       part *= std::max(0.0, std::min(here + 0.5, at[d] + half) - std::max(here - 0.5, at[d] - half));
     }
     if (k < 0 || owner_[k] != behind_wall) all += part;
@@ -283,9 +283,10 @@ std::vector<double> PocketSpace<Dim>::wall_flow(const Boundary<Dim>& boundary,
       if (nearest.face < 0 || !boundary.walls[boundary.faces[nearest.face].wall].moves()) return;
       Vec<Dim> area = Vec<Dim>::Zero();  // of the side, towards the wall
       for (int d = 0; d < Dim; ++d) {
-        const int way = beside[d] - c[d];
-        if (way != 0)
-          area[d] = (std::abs(way) == 1 ? way : -way / std::abs(way)) * grid_->cell_volume() / grid_->edge()[d];
+        const int offset = beside[d] - c[d];
+        if (offset != 0)
+          area[d] =
+              (std::abs(offset) == 1 ? offset : -offset / std::abs(offset)) * grid_->cell_volume() / grid_->edge()[d];
       }
       flow[owner_[k] - 1] += area.dot(velocity(boundary.faces[nearest.face].wall, x));
     });
@@ -329,9 +330,9 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
     for (int k = 0; k < edge; ++k) weights[d][k] = sight - std::abs(first[d] + k - at[d]);
   }
   double all = 0.0;
-  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& way, std::int64_t k) {
+  visit_block(*grid_, low_, count_, first, cells, [&](const Cell& offset, std::int64_t k) {
     double weight = 1.0;
-    for (int d = 0; d < Dim; ++d) weight *= weights[d][way[d]];
+    for (int d = 0; d < Dim; ++d) weight *= weights[d][offset[d]];
     if (k < 0 || owner_[k] != behind_wall) all += weight;
     if (weight > 0.0 && k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
   });

@@ -16,11 +16,11 @@ constexpr double least_at_begin = 2.0;
 constexpr double least = 1.0;
 
 /// [dx]; how far water may go until the gas of a pocket that has become open is gone.
-constexpr double way_until_gone = 2.0;
+constexpr double distance_until_gone = 2.0;
 
 /// [dx]; how far water goes while the volume comes near that of the cells (by 1/e). Long beside a pulsation, so that
 /// only what adds up is taken out.
-constexpr double way_of_memory = 50.0;
+constexpr double relaxation_distance = 50.0;
 
 /// Share of the cells of a pocket that none had from which on it has not moved there: air was shut in beside it.
 constexpr double shut_in_share = 0.5;
@@ -107,12 +107,12 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
       bring(old, share, cells, gathered->second);
       lost -= share;
     }
-    const double torn_way = old.torn + state.way;
+    const double since_torn = old.torn + state.displacement;
     const auto torn_cells = static_cast<double>(overlap.cells_in_the_open);
-    if (torn_cells >= cells_of(least) && torn_way < way_until_gone * spacing) {
+    if (torn_cells >= cells_of(least) && since_torn < distance_until_gone * spacing) {
       const double share = torn_cells / static_cast<double>(overlap.all);
       torn.push_back(
-          {{old.number, share * old.gas, share * old.volume, torn_way, std::move(overlap.in_the_open)}, 0.0});
+          {{old.number, share * old.gas, share * old.volume, since_torn, std::move(overlap.in_the_open)}, 0.0});
       lost -= share;
     }
     if (lost > 1e-12) book_end(old, lost, law, state);
@@ -138,7 +138,7 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
 
 void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, double spacing, const GasLaw& law,
                AirState& state) {
-  const double pace = 1.0 - std::exp(-state.way / (way_of_memory * spacing));
+  const double pace = 1.0 - std::exp(-state.displacement / (relaxation_distance * spacing));
   state.pockets.clear();
   for (std::size_t k = 0; k < found.size(); ++k) {
     AirPocket& pocket = found[k].pocket;
@@ -154,7 +154,7 @@ void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, 
     }
     state.pockets.push_back(std::move(pocket));
   }
-  state.way = 0.0;
+  state.displacement = 0.0;
 }
 
 template std::vector<FoundPocket> follow_pockets<2>(const VoidGrid<2>&, double, const Voids<2>&, const GasLaw&,

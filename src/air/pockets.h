@@ -23,7 +23,7 @@ struct AirState {
   std::vector<AirPocket> pockets;
   std::int64_t begun = 0;
   std::int64_t ended = 0;
-  double way = 0.0;            ///< m; how far water may have gone since pockets were looked for
+  double displacement = 0.0;   ///< m; how far water may have gone since pockets were looked for
   double gas_found = 0.0;      ///< m^Dim; of all that have begun, at the pressure of the atmosphere
   double gas_lost = 0.0;       ///< m^Dim; of all that have ended
   double gas_vented = 0.0;     ///< m^Dim; that has left through vents, less what came in
@@ -38,16 +38,17 @@ struct FoundPocket {
   double new_share = 0.0;  ///< of its cells that no pocket had: 1 where it has just been shut in
 };
 
-/// The pockets of this moment, from those at the last look, since which water may have gone `way` [m]. Volumes and gas
-/// are those of the old ones: cells that one of them had take along their share of both, so gas is kept where pockets
-/// join and part. A part of the void that reaches the open is no pocket; cells that a pocket had are one on their own
-/// for a while, as a film of water that tears for a few steps lets out no gas. What ends is booked in `state`.
+/// The pockets of this moment, from those at the last look, since which water may have gone `displacement` [m]. Volumes
+/// and gas are those of the old ones: cells that one of them had take along their share of both, so gas is kept where
+/// pockets join and part. A part of the void that reaches the open is no pocket; cells that a pocket had are one on
+/// their own for a while, as a film of water that tears for a few steps lets out no gas. What ends is booked in
+/// `state`.
 template <int Dim>
 std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacing, const Voids<Dim>& voids,
                                         const GasLaw& law, AirState& state);
 
 /// Takes over the pockets with the volumes that the cells tell of them. That is the volume of one that begins; of
-/// others it sets the volume right little by little, as water goes `way` [m].
+/// others it sets the volume right little by little, as water goes `displacement` [m].
 void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, double spacing, const GasLaw& law,
                AirState& state);
 

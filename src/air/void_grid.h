@@ -71,8 +71,8 @@ class VoidGrid {
   void visit_chord(const Vec<Dim>& at, double radius, Cell c, Visit&& visit) const {
     double square = radius * radius;
     for (int d = 0; d < Dim - 1; ++d) {
-      const double way = (c[d] - at[d]) * edge_[d];
-      square -= way * way;
+      const double offset = (c[d] - at[d]) * edge_[d];
+      square -= offset * offset;
       if (!wrap(d, c[d])) return;
     }
     if (square < 0.0) return;

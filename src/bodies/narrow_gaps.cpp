@@ -30,7 +30,7 @@ constexpr double least_facing = 0.5;
 /// [dx]; pieces so near are beside each other.
 constexpr double reach_of_neighbours = 1.6;
 
-/// [dx]; the sum of the ways to the pieces beside one is longer at a rim: dx in 2D, 3 dx at a straight one in 3D.
+/// [dx]; the sum of the offsets to the pieces beside one is longer at a rim: dx in 2D, 3 dx at a straight one in 3D.
 constexpr double least_lopsidedness = 0.5;
 
 }  // namespace
@@ -81,9 +81,9 @@ void NarrowGaps<Dim>::find_rim(double time) {
     Vec<Dim> inward = Vec<Dim>::Zero();
     bool is_alone = true;
     grid.for_each_near(piece.x, [&](std::int32_t n) {
-      const Vec<Dim> way = pieces_[n].x - piece.x;
-      if (&pieces_[n] == &piece || pieces_[n].body != piece.body || way.norm() >= reach_of_neighbours * dx) return;
-      inward += way;
+      const Vec<Dim> offset = pieces_[n].x - piece.x;
+      if (&pieces_[n] == &piece || pieces_[n].body != piece.body || offset.norm() >= reach_of_neighbours * dx) return;
+      inward += offset;
       is_alone = false;
     });
     if (!is_alone && inward.norm() < least_lopsidedness * dx) continue;

@@ -10,7 +10,7 @@ namespace {
 constexpr int most_sweeps = 300;
 
 /// [dx per step]; a sweep that changes speeds by less is the last.
-constexpr double settled_way = 1e-12;
+constexpr double settled_displacement = 1e-12;
 
 /// What the force must be if nothing else changes, where a unit of it adds `mobility` to its speed.
 double force_wanted(const OneSidedForce& one, double speed, double mobility) {
@@ -32,7 +32,7 @@ Eigen::VectorXd find_one_sided(std::vector<OneSidedForce>& forces, const Eigen::
     answers.emplace_back(factors.solve(one.direction));
   }
   double largest = std::numeric_limits<double>::infinity();  // change of a speed in a sweep
-  for (int sweep = 0; sweep < most_sweeps && largest > settled_way * spacing / dt; ++sweep) {
+  for (int sweep = 0; sweep < most_sweeps && largest > settled_displacement * spacing / dt; ++sweep) {
     largest = 0.0;
     for (std::size_t n = 0; n < forces.size(); ++n) {
       OneSidedForce& one = forces[n];

@@ -120,7 +120,7 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
 void read_linked_files(GateTable& gate, TableReader& reader) {
   if (gate.motion != GateMotion::file || gate.file.empty()) return;
   read_linked("file", reader, [&] {
-    constexpr std::array<SeriesColumn, 1> columns{{{"way"}}};
+    constexpr std::array<SeriesColumn, 1> columns{{{"displacement"}}};
     keep_linked(gate.file, gate.checksum, "checksum", reader);
     gate.series = read_time_series(gate.file, columns);
     require_start(gate.series);

@@ -352,7 +352,7 @@ struct GateTable {
   std::string checksum;
   double travel = 0.0;
 
-  TimeSeries series;  ///< what the file holds: t, way
+  TimeSeries series;  ///< what the file holds: t, displacement
 
   bool operator==(const GateTable&) const = default;
 
@@ -377,12 +377,14 @@ struct GateTable {
     v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
     v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
     v.text("file", self.file,
-           "CSV file of the gate's way over the time since `start`, relative to the case file, with a line that names "
-           "the columns, as in \"t [s], way [mm]\"");
+           "CSV file of the gate's displacement over the time since `start`, relative to the case file, with a line "
+           "that names "
+           "the columns, as in \"t [s], displacement [mm]\"");
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);
-    v.number("travel", self.travel, "m", Range::at_least(0.0), "Way after which the gate stops; 0: its own height");
+    v.number("travel", self.travel, "m", Range::at_least(0.0),
+             "Displacement after which the gate stops; 0: its own height");
   }
 };
 

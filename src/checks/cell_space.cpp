@@ -112,13 +112,13 @@ bool CellSpace<Dim>::is_on_wall(const Cell& c) const {
 template <int Dim>
 int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
   int first = -1;
-  double way = std::numeric_limits<double>::infinity();  // share of the way to the first face
+  double least = std::numeric_limits<double>::infinity();  // share of the line before the first face
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
     const WallFace<Dim>& face = faces_[near_list_[k]];
     if (!passes(face, from, to)) continue;
     const double share = face.height(from) / (face.height(from) - face.height(to));
-    if (share < way) {
-      way = share;
+    if (share < least) {
+      least = share;
       first = near_list_[k];
     }
   }

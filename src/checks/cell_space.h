@@ -35,17 +35,17 @@ class CellSpace {
   /// Replaces the faces, as when walls have moved.
   void set_faces(std::vector<WallFace<Dim>> faces);
 
-  /// Whether the way from one place to another passes the face. A place exactly on it counts as in front, so that no
-  /// way can pass a wall by resting on it.
+  /// Whether the straight line from one place to another passes the face. A place exactly on it counts as in front, so
+  /// that no line can pass a wall by resting on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// Whether the centre of a cell is on a wall, and so on neither side of it.
   bool is_on_wall(const Cell& c) const;
-  /// The first face that the way passes, which begins in cell `c` and is no longer than a cell; -1 if none. A way that
-  /// cuts a corner off a body passes two: into it and out again.
+  /// The first face that the line passes, which begins in cell `c` and is no longer than a cell; -1 if none. A line
+  /// that cuts a corner off a body passes two: into it and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The same from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;
-  /// Calls visit(face) for the faces that the same way meets first and from the front: of two that are back to back,
+  /// Calls visit(face) for the faces that the same line meets first and from the front: of two that are back to back,
   /// the one that looks here.
   template <class Visit>
   void visit_fronts_beside(const Cell& c, int axis, int step, Visit&& visit) const;

@@ -140,9 +140,9 @@ std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const s
   for (const Vec<Dim>& x : edge.points) {
     std::optional<Gap<Dim>> nearest;
     for (const int f : near) {
-      const Vec<Dim> way = closest_point(boundary.faces[f], x) - x;
-      const double width = way.norm();
-      if (width >= narrow * dx || way.dot(edge.out) < least_beyond_edge * width) continue;
+      const Vec<Dim> offset = closest_point(boundary.faces[f], x) - x;
+      const double width = offset.norm();
+      if (width >= narrow * dx || offset.dot(edge.out) < least_beyond_edge * width) continue;
       if (!nearest || width < nearest->width) nearest = Gap<Dim>{plate, boundary.faces[f].wall, width, x};
     }
     if (!nearest) return std::nullopt;

@@ -41,7 +41,7 @@ class FileWalk {
 
   /// A jump, or else the largest overshoot; nothing if the motion is smooth.
   Findings findings(double fastest) const {
-    double largest_way = 0.0;
+    double largest_displacement = 0.0;
     double worst = 0.0;
     std::size_t worst_at = 0;
     const AffineMap<Dim> start = path_.at(0.0);
@@ -54,7 +54,7 @@ class FileWalk {
         const double displacement = (after(corner) - before(corner)).norm();
         if (fastest > 0.0 && displacement > 0.25 * dx_ && displacement > fastest * (to - from))
           return {jump(k, displacement, to - from, fastest)};
-        largest_way = std::max(largest_way, (after(corner) - start(corner)).norm());
+        largest_displacement = std::max(largest_displacement, (after(corner) - start(corner)).norm());
         const double overshoot = overshoot_of(corner, before, after, from, to);
         if (overshoot > worst) {
           worst = overshoot;
@@ -62,7 +62,7 @@ class FileWalk {
         }
       }
     }
-    if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_way)) return {};
+    if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_displacement)) return {};
     return {Finding::warning(
         "{} moves {:.3g} m beyond what lines {} and {} of {} say, because its speed changes more suddenly than these "
         "lines can tell; give more lines there",

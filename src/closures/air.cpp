@@ -57,8 +57,8 @@ double AirLaw::weight(double sum, double full) const {
   const auto above = std::upper_bound(missing_.begin(), missing_.end(), share);
   if (above == missing_.end()) return missing * factor_.back();
   const auto n = static_cast<std::size_t>(above - missing_.begin());
-  const double way = (share - missing_[n - 1]) / (missing_[n] - missing_[n - 1]);
-  return missing * std::lerp(factor_[n - 1], factor_[n], way);
+  const double fraction = (share - missing_[n - 1]) / (missing_[n] - missing_[n - 1]);
+  return missing * std::lerp(factor_[n - 1], factor_[n], fraction);
 }
 
 template AirLaw::AirLaw(const Kernel<2>&, double);

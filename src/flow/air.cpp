@@ -26,7 +26,7 @@ void watch_air(Flow<Dim>& flow, double dt) {
   if (flow.air.is_due(state)) {
     flow.air.look(flow.walls, velocity_of_walls(flow, dt), flow.state.particles, flow.setup.ranks, state);
   }
-  state.way += dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow));
+  state.displacement += dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow));
 }
 
 template void watch_air<2>(Flow<2>&, double);

@@ -33,7 +33,7 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   const std::size_t all = fluid_count + walls.moving;
   const std::size_t first = all * rank / ranks;
   TAILWATER_ASSERT(fluid.position.empty() || static_cast<std::size_t>(fluid.first) == first,
-                   "the water is shared out as all particles are");
+                   "the water is distributed as all particles are");
   Particles<Dim> particles;
   particles.add(all * (rank + 1) / ranks - first, [&](std::size_t i) -> NewParticle<Dim> {
     const std::size_t n = first + i;

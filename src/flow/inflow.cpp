@@ -59,14 +59,14 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   std::vector<Entrant<Dim>> entrants;
   for (std::size_t cell = 0; cell < free.size(); ++cell) {
     const bool follows = free[cell] < 2.0 * spacing;
-    const double way = follows ? free[cell] - spacing : first_entry * spacing;
-    if (way < (end.holds_level() ? least_entry * spacing : 0.0)) continue;
+    const double distance = follows ? free[cell] - spacing : first_entry * spacing;
+    if (distance < (end.holds_level() ? least_entry * spacing : 0.0)) continue;
     const std::size_t row = cell / static_cast<std::size_t>(end.columns);
     const std::size_t column = cell % static_cast<std::size_t>(end.columns);
     const double z = (static_cast<double>(row) + 0.5) * row_height;
     const double y = (static_cast<double>(column) + 0.5) * column_width;
     Entrant<Dim> entrant;
-    entrant.position = end.low + z * end.rise + y * end.aside - way * end.opening.normal;
+    entrant.position = end.low + z * end.rise + y * end.aside - distance * end.opening.normal;
     entrant.velocity =
         end.flow.feeds() ? end.inflow_at(state, entrant.position) : Vec<Dim>(-state.entry_speed * end.opening.normal);
     if (end.opening.normal.dot(entrant.velocity) >= 0.0) continue;

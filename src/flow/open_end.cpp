@@ -20,7 +20,7 @@ constexpr double memory = 100.0;
 /// Time after which an end stretch with a level moves with the water beside it, in travel times of a long wave from the
 /// gauge into it. Until then what the pressure does to it counts: the water beside it may be off by what the density
 /// and the shifts do there, and would hold a stretch that follows it at once (docs/theory/open_ends.md).
-constexpr double way_of_following = 10.0;
+constexpr double travels_until_following = 10.0;
 /// [speed of a long wave]; of the water at the opening against that at the border of an end stretch that becomes deeper
 /// or shallower. Levels that step change it so fast.
 constexpr double most_stretching = 0.1;
@@ -174,7 +174,7 @@ double border_speed(const OpenEnd<Dim>& end, const Readings& readings, double de
   // The water beside it is read a spacing before the border on the mean, and the stretch begins half a spacing after.
   const double push = readings.border.excess / (density * 1.5 * spacing * readings.border.volume);
   const double driven = state.border_speed + dt * (push - state.border_speed * state.gain / spacing);
-  return driven + (1.0 - std::exp(-dt * rate / way_of_following)) * (at_border + state.gain - driven);
+  return driven + (1.0 - std::exp(-dt * rate / travels_until_following)) * (at_border + state.gain - driven);
 }
 
 /// Where a level is prescribed: the depth of the end stretch goes where that of its pressure is, slowly enough that

@@ -40,7 +40,7 @@ struct OpenEndState {
   bool is_wet = false;
   double wet_time = 0.0;      ///< s; time since it became wet
   double speed = 0.0;         ///< m/s; mean along the normal
-  double speed_beyond = 0.0;  ///< m/s; `speed` with the delay of its way to the middle of the end stretch
+  double speed_beyond = 0.0;  ///< m/s; `speed` with the delay of a wave to the middle of the end stretch
   double invariant = 0.0;     ///< m/s; u - 2 sqrt(g h), which comes from beyond where flow is subcritical
   double mean_speed = 0.0;    ///< m/s; `speed`, its long waves only; where a level is prescribed
   // Where something is prescribed.

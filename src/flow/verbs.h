@@ -126,7 +126,7 @@ template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
 /// The boundary layers after dt (closures/spalart_allmaras.h), of owned particles; that of ghosts is 0. `walls` are
-/// those that rub on each particle.
+/// those with friction on each particle.
 template <int Dim>
 BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
                                     std::span<const Mat<Dim>> velocity_gradient, double dt);

@@ -76,7 +76,7 @@ struct Boundary {
   void hang_screens(double closed_gap, double reach);
   void hang_screens() { hang_screens(closed_gap_, screen_reach_); }
 
-  /// The screens, by index, that a way of this length (m) may pass which ends at `x`.
+  /// The screens, by index, that a displacement of this length (m) may pass which ends at `x`.
   std::span<const int> screens_near(const Vec<Dim>& x, double length) const {
     if (screens.empty()) return {};
     return length <= hung_.reach() ? hung_.near(x) : all_screens_;

@@ -29,7 +29,7 @@ struct Screen {
   std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
 
   double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
-  /// Whether the way from one place to another passes it.
+  /// Whether the straight line from one place to another passes it.
   bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The axis-parallel box around it.
   Eigen::AlignedBox<double, Dim> box() const;

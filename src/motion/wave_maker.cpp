@@ -65,12 +65,12 @@ double SolitaryWave::displacement(double phase) const { return height_ / (beta_ 
 // The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this is
 // dX/dtheta = H/(beta h) sech^2 theta, so that c t = theta/beta + X(theta).
 double SolitaryWave::phase(double since) const {
-  const double way = celerity_ * since + phase_at_start / beta_ + displacement(phase_at_start);
-  double theta = beta_ * way;
+  const double distance = celerity_ * since + phase_at_start / beta_ + displacement(phase_at_start);
+  double theta = beta_ * distance;
   // The slope lies between 1/beta and (1 + H/h)/beta, so Newton's method gets nearer with every step.
   for (int step = 0; step < 200; ++step) {
     const double change =
-        (way - theta / beta_ - displacement(theta)) / ((1.0 + height_ / depth_ * sech_squared(theta)) / beta_);
+        (distance - theta / beta_ - displacement(theta)) / ((1.0 + height_ / depth_ * sech_squared(theta)) / beta_);
     theta += change;
     if (std::abs(change) <= 1e-14 * std::max(1.0, std::abs(theta))) break;
   }

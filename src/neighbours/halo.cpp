@@ -35,9 +35,9 @@ std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain) {
     const double length = domain[d]->second - domain[d]->first;
     const std::size_t count = shifts.size();
     for (std::size_t k = 0; k < count; ++k) {
-      for (const double way : {length, -length}) {
+      for (const double offset : {length, -length}) {
         shifts.push_back(shifts[k]);
-        shifts.back()[d] += way;
+        shifts.back()[d] += offset;
       }
     }
   }

@@ -37,8 +37,8 @@ std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
   std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
   for (std::size_t n = 0; n < flow.sides.water.size(); ++n) {
     const PocketSide<Dim>& side = flow.sides.water[n];
-    const Vec<Dim> way = flow.state.particles.volume[side.particle] * velocity(n);
-    for (const PocketGain<Dim>& each : side.gains) growth[each.pocket] += each.gain.dot(way);
+    const Vec<Dim> volume_velocity = flow.state.particles.volume[side.particle] * velocity(n);
+    for (const PocketGain<Dim>& each : side.gains) growth[each.pocket] += each.gain.dot(volume_velocity);
   }
   flow.setup.ranks.sum_of_each(growth);
   return growth;
@@ -84,9 +84,9 @@ class GasStep {
         slope.row(k) -= theta[k] * slope_after(k, volume[k]) * answers_.row(k);
       }
       if (missing.cwiseAbs().maxCoeff() <= settled * law_.atmosphere) break;
-      Eigen::VectorXd way = -slope.partialPivLu().solve(missing);
-      while ((volume_after(pressure + way).array() < 0.5 * volume.array()).any()) way *= 0.5;
-      pressure += way;
+      Eigen::VectorXd change = -slope.partialPivLu().solve(missing);
+      while ((volume_after(pressure + change).array() < 0.5 * volume.array()).any()) change *= 0.5;
+      pressure += change;
     }
     return {pressure.data(), pressure.data() + count};
   }

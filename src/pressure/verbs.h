@@ -11,9 +11,9 @@ namespace tailwater {
 
 /// Target of div u [1/s], owned: what the pressure equation shall leave of it at its positions. Nothing as published
 /// (F18); with `divergence_free = "midway"` the divergence dt/2 tr(grad u . grad u) that the same motion loses on the
-/// first half of its way, so that the velocity is divergence-free there: second order in time, where (F18) loses the
-/// energy dt |grad p|^2/rho per unit volume and time (docs/theory/robustness.md). Takes the gradient of u^n, which no
-/// later verb needs: it is gone before the matrix is made.
+/// first half of its displacement, so that the velocity is divergence-free there: second order in time, where (F18)
+/// loses the energy dt |grad p|^2/rho per unit volume and time (docs/theory/robustness.md). Takes the gradient of u^n,
+/// which no later verb needs: it is gone before the matrix is made.
 template <int Dim>
 std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt);
 

@@ -4,8 +4,8 @@
 // The volume is a count: particles that have passed (flow/sections.cpp) times their volumes, so it agrees with the
 // water balance to the last particle. The discharge is its rate Q, smoothed by T D' = Q - D over a time T that the
 // summary tells, so its mean is that of the count. It begins with the flux of the water within two spacings of the
-// section. That flux would be no measure where the flow changes over such a way: behind a sharp crest water falls below
-// the section.
+// section. That flux would be no measure where the flow changes over such a distance: behind a sharp crest water falls
+// below the section.
 #pragma once
 
 #include "case/spec.h"

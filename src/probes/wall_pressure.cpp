@@ -111,8 +111,8 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
     throw InputError(
         fmt::format("{}: width = {} m: a wall in 2D has no width; leave it out", label(probe), probe.width));
   } else {
-    const Vec<3> way = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
-    const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(way).normalized();
+    const Vec<3> along = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
+    const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(along).normalized();
     const int count = pieces_of_at_most(step, probe.width);
     std::vector<Vec<3>> places;
     for (const Vec<3>& x : line) {

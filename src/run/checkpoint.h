@@ -15,7 +15,7 @@ namespace tailwater {
 /// The version of the contents of a checkpoint. It grows when they change.
 inline constexpr int checkpoint_format = 16;
 
-/// A moment at which particles have just been shared out and sorted (repartition), so that lists are forgotten and the
+/// A moment at which particles have just been repartitioned and sorted, so that lists are forgotten and the
 /// state is complete.
 template <int Dim>
 struct Checkpoint {

@@ -23,7 +23,7 @@ class CheckpointKeeper {
   /// Collective; throws IoError, on all ranks.
   void go_on_from(std::int64_t step);
 
-  /// Call right after particles were shared out and sorted.
+  /// Call right after particles were repartitioned and sorted.
   void remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, double reference_step);
 
   /// Whether the interval of the case has passed since the last checkpoint was written. The root's clock counts.

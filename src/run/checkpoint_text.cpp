@@ -122,11 +122,11 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
 }
 
 nlohmann::json json_of(const AirState& air) {
-  const auto& [pockets, begun, ended, way, gas_found, gas_lost, gas_vented, energy_lost, energy_vented, energy_set] =
-      air;
+  const auto& [pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost, energy_vented,
+               energy_set] = air;
   nlohmann::json json{{"begun", begun},
                       {"ended", ended},
-                      {"way", way},
+                      {"displacement", displacement},
                       {"gas_found", gas_found},
                       {"gas_lost", gas_lost},
                       {"gas_vented", gas_vented},
@@ -147,7 +147,7 @@ AirState air_of(const nlohmann::json& json) {
   AirState air{{},
                json.at("begun"),
                json.at("ended"),
-               json.at("way"),
+               json.at("displacement"),
                json.at("gas_found"),
                json.at("gas_lost"),
                json.at("gas_vented"),

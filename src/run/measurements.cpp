@@ -15,7 +15,7 @@ namespace tailwater {
 namespace {
 
 /// Shifts that are tried between 0 and the largest, either way.
-constexpr int shifts_one_way = 100;
+constexpr int shifts_each_way = 100;
 
 /// The measured samples that a run up to `end` [s] can be compared with, whatever the shift.
 TimeSeries within_run(const TimeSeries& series, double end) {
@@ -91,8 +91,8 @@ MeasurementScore scored(const MeasurementTable& measurement, std::optional<doubl
   score.from = measured.time.front();
   score.to = measured.time.back();
   score.as_timed = score.shifted = with(measured, 0.0);
-  for (int k = -shifts_one_way; k <= shifts_one_way && measurement.shift > 0.0; ++k) {
-    const double shift = measurement.shift * k / shifts_one_way;
+  for (int k = -shifts_each_way; k <= shifts_each_way && measurement.shift > 0.0; ++k) {
+    const double shift = measurement.shift * k / shifts_each_way;
     const Difference tried = with(measured, shift);
     if (tried.rms >= score.shifted.rms) continue;
     score.best_shift = shift;

@@ -99,9 +99,9 @@ Json time_left(const fs::path& run, const Json& summary, double time, double end
   const auto began = fs::last_write_time(run / summary_name, error);
   if (error) return {};
   const std::chrono::duration<double> gone = fs::file_time_type::clock::now() - began;
-  const double way = time - number_of(summary.at("time_s"), "reached");
-  if (!(way > 0.0) || !(gone.count() > 0.0)) return {};
-  return std::max(0.0, (end - time) / way * gone.count());
+  const double advance = time - number_of(summary.at("time_s"), "reached");
+  if (!(advance > 0.0) || !(gone.count() > 0.0)) return {};
+  return std::max(0.0, (end - time) / advance * gone.count());
 }
 
 /// What there is to say of a run that goes on, whose summary is of its start.

@@ -68,7 +68,7 @@ StepReport Simulation<Dim>::step() {
   return report;
 }
 
-/// Everything that changes the indices of particles: every few steps all are shared out and sorted, and those that
+/// Everything that changes the indices of particles: every few steps all are repartitioned and sorted, and those that
 /// have passed an open end are removed, and new ones come in. A checkpoint is of the moment between: before water
 /// that may have limited the time step has left.
 template <int Dim>

@@ -38,8 +38,8 @@ class Simulation {
   /// Whether the time has come to the end of the case.
   bool has_ended() const { return flow_.state.time >= end_; }
 
-  /// Makes the next step ready: particles are shared out, water leaves and enters at open ends. Returns its size [s].
-  /// Throws SolverError when it has collapsed. Does nothing if a step is ready.
+  /// Makes the next step ready: particles are repartitioned, water leaves and enters at open ends. Returns its size
+  /// [s]. Throws SolverError when it has collapsed. Does nothing if a step is ready.
   double prepare();
   bool is_prepared() const { return dt_ > 0.0; }
   /// After walls have been steered anew: takes less of the step that is ready if they go too far in it. Returns its
@@ -53,7 +53,7 @@ class Simulation {
   /// Whether walls, what drives them, and open ends of a state are those of the case. Finds the rows of its walls.
   bool fits(State<Dim>& state);
   /// Goes on from a state that `fits`, with the `reference_step` [s] of then. `cuts` are those of its space, if
-  /// particles are shared out by them.
+  /// particles are distributed by them.
   void go_on_from(State<Dim> state, double reference_step, std::optional<std::string> cuts);
 
  private:

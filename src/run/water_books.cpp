@@ -26,7 +26,7 @@ nlohmann::ordered_json json_of_miss(const LevelMiss& miss) {
 
 /// A wall that a body falling from a place meets first.
 struct Landing {
-  double share = std::numeric_limits<double>::infinity();  ///< of the way to where it meets the wall
+  double share = std::numeric_limits<double>::infinity();  ///< of the fall to where it meets the wall
   double height = -1.0;                                    ///< m; of the place above it: positive if it meets the front
 };
 
@@ -56,7 +56,7 @@ Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<D
 /// The place and those of its images from which `fall` may lead through the domain: what leaves a periodic domain on
 /// one side goes on at the other.
 template <int Dim>
-std::vector<Vec<Dim>> images_on_the_way(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& fall) {
+std::vector<Vec<Dim>> images_along(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& fall) {
   std::vector<Vec<Dim>> images{x};
   for (int axis = 0; axis < Dim; ++axis) {
     if (!domain[axis]) continue;
@@ -86,7 +86,7 @@ bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box
   const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
   const Vec<Dim> fall = length * gravity.normalized();
   Landing first;
-  for (const Vec<Dim>& place : images_on_the_way<Dim>(flow.setup.domain, x, fall)) {
+  for (const Vec<Dim>& place : images_along<Dim>(flow.setup.domain, x, fall)) {
     const Landing landing = landing_of<Dim>(flow.walls.boundary, place, fall, corner_tolerance * flow.setup.spacing);
     if (landing.share < first.share) first = landing;
   }

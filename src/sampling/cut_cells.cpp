@@ -158,7 +158,7 @@ PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height) 
   for (int axis = 0; axis < Dim; ++axis) {
     if (const double extent = std::abs(n[axis]) * edge[axis]; extent > in_plane * whole) extents[m++] = extent;
   }
-  // The share is the sum of (-1)^k (t - b)^m over the corners, with b the way to a corner that is k edges from the
+  // The share is the sum of (-1)^k (t - b)^m over the corners, with b the distance to a corner that is k edges from the
   // lowest, over m! and the extents. Its integral over t is the share times the mean distance.
   double share = 0.0;
   double integral = 0.0;

@@ -86,7 +86,7 @@ class Fill {
       const Vec<Dim> hit = meet(face, from, to);
       if ((closest_point(face, hit) - hit).norm() <= tolerance_) return false;
     }
-    // A way that begins in front of a mesh ends no farther behind it than it is long.
+    // A line that begins in front of a mesh ends no farther behind it than it is long.
     const double length = (to - from).norm();
     const auto is_behind = [&](const WallMesh& mesh) { return boundary_.height_above(mesh, to, length) < 0.0; };
     return std::ranges::none_of(boundary_.meshes, is_behind);

@@ -39,7 +39,7 @@ enum class StartVelocities { found, left_out };
 /// a wall to which their block adapts are moved to that distance, which keeps the volume. check_geometry reports
 /// everything else that fits badly. Jitter, if any, is drawn from `particles.seed` and is the same on every machine.
 ///
-/// Each rank makes only its part: as much as it gets when all particles and `others` that follow them are shared out
+/// Each rank makes only its part: as much as it gets when all particles and `others` that follow them are distributed
 /// equally. Collective. Throws InputError, which names the block, for a block without extent or with coordinates of the
 /// wrong dimension, for a fill as filled_cells does, and where a velocity is not finite or faster than 150 m/s.
 template <int Dim>

@@ -10,10 +10,10 @@
 namespace tailwater {
 namespace {
 
-constexpr double farthest_share = 1.5;       // of the layers' depth; a sharp mitre is cut off there
-constexpr double least_way_to_tip = 0.3;     // dx, for the particles in the tip of a crest
-constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
-constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
+constexpr double farthest_share = 1.5;         // of the layers' depth; a sharp mitre is cut off there
+constexpr double least_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
+constexpr double sharp_turn_cosine = 0.866;    // a corner that turns by more than 30 degrees gets a particle of its own
+constexpr double folded_back_cosine = -0.9;    // faces that turn by more than 154 degrees have no useful mitre
 
 /// The faces of a 2D boundary joined at shared corners: -1 where a face's end is free.
 struct Joints {
@@ -167,9 +167,9 @@ void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& 
     if (!is_convex || from.normal.dot(to.normal) > -corner_tolerance) continue;
     const Vec<2> tip = from.corners[1];
     const Vec<2> back = mitre(from, to, layers.first_depth()) - tip;
-    for (double way = back.norm() - 0.5 * layers.spacing; way >= least_way_to_tip * layers.spacing;
-         way -= 0.5 * layers.spacing) {
-      collector.add({tip + way * back.normalized(), tip, {from.normal, to.normal}, from.wall});
+    for (double distance = back.norm() - 0.5 * layers.spacing; distance >= least_distance_to_tip * layers.spacing;
+         distance -= 0.5 * layers.spacing) {
+      collector.add({tip + distance * back.normalized(), tip, {from.normal, to.normal}, from.wall});
     }
   }
 }

@@ -57,7 +57,7 @@ bool WaterShape<Dim>::holds(const Cell<Dim>& cell, const Vec<Dim>& x) {
     return polygon_.corners().empty() || polygon_.where(x) != Where::outside;
   } else {
     if (mesh_ == nullptr) return true;
-    if (const double way = (x - last_).norm(); !(way < std::abs(last_height_) - tolerance_)) {
+    if (const double distance = (x - last_).norm(); !(distance < std::abs(last_height_) - tolerance_)) {
       last_ = x;
       last_height_ = mesh_->nearest(x, std::numeric_limits<double>::infinity()).signed_distance;
     }

@@ -14,12 +14,12 @@ Vec<Dim> carried_by(const WallDisplacements<Dim>& displacements, int wall, const
   return displacements.of_wall.empty() ? before : displacements.of_wall[wall](before);
 }
 
-/// The wall that is in the way: a plate that the move has passed, else the nearest wall.
+/// The wall that limits the move: a plate that the move has passed, else the nearest wall.
 template <int Dim>
-NearestWall<Dim> wall_in_the_way(const Boundary<Dim>& boundary, double spacing,
-                                 const WallDisplacements<Dim>& displacements, const Vec<Dim>& before,
-                                 const Vec<Dim>& position) {
-  // Twice the way, because a wall that moves carries the place where it began.
+NearestWall<Dim> limiting_wall(const Boundary<Dim>& boundary, double spacing,
+                               const WallDisplacements<Dim>& displacements, const Vec<Dim>& before,
+                               const Vec<Dim>& position) {
+  // Twice the displacement, because a wall that moves carries the place where it began.
   for (const int s : boundary.screens_near(position, 2.0 * (position - before).norm())) {
     const Screen<Dim>& screen = boundary.screens[s];
     const Vec<Dim> carried = carried_by(displacements, screen.wall, before);
@@ -40,7 +40,7 @@ bool cushion(const Boundary<Dim>& boundary, double spacing, const WallDisplaceme
   bool would_cross = false;
   int last_face = -1;
   for (int attempt = 0; attempt < Dim; ++attempt) {
-    const NearestWall<Dim> wall = wall_in_the_way(boundary, spacing, displacements, before, position);
+    const NearestWall<Dim> wall = limiting_wall(boundary, spacing, displacements, before, position);
     if (wall.face < 0 || wall.face == last_face || wall.signed_distance >= contact) break;
     last_face = wall.face;
     const WallFace<Dim>& face = boundary.faces[wall.face];

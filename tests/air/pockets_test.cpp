@@ -22,8 +22,8 @@ class Basin {
  public:
   Basin() : grid_({Vec<2>::Zero(), Vec<2>(3.0, 1.0)}, dx, {}) {}
 
-  /// Looks at these slots, of which `open` ones reach the open air, after water has gone `way` dx.
-  void look(const std::vector<Slot>& closed, const std::vector<Slot>& open = {}, double way = 0.5) {
+  /// Looks at these slots, of which `open` ones reach the open air, after water has gone `displacement` dx.
+  void look(const std::vector<Slot>& closed, const std::vector<Slot>& open = {}, double displacement = 0.5) {
     CellMarks water(grid_.rows(), grid_.length());
     const auto is_in = [](const std::vector<Slot>& slots, const Vec<2>& x) {
       return std::ranges::any_of(slots, [&](const Slot& slot) { return x[0] > slot.from && x[0] < slot.to; });
@@ -35,7 +35,7 @@ class Basin {
         if (!is_void) water.mark(row, place, place + 1);
       }
     }
-    state.way = way * dx;
+    state.displacement = displacement * dx;
     const Voids<2> voids(grid_, water, CellMarks(grid_.rows(), grid_.length()));
     const std::vector<FoundPocket> found = follow_pockets<2>(grid_, dx, voids, law, state);
     std::vector<double> volumes;

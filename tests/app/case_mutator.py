@@ -78,7 +78,7 @@ BLIND = (*[change_value] * 4, *[change_number] * 5, drop_line, double_line, doub
 FILES = {
     "bed.csv": "station [m],elevation [m]\n0,2\n0,0\n1,0.2\n2,0\n3,0\n3,2\n",
     "roll.csv": "t [s],x [mm],angle [deg]\n0,0,0\n0.1,5,0.5\n0.2,0,0\n1000,0,0\n",
-    "way.csv": "t [s],way [mm]\n0,0\n0.1,5\n1000,300\n",
+    "way.csv": "t [s],displacement [mm]\n0,0\n0.1,5\n1000,300\n",
     "flood.csv": "t [s],discharge [l/s]\n0,10\n5,20\n1000,20\n",
     "tide.csv": "t [s],level [m]\n0,0.4\n5,0.45\n1000,0.4\n",
     "gauge.csv": "t [s],value\n0,0.5\n0.1,0.498\n5,0.4\n",

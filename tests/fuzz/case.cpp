@@ -17,7 +17,7 @@ class Folder : public TemporaryFolder {
   Folder() {
     std::ofstream(path() / "bed.csv") << "x, z\n0, 2\n0, 0\n1, 0.2\n2, 0\n3, 0\n";
     std::ofstream(path() / "roll.csv") << "t [s], x [mm], angle [deg]\n0, 0, 0\n0.1, 5, 0.5\n1000, 0, 0\n";
-    std::ofstream(path() / "way.csv") << "t [s], way [mm]\n0, 0\n0.1, 5\n1000, 300\n";
+    std::ofstream(path() / "way.csv") << "t [s], displacement [mm]\n0, 0\n0.1, 5\n1000, 300\n";
     std::ofstream(path() / "flood.csv") << "t [s], discharge [l/s]\n0, 10\n1000, 20\n";
     std::ofstream(path() / "tide.csv") << "t [s], level [m]\n0, 0.4\n1000, 0.45\n";
     std::ofstream(path() / "slope.obj") << "v -1 -1 0\nv 5 -1 0.37\nv 5 2 0.37\nv -1 2 0\nf 1 2 3\nf 1 3 4\n";

@@ -1,4 +1,4 @@
-// Probes read the same however the particles are shared out. Sums over particles come in another order, so readings
+// Probes read the same however the particles are distributed. Sums over particles come in another order, so readings
 // differ by rounding: some hundred terms of one sign are exact to 1e-13, and no reading magnifies this by ten.
 #include <gtest/gtest.h>
 

@@ -78,7 +78,7 @@ class Guide(PackageTest):
         self.assertLess(abs(found["load"] / (25000 * 9.81) - 1), 0.01)
         # Pictures show the hull where it has gone.
         hull = found["run"].walls_at(2.0)[1]
-        self.assertLess(abs(hull[0][1] - 1.4 - np.interp(2.0, found["way"].time, found["way"].value)), 1e-9)
+        self.assertLess(abs(hull[0][1] - 1.4 - np.interp(2.0, found["rise"].time, found["rise"].value)), 1e-9)
 
     def test_runs(self):
         names, told = run_notebook("python.md", 6)

@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-constexpr int steps = 12;  // past the second time that particles are shared out
+constexpr int steps = 12;  // past the second time that particles are repartitioned
 
 template <int Dim>
 struct Moments final : RunObserver<Dim> {

@@ -26,7 +26,7 @@ namespace ranks_test {
 constexpr double tau = 1e-11;
 constexpr double granted = 100.0;
 constexpr double dx = 0.05;
-constexpr int steps = 12;  // particles are shared out twice
+constexpr int steps = 12;  // particles are repartitioned twice
 
 template <int Dim>
 struct Particle {

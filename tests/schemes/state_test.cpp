@@ -93,7 +93,7 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
   }
 }
 
-/// As a run does: sorted and shared out every few steps, when lists are forgotten.
+/// As a run does: sorted and repartitioned every few steps, when lists are forgotten.
 void take_steps(Flow<2>& flow, int count) {
   for (int n = 0; n < count; ++n) pass_and_step(flow);
 }

@@ -1,4 +1,4 @@
-// Walls that turn along the way of the water: curved ones, and those that rotate.
+// Walls that turn while water runs along them: curved ones, and those that rotate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
