@@ -314,14 +314,14 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
 }
 
 template <int Dim>
-void take_out_air(Flow<Dim>& flow) {
+void subtract_air(Flow<Dim>& flow) {
   const std::vector<double>& air = flow.air.air_pressure();
   std::vector<double>& pressure = flow.state.particles.pressure;
   for_each(std::min(air.size(), flow.state.particles.owned), [&](std::size_t i) { pressure[i] -= air[i]; });
 }
 
 template <int Dim>
-void put_back_air(Flow<Dim>& flow) {
+void restore_air(Flow<Dim>& flow) {
   const std::vector<double>& air = flow.air.air_pressure();
   if (flow.state.air.pockets.empty()) return;
   std::vector<double>& pressure = flow.state.particles.pressure;
@@ -374,8 +374,8 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
 
 #define TAILWATER_INSTANTIATE(Dim)                                                \
   template void pose_pockets<Dim>(Flow<Dim>&, std::span<const Vec<Dim>>, double); \
-  template void take_out_air<Dim>(Flow<Dim>&);                                    \
-  template void put_back_air<Dim>(Flow<Dim>&);                                    \
+  template void subtract_air<Dim>(Flow<Dim>&);                                    \
+  template void restore_air<Dim>(Flow<Dim>&);                                    \
   template void add_air<Dim>(Flow<Dim>&, double);                                 \
   template void push_by_pockets<Dim>(Flow<Dim>&, double);
 TAILWATER_INSTANTIATE(2)

@@ -24,13 +24,13 @@ namespace tailwater {
 template <int Dim>
 void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt);
 
-/// Takes out of the pressure of owned particles what the air alone made of it.
+/// Subtracts from the pressure of owned particles what the air alone adds to it.
 template <int Dim>
-void take_out_air(Flow<Dim>& flow);
+void subtract_air(Flow<Dim>& flow);
 
-/// Puts it back, and brings ghosts up to date. Collective.
+/// Adds it again, and brings ghosts up to date. Collective.
 template <int Dim>
-void put_back_air(Flow<Dim>& flow);
+void restore_air(Flow<Dim>& flow);
 
 /// Finds the pressures of the pockets, for a step of dt from where p_w has been solved for, and adds them to the
 /// water's. The pressure is up to date on walls and ghosts before and after. Collective.

@@ -55,7 +55,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
-  take_out_air(flow);
+  subtract_air(flow);
   lift_to_zero<Dim>(flow, fullness, particles.pressure, correction);
   admit(flow, correction);
   flow.halo().exchange(correction);
@@ -68,7 +68,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   });
   add_wall_forces(flow, correction);
   finish_pressure(flow, drive);
-  put_back_air(flow);
+  restore_air(flow);
   return second;
 }
 

@@ -57,7 +57,7 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallD
   const double tolerance = flow.pressure_solver.tolerance();
   Particles<Dim>& particles = flow.state.particles;
   // The guess is what this projection found last.
-  take_out_air(flow);
+  subtract_air(flow);
   for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
   PressureReport report;
   if (flow.setup.has_air()) {
