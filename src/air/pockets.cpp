@@ -157,9 +157,6 @@ void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, 
   state.displacement = 0.0;
 }
 
-template std::vector<FoundPocket> follow_pockets<2>(const VoidGrid<2>&, double, const Voids<2>&, const GasLaw&,
-                                                    AirState&);
-template std::vector<FoundPocket> follow_pockets<3>(const VoidGrid<3>&, double, const Voids<3>&, const GasLaw&,
-                                                    AirState&);
+TAILWATER_IN_2D_AND_3D(follow_pockets);
 
 }  // namespace tailwater

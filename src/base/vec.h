@@ -23,3 +23,8 @@ constexpr double power(double length) {
 }
 
 }  // namespace tailwater
+
+/// Compiles a function template over Dim, in the source file that defines it.
+#define TAILWATER_IN_2D_AND_3D(function)      \
+  template decltype(function<2>) function<2>; \
+  template decltype(function<3>) function<3>

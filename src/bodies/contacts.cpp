@@ -78,9 +78,6 @@ std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const std::vecto
   return ContactFinder<Dim>(flow, bodies, dt, freedoms).find();
 }
 
-template std::vector<OneSidedForce> find_contacts<2>(const Flow<2>&, const std::vector<BodyState<2>>&, double,
-                                                     std::span<const Freedom>);
-template std::vector<OneSidedForce> find_contacts<3>(const Flow<3>&, const std::vector<BodyState<3>>&, double,
-                                                     std::span<const Freedom>);
+TAILWATER_IN_2D_AND_3D(find_contacts);
 
 }  // namespace tailwater

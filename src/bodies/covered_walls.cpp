@@ -58,7 +58,6 @@ std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, double tim
   return covered;
 }
 
-template std::vector<CoveredParticle<2>> find_covered<2>(const Flow<2>&, double);
-template std::vector<CoveredParticle<3>> find_covered<3>(const Flow<3>&, double);
+TAILWATER_IN_2D_AND_3D(find_covered);
 
 }  // namespace tailwater

@@ -26,9 +26,6 @@ std::vector<OneSidedForce> find_moorings(const Setup<Dim>& setup, const std::vec
   return lines;
 }
 
-template std::vector<OneSidedForce> find_moorings<2>(const Setup<2>&, const std::vector<BodyState<2>>&,
-                                                     std::span<const Freedom>);
-template std::vector<OneSidedForce> find_moorings<3>(const Setup<3>&, const std::vector<BodyState<3>>&,
-                                                     std::span<const Freedom>);
+TAILWATER_IN_2D_AND_3D(find_moorings);
 
 }  // namespace tailwater

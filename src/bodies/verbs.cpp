@@ -53,14 +53,9 @@ void carry_over_guard(Flow<Dim>& flow, double dt) {
   carry_over(flow, ForcesOnBodies<Dim>(flow, flow.state.time + dt).of_guard(), dt);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                \
-  template void steer_bodies<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);                                     \
-  template PressureReport solve_with_bodies<Dim>(Flow<Dim>&, const StepStart<Dim>&, const PosedEquation&, double, \
-                                                 WallDrive<Dim>&);                                                \
-  template void carry_over_second_pressure<Dim>(Flow<Dim>&, const std::vector<double>&, double);                  \
-  template void carry_over_guard<Dim>(Flow<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(steer_bodies);
+TAILWATER_IN_2D_AND_3D(solve_with_bodies);
+TAILWATER_IN_2D_AND_3D(carry_over_second_pressure);
+TAILWATER_IN_2D_AND_3D(carry_over_guard);
 
 }  // namespace tailwater

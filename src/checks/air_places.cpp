@@ -29,7 +29,6 @@ Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return findings;
 }
 
-template Findings check_air_places(const CaseSpec&, const Boundary<2>&);
-template Findings check_air_places(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_air_places);
 
 }  // namespace tailwater

@@ -71,7 +71,6 @@ Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   return findings;
 }
 
-template Findings check_blocks(const CaseSpec&, const FluidParticles<2>&);
-template Findings check_blocks(const CaseSpec&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_blocks);
 
 }  // namespace tailwater

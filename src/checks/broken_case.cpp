@@ -86,9 +86,7 @@ std::vector<Vec<Dim>> places_in(std::string_view message) {
   return places;
 }
 
-template BrokenCase<2> draw_broken_case<2>(const CaseSpec&);
-template BrokenCase<3> draw_broken_case<3>(const CaseSpec&);
-template std::vector<Vec<2>> places_in<2>(std::string_view);
-template std::vector<Vec<3>> places_in<3>(std::string_view);
+TAILWATER_IN_2D_AND_3D(draw_broken_case);
+TAILWATER_IN_2D_AND_3D(places_in);
 
 }  // namespace tailwater

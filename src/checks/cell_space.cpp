@@ -204,13 +204,9 @@ std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space,
   return cells;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                      \
-  template class CellSpace<Dim>;                                                                        \
-  template Spread<Dim> spread(const CellSpace<Dim>&, const std::vector<typename CellSpace<Dim>::Cell>&, \
-                              const Vec<Dim>&, Edge);                                                   \
-  template std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>&, const FluidParticles<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+template class CellSpace<2>;
+template class CellSpace<3>;
+TAILWATER_IN_2D_AND_3D(spread);
+TAILWATER_IN_2D_AND_3D(cells_of);
 
 }  // namespace tailwater

@@ -41,7 +41,6 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   return findings;
 }
 
-template Findings check_geometry(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_geometry(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_geometry);
 
 }  // namespace tailwater

@@ -242,7 +242,6 @@ Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) 
   return findings;
 }
 
-template Findings check_closed_gaps(const CaseSpec&, const Boundary<2>&);
-template Findings check_closed_gaps(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_closed_gaps);
 
 }  // namespace tailwater

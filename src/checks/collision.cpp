@@ -87,9 +87,6 @@ std::optional<Collision<Dim>> collision(const WallFace<Dim>& a, const WallFace<D
   return std::nullopt;
 }
 
-template std::optional<Collision<2>> collision(const WallFace<2>&, const WallFace<2>&, const WallFace<2>&,
-                                               const WallFace<2>&, double);
-template std::optional<Collision<3>> collision(const WallFace<3>&, const WallFace<3>&, const WallFace<3>&,
-                                               const WallFace<3>&, double);
+TAILWATER_IN_2D_AND_3D(collision);
 
 }  // namespace tailwater

@@ -186,7 +186,6 @@ Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return findings;
 }
 
-template Findings check_end_flows(const CaseSpec&, const Boundary<2>&);
-template Findings check_end_flows(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_end_flows);
 
 }  // namespace tailwater

@@ -185,7 +185,6 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
   return findings;
 }
 
-template Findings check_fluid_at_walls(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_fluid_at_walls(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_fluid_at_walls);
 
 }  // namespace tailwater

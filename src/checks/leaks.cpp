@@ -48,7 +48,6 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
                          place(*reached.way_out), wall_label(boundary, boundary.faces[wall.face].wall))};
 }
 
-template Findings check_leaks(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_leaks(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_leaks);
 
 }  // namespace tailwater

@@ -31,7 +31,6 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return findings;
 }
 
-template Findings check_moorings(const CaseSpec&, const Boundary<2>&);
-template Findings check_moorings(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_moorings);
 
 }  // namespace tailwater

@@ -119,7 +119,6 @@ Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, co
   return findings;
 }
 
-template Findings check_motion_files(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_motion_files(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_motion_files);
 
 }  // namespace tailwater

@@ -49,7 +49,6 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
   return findings;
 }
 
-template Findings check_moving_walls(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_moving_walls(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_moving_walls);
 
 }  // namespace tailwater

@@ -187,7 +187,6 @@ Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, co
   return findings;
 }
 
-template Findings check_open_ends(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_open_ends(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_open_ends);
 
 }  // namespace tailwater

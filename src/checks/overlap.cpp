@@ -81,7 +81,6 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
   return findings;
 }
 
-template Findings check_overlap(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_overlap(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_overlap);
 
 }  // namespace tailwater

@@ -270,7 +270,6 @@ Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const Flu
   return PathWalk<Dim>(spec, drawn, fluid, moving).findings(end);
 }
 
-template Findings check_paths(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&, const std::vector<int>&);
-template Findings check_paths(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&, const std::vector<int>&);
+TAILWATER_IN_2D_AND_3D(check_paths);
 
 }  // namespace tailwater

@@ -43,7 +43,6 @@ Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundar
   return findings;
 }
 
-template Findings check_periodic_width(const CaseSpec&, const Boundary<2>&);
-template Findings check_periodic_width(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_periodic_width);
 
 }  // namespace tailwater

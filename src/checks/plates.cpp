@@ -12,7 +12,6 @@ Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary) {
       wall_label(boundary, boundary.plates.front().wall))};
 }
 
-template Findings check_plates(const CaseSpec&, const Boundary<2>&);
-template Findings check_plates(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_plates);
 
 }  // namespace tailwater

@@ -367,9 +367,6 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   return svg.str();
 }
 
-template std::string preview_svg(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&, const WallParticles<2>&,
-                                 std::span<const Vec<2>>);
-template std::string preview_svg(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&, const WallParticles<3>&,
-                                 std::span<const Vec<3>>);
+TAILWATER_IN_2D_AND_3D(preview_svg);
 
 }  // namespace tailwater

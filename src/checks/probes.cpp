@@ -97,7 +97,6 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   return findings;
 }
 
-template Findings check_probes(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_probes(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_probes);
 
 }  // namespace tailwater

@@ -21,7 +21,6 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return findings;
 }
 
-template Findings check_roughness(const CaseSpec&, const Boundary<2>&);
-template Findings check_roughness(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_roughness);
 
 }  // namespace tailwater

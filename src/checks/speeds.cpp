@@ -45,7 +45,6 @@ Findings check_speeds(const CaseSpec& spec) {
   return findings;
 }
 
-template Findings check_speeds<2>(const CaseSpec&);
-template Findings check_speeds<3>(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(check_speeds);
 
 }  // namespace tailwater

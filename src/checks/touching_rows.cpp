@@ -31,7 +31,6 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
   return {};
 }
 
-template Findings check_touching_rows(const CaseSpec&, const Boundary<2>&);
-template Findings check_touching_rows(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(check_touching_rows);
 
 }  // namespace tailwater

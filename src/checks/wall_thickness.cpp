@@ -136,7 +136,6 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   return findings;
 }
 
-template Findings check_wall_thickness(const CaseSpec&, const Boundary<2>&, const FluidParticles<2>&);
-template Findings check_wall_thickness(const CaseSpec&, const Boundary<3>&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_wall_thickness);
 
 }  // namespace tailwater

@@ -44,7 +44,6 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
   return findings;
 }
 
-template Findings check_wave_makers(const CaseSpec&, const FluidParticles<2>&);
-template Findings check_wave_makers(const CaseSpec&, const FluidParticles<3>&);
+TAILWATER_IN_2D_AND_3D(check_wave_makers);
 
 }  // namespace tailwater

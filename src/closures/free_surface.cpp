@@ -34,12 +34,7 @@ void find_interior(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                             \
-  template void mark_thin_water<Dim>(const Particles<Dim>&, std::span<const double>, std::span<std::uint8_t>); \
-  template void find_interior<Dim>(const Pairs<Dim>&, const Particles<Dim>&, std::span<const double>, double,  \
-                                   std::span<double>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(mark_thin_water);
+TAILWATER_IN_2D_AND_3D(find_interior);
 
 }  // namespace tailwater

@@ -27,11 +27,6 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                               \
-  template std::size_t compute_shift<Dim>(const ShiftingLaw&, double, double, const Pairs<Dim>&, \
-                                          const Particles<Dim>&, const Surroundings<Dim>&, std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(compute_shift);
 
 }  // namespace tailwater

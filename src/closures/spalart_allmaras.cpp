@@ -20,7 +20,6 @@ double diffusion(const Pairs<Dim>& pairs, const Particles<Dim>& particles, doubl
   return sum / sigma;
 }
 
-template double diffusion<2>(const Pairs<2>&, const Particles<2>&, double, double, std::size_t);
-template double diffusion<3>(const Pairs<3>&, const Particles<3>&, double, double, std::size_t);
+TAILWATER_IN_2D_AND_3D(diffusion);
 
 }  // namespace tailwater::spalart_allmaras

@@ -166,13 +166,7 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template void effective_viscosity<Dim>(const ViscosityLaw&, std::span<const Vec<Dim>>, std::span<double>);          \
-  template void add_newtonian_viscosity<Dim>(                                                                         \
-      const Pairs<Dim>&, const Particles<Dim>&, double, const PairVectorField<Dim>&, std::span<const double>, double, \
-      std::span<const Vec<Dim>>, std::span<const Mat<Dim>>, std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(effective_viscosity);
+TAILWATER_IN_2D_AND_3D(add_newtonian_viscosity);
 
 }  // namespace tailwater

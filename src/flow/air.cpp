@@ -29,7 +29,6 @@ void watch_air(Flow<Dim>& flow, double dt) {
   state.displacement += dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow));
 }
 
-template void watch_air<2>(Flow<2>&, double);
-template void watch_air<3>(Flow<3>&, double);
+TAILWATER_IN_2D_AND_3D(watch_air);
 
 }  // namespace tailwater

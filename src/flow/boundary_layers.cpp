@@ -88,12 +88,7 @@ void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted) {
   flow.halo().exchange(particles.layer_viscosity, particles.wall_distance);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                        \
-  template BoundaryLayers next_boundary_layers<Dim>(const Flow<Dim>&, std::span<const FrictionWall<Dim>>, \
-                                                    std::span<const Mat<Dim>>, double);                   \
-  template void grow_boundary_layers<Dim>(Flow<Dim>&, Prediction<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(next_boundary_layers);
+TAILWATER_IN_2D_AND_3D(grow_boundary_layers);
 
 }  // namespace tailwater

@@ -60,11 +60,7 @@ void regather_walls(Flow<Dim>& flow) {
   add_walls<Dim>(flow, std::move(arrived));
 }
 
-#define TAILWATER_INSTANTIATE(Dim)             \
-  template void gather_walls<Dim>(Flow<Dim>&); \
-  template void regather_walls<Dim>(Flow<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(gather_walls);
+TAILWATER_IN_2D_AND_3D(regather_walls);
 
 }  // namespace tailwater

@@ -156,11 +156,7 @@ Passed sump_of(const Flow<Dim>& flow, int circuit) {
   return sump;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                \
-  template Passed sump_of(const Flow<Dim>&, int); \
-  template bool add_inflow<Dim>(Flow<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(sump_of);
+TAILWATER_IN_2D_AND_3D(add_inflow);
 
 }  // namespace tailwater

@@ -55,7 +55,6 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   flow.is_located = true;
 }
 
-template void locate<2>(Flow<2>&, bool);
-template void locate<3>(Flow<3>&, bool);
+TAILWATER_IN_2D_AND_3D(locate);
 
 }  // namespace tailwater

@@ -116,13 +116,9 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   return measures;
 }
 
-template FluidSums fluid_sums_of_rank<2>(const Flow<2>&);
-template FluidSums fluid_sums_of_rank<3>(const Flow<3>&);
-template AirMeasures measure_air<2>(const Flow<2>&);
-template AirMeasures measure_air<3>(const Flow<3>&);
-template double largest_speed<2>(const Flow<2>&);
-template double largest_speed<3>(const Flow<3>&);
-template FlowMeasures measure<2>(const Flow<2>&);
-template FlowMeasures measure<3>(const Flow<3>&);
+TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
+TAILWATER_IN_2D_AND_3D(measure_air);
+TAILWATER_IN_2D_AND_3D(largest_speed);
+TAILWATER_IN_2D_AND_3D(measure);
 
 }  // namespace tailwater

@@ -51,12 +51,8 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   return stopped_at_walls;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                             \
-  template StepStart<Dim> remember<Dim>(Flow<Dim>&);                                           \
-  template void drift<Dim>(Flow<Dim>&, const StepStart<Dim>&, const Prediction<Dim>&, double); \
-  template std::size_t move<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(remember);
+TAILWATER_IN_2D_AND_3D(drift);
+TAILWATER_IN_2D_AND_3D(move);
 
 }  // namespace tailwater

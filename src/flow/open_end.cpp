@@ -370,12 +370,9 @@ std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec) {
   return ends;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                               \
-  template struct OpenEnd<Dim>;                                  \
-  template std::vector<OpenEnd<Dim>> make_ends(const CaseSpec&); \
-  template void hold_open_ends<Dim>(Flow<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+template struct OpenEnd<2>;
+template struct OpenEnd<3>;
+TAILWATER_IN_2D_AND_3D(make_ends);
+TAILWATER_IN_2D_AND_3D(hold_open_ends);
 
 }  // namespace tailwater

@@ -71,7 +71,6 @@ bool remove_outflow(Flow<Dim>& flow) {
   return some_left;
 }
 
-template bool remove_outflow<2>(Flow<2>&);
-template bool remove_outflow<3>(Flow<3>&);
+TAILWATER_IN_2D_AND_3D(remove_outflow);
 
 }  // namespace tailwater

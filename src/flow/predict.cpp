@@ -109,7 +109,6 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   return predicted;
 }
 
-template Prediction<2> predict<2>(Flow<2>&, const StepStart<2>&, const WallDrive<2>&, double);
-template Prediction<3> predict<3>(Flow<3>&, const StepStart<3>&, const WallDrive<3>&, double);
+TAILWATER_IN_2D_AND_3D(predict);
 
 }  // namespace tailwater

@@ -20,9 +20,7 @@ Repartition repartition(Flow<Dim>& flow) {
   return repartition;
 }
 
-template void sort_particles<2>(Flow<2>&);
-template void sort_particles<3>(Flow<3>&);
-template Repartition repartition<2>(Flow<2>&);
-template Repartition repartition<3>(Flow<3>&);
+TAILWATER_IN_2D_AND_3D(sort_particles);
+TAILWATER_IN_2D_AND_3D(repartition);
 
 }  // namespace tailwater

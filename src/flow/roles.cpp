@@ -34,7 +34,6 @@ void assign_roles(Flow<Dim>& flow) {
   });
 }
 
-template void assign_roles<2>(Flow<2>&);
-template void assign_roles<3>(Flow<3>&);
+TAILWATER_IN_2D_AND_3D(assign_roles);
 
 }  // namespace tailwater

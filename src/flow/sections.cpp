@@ -22,7 +22,6 @@ void count_passing(Flow<Dim>& flow, const StepStart<Dim>& start) {
   }
 }
 
-template void count_passing<2>(Flow<2>&, const StepStart<2>&);
-template void count_passing<3>(Flow<3>&, const StepStart<3>&);
+TAILWATER_IN_2D_AND_3D(count_passing);
 
 }  // namespace tailwater

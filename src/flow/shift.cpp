@@ -20,7 +20,6 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   return interventions;
 }
 
-template Interventions shift<2>(Flow<2>&, double);
-template Interventions shift<3>(Flow<3>&, double);
+TAILWATER_IN_2D_AND_3D(shift);
 
 }  // namespace tailwater

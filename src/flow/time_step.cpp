@@ -118,11 +118,8 @@ double next_time_step(const Flow<Dim>& flow) {
   return dt;
 }
 
-template double largest_approach<2>(Flow<2>&);
-template double largest_approach<3>(Flow<3>&);
-template double step_of_water<2>(const Flow<2>&);
-template double step_of_water<3>(const Flow<3>&);
-template double next_time_step<2>(const Flow<2>&);
-template double next_time_step<3>(const Flow<3>&);
+TAILWATER_IN_2D_AND_3D(largest_approach);
+TAILWATER_IN_2D_AND_3D(step_of_water);
+TAILWATER_IN_2D_AND_3D(next_time_step);
 
 }  // namespace tailwater

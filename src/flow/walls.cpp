@@ -90,15 +90,11 @@ void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double
   flow.halo().exchange(velocity);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                    \
-  template WallDrive<Dim> drive_walls<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);          \
-  template WallDrive<Dim> drive_walls_to_end<Dim>(const Flow<Dim>&, const StepStart<Dim>&, double);   \
-  template void place_walls<Dim>(Flow<Dim>&, double);                                                 \
-  template WallDisplacements<Dim> displacements_of_walls<Dim>(const Flow<Dim>&, double);              \
-  template void show_walls<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::vector<Vec<Dim>>&); \
-  template void show_walls_at_mid_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double, std::vector<Vec<Dim>>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(drive_walls);
+TAILWATER_IN_2D_AND_3D(drive_walls_to_end);
+TAILWATER_IN_2D_AND_3D(place_walls);
+TAILWATER_IN_2D_AND_3D(displacements_of_walls);
+TAILWATER_IN_2D_AND_3D(show_walls);
+TAILWATER_IN_2D_AND_3D(show_walls_at_mid_step);
 
 }  // namespace tailwater

@@ -39,7 +39,6 @@ void steer_wave_makers(Flow<Dim>& flow) {
   }
 }
 
-template void steer_wave_makers<2>(Flow<2>&);
-template void steer_wave_makers<3>(Flow<3>&);
+TAILWATER_IN_2D_AND_3D(steer_wave_makers);
 
 }  // namespace tailwater

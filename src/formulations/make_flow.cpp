@@ -20,11 +20,7 @@ Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   return Flow<Dim>(spec, make_formulation<Dim>(spec), ranks);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                      \
-  template FlowFormulation<Dim> make_formulation<Dim>(const CaseSpec&); \
-  template Flow<Dim> make_flow<Dim>(const CaseSpec&, const Communicator&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(make_formulation);
+TAILWATER_IN_2D_AND_3D(make_flow);
 
 }  // namespace tailwater

@@ -66,7 +66,6 @@ bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to
 
 template struct WallFace<2>;
 template struct WallFace<3>;
-template bool crosses(const WallFace<2>&, const Vec<2>&, const Vec<2>&, double);
-template bool crosses(const WallFace<3>&, const Vec<3>&, const Vec<3>&, double);
+TAILWATER_IN_2D_AND_3D(crosses);
 
 }  // namespace tailwater

@@ -287,7 +287,6 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
   return boundary;
 }
 
-template Boundary<2> make_boundary(const CaseSpec&);
-template Boundary<3> make_boundary(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(make_boundary);
 
 }  // namespace tailwater

@@ -118,9 +118,7 @@ Opening<Dim> make_section(const ProbeTable& probe, double spacing) {
 
 template struct Opening<2>;
 template struct Opening<3>;
-template std::vector<Opening<2>> make_open_ends(const CaseSpec&);
-template std::vector<Opening<3>> make_open_ends(const CaseSpec&);
-template Opening<2> make_section(const ProbeTable&, double);
-template Opening<3> make_section(const ProbeTable&, double);
+TAILWATER_IN_2D_AND_3D(make_open_ends);
+TAILWATER_IN_2D_AND_3D(make_section);
 
 }  // namespace tailwater

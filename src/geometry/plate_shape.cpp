@@ -33,8 +33,7 @@ WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>&
   return beside;
 }
 
-template WallBesidePlate wall_beside_plate(const Boundary<2>&, const Vec<2>&);
-template WallBesidePlate wall_beside_plate(const Boundary<3>&, const Vec<3>&);
+TAILWATER_IN_2D_AND_3D(wall_beside_plate);
 
 Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate) {
   const WallFace<3>& face = boundary.faces[plate.first_face];

@@ -50,11 +50,7 @@ std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, dou
   return patches;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                           \
-  template std::vector<WallPatch<Dim>> make_wall_patches<Dim>(const Boundary<Dim>&, double); \
-  template std::vector<WallPatch<Dim>> pieces_of<Dim>(const WallPatch<Dim>&, const Boundary<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(make_wall_patches);
+TAILWATER_IN_2D_AND_3D(pieces_of);
 
 }  // namespace tailwater

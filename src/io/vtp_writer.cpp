@@ -191,7 +191,6 @@ void write_vtp(const std::filesystem::path& path, double time, const EncodedPiec
   write_file(path, parts, ranks);
 }
 
-template EncodedPiece encode_piece<2>(const ParticleFields<2>&, int);
-template EncodedPiece encode_piece<3>(const ParticleFields<3>&, int);
+TAILWATER_IN_2D_AND_3D(encode_piece);
 
 }  // namespace tailwater

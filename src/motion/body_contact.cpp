@@ -69,7 +69,6 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
   return surfaces;
 }
 
-template ContactSurfaces<2> make_contact_surfaces(const Boundary<2>&, const std::vector<FloatingBody<2>>&, double);
-template ContactSurfaces<3> make_contact_surfaces(const Boundary<3>&, const std::vector<FloatingBody<3>>&, double);
+TAILWATER_IN_2D_AND_3D(make_contact_surfaces);
 
 }  // namespace tailwater

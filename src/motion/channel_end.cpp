@@ -201,7 +201,6 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
 
 template struct ChannelEnd<2>;
 template struct ChannelEnd<3>;
-template std::vector<ChannelEnd<2>> make_channel_ends(const CaseSpec&);
-template std::vector<ChannelEnd<3>> make_channel_ends(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(make_channel_ends);
 
 }  // namespace tailwater

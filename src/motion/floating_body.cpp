@@ -125,9 +125,7 @@ template struct BodyState<2>;
 template struct BodyState<3>;
 template struct FloatingBody<2>;
 template struct FloatingBody<3>;
-template std::vector<FloatingBody<2>> make_bodies(const CaseSpec&);
-template std::vector<FloatingBody<3>> make_bodies(const CaseSpec&);
-template std::vector<Mooring<2>> make_moorings(const CaseSpec&);
-template std::vector<Mooring<3>> make_moorings(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(make_bodies);
+TAILWATER_IN_2D_AND_3D(make_moorings);
 
 }  // namespace tailwater

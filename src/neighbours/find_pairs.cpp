@@ -361,9 +361,7 @@ void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& dom
   });
 }
 
-template void find_pairs<2>(const Kernel<2>&, const CellGrid<2>&, const Particles<2>&, WallRows, double, Pairs<2>&);
-template void find_pairs<3>(const Kernel<3>&, const CellGrid<3>&, const Particles<3>&, WallRows, double, Pairs<3>&);
-template void find_places<2>(const Particles<2>&, const PeriodicDomain<2>&, double, Pairs<2>&);
-template void find_places<3>(const Particles<3>&, const PeriodicDomain<3>&, double, Pairs<3>&);
+TAILWATER_IN_2D_AND_3D(find_pairs);
+TAILWATER_IN_2D_AND_3D(find_places);
 
 }  // namespace tailwater

@@ -98,13 +98,9 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
 
 template struct Halo<2>;
 template struct Halo<3>;
-template std::vector<Vec<2>> image_shifts<2>(const PeriodicDomain<2>&);
-template std::vector<Vec<3>> image_shifts<3>(const PeriodicDomain<3>&);
-template Vec<2> wrapped<2>(const PeriodicDomain<2>&, Vec<2>);
-template Vec<3> wrapped<3>(const PeriodicDomain<3>&, Vec<3>);
-template void wrap_positions<2>(const PeriodicDomain<2>&, Particles<2>&);
-template void wrap_positions<3>(const PeriodicDomain<3>&, Particles<3>&);
-template Halo<2> make_halo<2>(const Communicator&, const PeriodicDomain<2>&, double, Particles<2>&);
-template Halo<3> make_halo<3>(const Communicator&, const PeriodicDomain<3>&, double, Particles<3>&);
+TAILWATER_IN_2D_AND_3D(image_shifts);
+TAILWATER_IN_2D_AND_3D(wrapped);
+TAILWATER_IN_2D_AND_3D(wrap_positions);
+TAILWATER_IN_2D_AND_3D(make_halo);
 
 }  // namespace tailwater

@@ -28,7 +28,6 @@ LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing) {
   return sums;
 }
 
-template LatticeSums lattice_sums<2>(const Kernel<2>&, double);
-template LatticeSums lattice_sums<3>(const Kernel<3>&, double);
+TAILWATER_IN_2D_AND_3D(lattice_sums);
 
 }  // namespace tailwater

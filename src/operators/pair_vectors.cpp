@@ -193,13 +193,7 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template void find_kernel_gradients<Dim>(const Pairs<Dim>&, PairVectorField<Dim>&);                                 \
-  template void find_corrected_pair_vectors<Dim>(const Pairs<Dim>&, const Halo<Dim>&, const CorrectionInput<Dim>&,    \
-                                                 CorrectionReach, int, PairVectorField<Dim>&, std::vector<Vec<Dim>>&, \
-                                                 std::span<double>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_kernel_gradients);
+TAILWATER_IN_2D_AND_3D(find_corrected_pair_vectors);
 
 }  // namespace tailwater

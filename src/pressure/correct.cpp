@@ -20,7 +20,6 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   add_wall_forces(flow, particles.pressure);
 }
 
-template void correct<2>(Flow<2>&, const Prediction<2>&, const WallDrive<2>&, double);
-template void correct<3>(Flow<3>&, const Prediction<3>&, const WallDrive<3>&, double);
+TAILWATER_IN_2D_AND_3D(correct);
 
 }  // namespace tailwater

@@ -120,14 +120,9 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   report.density_share = state.density_share;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                \
-  template double wall_work<Dim>(const Flow<Dim>&, double);                                       \
-  template double end_work<Dim>(const Flow<Dim>&, double);                                        \
-  template Works book_works<Dim>(const Flow<Dim>&, const StepStart<Dim>&, const Prediction<Dim>&, \
-                                 const PosedEquation&, double);                                   \
-  template void balance_energy<Dim>(Flow<Dim>&, const StepStart<Dim>&, StepReport&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(wall_work);
+TAILWATER_IN_2D_AND_3D(end_work);
+TAILWATER_IN_2D_AND_3D(book_works);
+TAILWATER_IN_2D_AND_3D(balance_energy);
 
 }  // namespace tailwater

@@ -47,12 +47,8 @@ void lift_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                  \
-  template double find_fullness<Dim>(const Flow<Dim>&);                             \
-  template void take_out_mean<Dim>(const Flow<Dim>&, double, std::vector<double>&); \
-  template void lift_to_zero<Dim>(const Flow<Dim>&, double, std::span<const double>, std::span<double>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_fullness);
+TAILWATER_IN_2D_AND_3D(take_out_mean);
+TAILWATER_IN_2D_AND_3D(lift_to_zero);
 
 }  // namespace tailwater

@@ -34,13 +34,8 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   return squares_and_count[1] > 0.0 ? std::sqrt(squares_and_count[0] / squares_and_count[1]) : 0.0;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                    \
-  template std::vector<Vec<Dim>> pushes_of_walls<Dim>(const Flow<Dim>&, std::span<const std::size_t>, \
-                                                      const std::vector<double>&);                    \
-  template std::vector<double> find_divergence<Dim>(Flow<Dim>&);                                      \
-  template double bulk_rms<Dim>(const Flow<Dim>&, const std::vector<double>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(pushes_of_walls);
+TAILWATER_IN_2D_AND_3D(find_divergence);
+TAILWATER_IN_2D_AND_3D(bulk_rms);
 
 }  // namespace tailwater

@@ -372,14 +372,10 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
   }
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                \
-  template void pose_pockets<Dim>(Flow<Dim>&, std::span<const Vec<Dim>>, double); \
-  template void subtract_air<Dim>(Flow<Dim>&);                                    \
-  template void restore_air<Dim>(Flow<Dim>&);                                    \
-  template void add_air<Dim>(Flow<Dim>&, double);                                 \
-  template void push_by_pockets<Dim>(Flow<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(pose_pockets);
+TAILWATER_IN_2D_AND_3D(subtract_air);
+TAILWATER_IN_2D_AND_3D(restore_air);
+TAILWATER_IN_2D_AND_3D(add_air);
+TAILWATER_IN_2D_AND_3D(push_by_pockets);
 
 }  // namespace tailwater

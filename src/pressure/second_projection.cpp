@@ -72,7 +72,6 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   return second;
 }
 
-template SecondProjection reproject<2>(Flow<2>&, const WallDrive<2>&, double);
-template SecondProjection reproject<3>(Flow<3>&, const WallDrive<3>&, double);
+TAILWATER_IN_2D_AND_3D(reproject);
 
 }  // namespace tailwater

@@ -15,7 +15,6 @@ SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double to
   return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
 }
 
-template SolveReport solve_rows<2>(Flow<2>&, std::vector<double>&, double);
-template SolveReport solve_rows<3>(Flow<3>&, std::vector<double>&, double);
+TAILWATER_IN_2D_AND_3D(solve_rows);
 
 }  // namespace tailwater

@@ -39,12 +39,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   return equation;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                  \
-  template std::vector<double> aim<Dim>(const Flow<Dim>&, std::vector<Mat<Dim>>, double);           \
-  template PosedEquation assemble<Dim>(Flow<Dim>&, const Prediction<Dim>&, std::span<const double>, \
-                                       const WallDrive<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(aim);
+TAILWATER_IN_2D_AND_3D(assemble);
 
 }  // namespace tailwater

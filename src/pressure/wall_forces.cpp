@@ -49,7 +49,6 @@ void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
            [&](std::size_t n) { forces.through_water[water[n]] += particles.volume[water[n]] * pushes[n]; });
 }
 
-template void add_wall_forces<2>(Flow<2>&, const std::vector<double>&);
-template void add_wall_forces<3>(Flow<3>&, const std::vector<double>&);
+TAILWATER_IN_2D_AND_3D(add_wall_forces);
 
 }  // namespace tailwater

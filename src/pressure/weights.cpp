@@ -62,7 +62,6 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   return flow.discretisation().write_rows(flow);
 }
 
-template std::size_t assemble_weights<2>(Flow<2>&, const WallDrive<2>&);
-template std::size_t assemble_weights<3>(Flow<3>&, const WallDrive<3>&);
+TAILWATER_IN_2D_AND_3D(assemble_weights);
 
 }  // namespace tailwater

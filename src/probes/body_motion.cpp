@@ -72,7 +72,6 @@ Reading<Dim> motion_reading(const ProbeTable& probe, const CaseSpec& spec) {
   return reading;
 }
 
-template Reading<2> motion_reading<2>(const ProbeTable&, const CaseSpec&);
-template Reading<3> motion_reading<3>(const ProbeTable&, const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(motion_reading);
 
 }  // namespace tailwater

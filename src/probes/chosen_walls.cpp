@@ -86,9 +86,6 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
 
 template class ChosenWalls<2>;
 template class ChosenWalls<3>;
-template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<2>&,
-                                           std::span<const WallPatch<2>>);
-template std::vector<double> chosen_shares(const ProbeTable&, const CaseSpec&, const Boundary<3>&,
-                                           std::span<const WallPatch<3>>);
+TAILWATER_IN_2D_AND_3D(chosen_shares);
 
 }  // namespace tailwater

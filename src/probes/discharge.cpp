@@ -108,7 +108,6 @@ Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   return reading;
 }
 
-template Reading<2> discharge_reading<2>(const ProbeTable&, const CaseSpec&);
-template Reading<3> discharge_reading<3>(const ProbeTable&, const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(discharge_reading);
 
 }  // namespace tailwater

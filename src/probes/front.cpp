@@ -76,9 +76,7 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
           }};
 }
 
-template bool is_connected<2>(const ProbeContext<2>&, std::int32_t);
-template bool is_connected<3>(const ProbeContext<3>&, std::int32_t);
-template Reading<2> front_reading<2>(const ProbeTable&);
-template Reading<3> front_reading<3>(const ProbeTable&);
+TAILWATER_IN_2D_AND_3D(is_connected);
+TAILWATER_IN_2D_AND_3D(front_reading);
 
 }  // namespace tailwater

@@ -75,7 +75,6 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
   return result;
 }
 
-template GatheredParticles<2> gather_near<2>(const ProbeContext<2>&, const std::vector<Region<2>>&);
-template GatheredParticles<3> gather_near<3>(const ProbeContext<3>&, const std::vector<Region<3>>&);
+TAILWATER_IN_2D_AND_3D(gather_near);
 
 }  // namespace tailwater

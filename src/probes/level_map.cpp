@@ -171,7 +171,6 @@ Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, co
   return reading;
 }
 
-template Reading<2> level_map_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> level_map_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(level_map_reading);
 
 }  // namespace tailwater

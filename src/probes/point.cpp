@@ -93,11 +93,8 @@ Reading<Dim> velocity_reading(const ProbeTable& probe) {
           }};
 }
 
-template Vec<2> velocity_at<2>(const ProbeContext<2>&, const Vec<2>&);
-template Vec<3> velocity_at<3>(const ProbeContext<3>&, const Vec<3>&);
-template Reading<2> pressure_reading<2>(const ProbeTable&);
-template Reading<3> pressure_reading<3>(const ProbeTable&);
-template Reading<2> velocity_reading<2>(const ProbeTable&);
-template Reading<3> velocity_reading<3>(const ProbeTable&);
+TAILWATER_IN_2D_AND_3D(velocity_at);
+TAILWATER_IN_2D_AND_3D(pressure_reading);
+TAILWATER_IN_2D_AND_3D(velocity_reading);
 
 }  // namespace tailwater

@@ -154,7 +154,6 @@ Reading<Dim> pressure_map_reading(const ProbeTable& probe, const CaseSpec& spec,
   return reading;
 }
 
-template Reading<2> pressure_map_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> pressure_map_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(pressure_map_reading);
 
 }  // namespace tailwater

@@ -273,8 +273,7 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   for (Instrument* instrument : read) instrument->count_as_taken(context.time);
 }
 
-template std::vector<Probe<2>> make_probes<2>(const CaseSpec&, const Boundary<2>&);
-template std::vector<Probe<3>> make_probes<3>(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(make_probes);
 template class ProbeSet<2>;
 template class ProbeSet<3>;
 

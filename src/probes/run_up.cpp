@@ -107,7 +107,6 @@ Reading<Dim> run_up_reading(const ProbeTable& probe, const CaseSpec& spec, const
   return reading;
 }
 
-template Reading<2> run_up_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> run_up_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(run_up_reading);
 
 }  // namespace tailwater

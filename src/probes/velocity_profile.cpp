@@ -76,7 +76,6 @@ Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& s
   return reading;
 }
 
-template Reading<2> velocity_profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> velocity_profile_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(velocity_profile_reading);
 
 }  // namespace tailwater

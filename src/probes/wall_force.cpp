@@ -394,7 +394,6 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   return reading;
 }
 
-template Reading<2> force_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> force_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(force_reading);
 
 }  // namespace tailwater

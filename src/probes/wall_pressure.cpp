@@ -247,19 +247,14 @@ Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec&
 
 template struct WallPressureSums<2>;
 template struct WallPressureSums<3>;
-template std::vector<AirPush<2>> pushes_of_air<2>(const ProbeContext<2>&, std::span<const WallPatch<2>>,
-                                                  std::span<const double>);
-template std::vector<AirPush<3>> pushes_of_air<3>(const ProbeContext<3>&, std::span<const WallPatch<3>>,
-                                                  std::span<const double>);
+TAILWATER_IN_2D_AND_3D(pushes_of_air);
 template PressureOnWall wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&);
 template PressureOnWall wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&);
 template PressureOnWall wall_pressure<2>(const ProbeContext<2>&, const Vec<2>&, const Vec<2>&,
                                          const WallPressureSums<2>&);
 template PressureOnWall wall_pressure<3>(const ProbeContext<3>&, const Vec<3>&, const Vec<3>&,
                                          const WallPressureSums<3>&);
-template Reading<2> wall_pressure_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> wall_pressure_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
-template Reading<2> wall_pressure_mean_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> wall_pressure_mean_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(wall_pressure_reading);
+TAILWATER_IN_2D_AND_3D(wall_pressure_mean_reading);
 
 }  // namespace tailwater

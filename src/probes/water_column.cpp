@@ -233,11 +233,8 @@ template class UprightGauge<2>;
 template class UprightGauge<3>;
 template class WaterColumns<2>;
 template class WaterColumns<3>;
-template Vec<2> upwards<2>(const ProbeTable&, const CaseSpec&);
-template Vec<3> upwards<3>(const ProbeTable&, const CaseSpec&);
-template Reading<2> depth_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> depth_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
-template Reading<2> profile_reading<2>(const ProbeTable&, const CaseSpec&, const Boundary<2>&);
-template Reading<3> profile_reading<3>(const ProbeTable&, const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(upwards);
+TAILWATER_IN_2D_AND_3D(depth_reading);
+TAILWATER_IN_2D_AND_3D(profile_reading);
 
 }  // namespace tailwater

@@ -29,7 +29,6 @@ double water_share_above_wet_bed(const ProbeContext<Dim>& context, const Vec<Dim
 
 template double water_share<2>(const ProbeContext<2>&, const Vec<2>&);
 template double water_share<3>(const ProbeContext<3>&, const Vec<3>&);
-template double water_share_above_wet_bed<2>(const ProbeContext<2>&, const Vec<2>&, const Vec<2>&, const Vec<2>&);
-template double water_share_above_wet_bed<3>(const ProbeContext<3>&, const Vec<3>&, const Vec<3>&, const Vec<3>&);
+TAILWATER_IN_2D_AND_3D(water_share_above_wet_bed);
 
 }  // namespace tailwater

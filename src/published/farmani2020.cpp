@@ -142,7 +142,6 @@ FlowFormulation<Dim> published_farmani(const CaseSpec& spec) {
   return formulation;
 }
 
-template FlowFormulation<2> published_farmani<2>(const CaseSpec&);
-template FlowFormulation<3> published_farmani<3>(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(published_farmani);
 
 }  // namespace tailwater

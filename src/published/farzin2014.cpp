@@ -177,7 +177,6 @@ FlowFormulation<Dim> published_farzin(const CaseSpec& spec) {
   return formulation;
 }
 
-template FlowFormulation<2> published_farzin<2>(const CaseSpec&);
-template FlowFormulation<3> published_farzin<3>(const CaseSpec&);
+TAILWATER_IN_2D_AND_3D(published_farzin);
 
 }  // namespace tailwater

@@ -59,7 +59,6 @@ std::unique_ptr<const WallModel<Dim>> make_pressure_rows(std::shared_ptr<const T
   return std::make_unique<PressureRows<Dim>>(std::move(tensors));
 }
 
-template std::unique_ptr<const WallModel<2>> make_pressure_rows<2>(std::shared_ptr<const Tensors<2>>);
-template std::unique_ptr<const WallModel<3>> make_pressure_rows<3>(std::shared_ptr<const Tensors<3>>);
+TAILWATER_IN_2D_AND_3D(make_pressure_rows);
 
 }  // namespace tailwater

@@ -68,9 +68,6 @@ void compute_renormalisation(const Pairs<Dim>& pairs, std::span<const double> vo
   });
 }
 
-template void compute_renormalisation<2>(const Pairs<2>&, std::span<const double>, std::span<const std::uint8_t>,
-                                         std::span<Renormalisation<2>>);
-template void compute_renormalisation<3>(const Pairs<3>&, std::span<const double>, std::span<const std::uint8_t>,
-                                         std::span<Renormalisation<3>>);
+TAILWATER_IN_2D_AND_3D(compute_renormalisation);
 
 }  // namespace tailwater

@@ -81,7 +81,6 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
   return report;
 }
 
-template StepReport repeated_projection_step<2>(Flow<2>&, const StepStart<2>&, double);
-template StepReport repeated_projection_step<3>(Flow<3>&, const StepStart<3>&, double);
+TAILWATER_IN_2D_AND_3D(repeated_projection_step);
 
 }  // namespace tailwater

@@ -48,7 +48,6 @@ std::unique_ptr<const WallModel<Dim>> make_row_and_dummies() {
   return std::make_unique<RowAndDummies<Dim>>();
 }
 
-template std::unique_ptr<const WallModel<2>> make_row_and_dummies<2>();
-template std::unique_ptr<const WallModel<3>> make_row_and_dummies<3>();
+TAILWATER_IN_2D_AND_3D(make_row_and_dummies);
 
 }  // namespace tailwater

@@ -55,14 +55,7 @@ void carry_fields_along(const Pairs<Dim>& pairs, const Tensors<Dim>& tensors, co
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                        \
-  template std::size_t find_published_shifts<Dim>(const ShiftingLaw&, double, const Pairs<Dim>&,          \
-                                                  const Particles<Dim>&, const Surroundings<Dim>&,        \
-                                                  std::span<Vec<Dim>>);                                   \
-  template void carry_fields_along<Dim>(const Pairs<Dim>&, const Tensors<Dim>&, const Surroundings<Dim>&, \
-                                        std::span<const Vec<Dim>>, Particles<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_published_shifts);
+TAILWATER_IN_2D_AND_3D(carry_fields_along);
 
 }  // namespace tailwater

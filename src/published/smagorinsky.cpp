@@ -43,13 +43,7 @@ void add_stress_divergence(const Pairs<Dim>& pairs, const Particles<Dim>& partic
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                              \
-  template void sub_particle_stress<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, double,              \
-                                         std::span<const Vec<Dim>>, std::span<Mat<Dim>>);                       \
-  template void add_stress_divergence<Dim>(const Pairs<Dim>&, const Particles<Dim>&, std::span<const Mat<Dim>>, \
-                                           std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(sub_particle_stress);
+TAILWATER_IN_2D_AND_3D(add_stress_divergence);
 
 }  // namespace tailwater

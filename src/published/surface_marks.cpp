@@ -75,14 +75,8 @@ void find_interior_by_marks(const Pairs<Dim>& pairs, const Particles<Dim>& parti
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                        \
-  template void mark_by_cone<Dim>(const ConeInput<Dim>&, const Particles<Dim>&, std::span<std::uint8_t>); \
-  template void mark_by_density<Dim>(const Pairs<Dim>&, const Particles<Dim>&, std::span<const double>,   \
-                                     std::span<std::uint8_t>);                                            \
-  template void find_interior_by_marks<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double,             \
-                                            std::span<const std::uint8_t>, std::span<double>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(mark_by_cone);
+TAILWATER_IN_2D_AND_3D(mark_by_density);
+TAILWATER_IN_2D_AND_3D(find_interior_by_marks);
 
 }  // namespace tailwater

@@ -44,14 +44,7 @@ void add_consistent_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& par
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template void add_shao_lo_viscosity<Dim>(const Pairs<Dim>&, const Particles<Dim>&, double, std::span<const double>, \
-                                           std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);  \
-  template void add_consistent_viscosity<Dim>(                                                                        \
-      const Pairs<Dim>&, const Particles<Dim>&, std::span<const Renormalisation<Dim>>, std::span<const std::uint8_t>, \
-      double, std::span<const double>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(add_shao_lo_viscosity);
+TAILWATER_IN_2D_AND_3D(add_consistent_viscosity);
 
 }  // namespace tailwater

@@ -38,9 +38,7 @@ PocketTotals pocket_totals(const Flow<Dim>& flow) {
           .pockets = static_cast<double>(air.pockets)};
 }
 
-template nlohmann::ordered_json pockets_of(const Flow<2>&);
-template nlohmann::ordered_json pockets_of(const Flow<3>&);
-template PocketTotals pocket_totals(const Flow<2>&);
-template PocketTotals pocket_totals(const Flow<3>&);
+TAILWATER_IN_2D_AND_3D(pockets_of);
+TAILWATER_IN_2D_AND_3D(pocket_totals);
 
 }  // namespace tailwater

@@ -281,12 +281,7 @@ CaseSpec case_of_checkpoint(const SealedFile& file) {
                                 [&] { return read_case_text(Hdf5Reader(file.body).text("case"), "its case"); });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                              \
-  template void write_checkpoint<Dim>(const std::filesystem::path&, const Checkpoint<Dim>&, const std::string&, \
-                                      const Communicator&);                                                     \
-  template Checkpoint<Dim> read_checkpoint<Dim>(const SealedFile&, const Communicator&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(write_checkpoint);
+TAILWATER_IN_2D_AND_3D(read_checkpoint);
 
 }  // namespace tailwater

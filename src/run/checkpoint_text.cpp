@@ -215,9 +215,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   checkpoint.output = json.at("output");
 }
 
-template std::string text_of<2>(const Checkpoint<2>&);
-template std::string text_of<3>(const Checkpoint<3>&);
-template void take_text<2>(const std::string&, Checkpoint<2>&);
-template void take_text<3>(const std::string&, Checkpoint<3>&);
+TAILWATER_IN_2D_AND_3D(text_of);
+TAILWATER_IN_2D_AND_3D(take_text);
 
 }  // namespace tailwater

@@ -187,13 +187,9 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   return estimate;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                               \
-  template double neighbours_in_support<Dim>(double);                            \
-  template double memory_estimate<Dim>(const ParticleCount&, double);            \
-  template Findings check_memory(const CaseSpec&, const Boundary<Dim>&, double); \
-  template RunEstimate estimate_run<Dim>(const CaseSpec&, Flow<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(neighbours_in_support);
+TAILWATER_IN_2D_AND_3D(memory_estimate);
+TAILWATER_IN_2D_AND_3D(check_memory);
+TAILWATER_IN_2D_AND_3D(estimate_run);
 
 }  // namespace tailwater

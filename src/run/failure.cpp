@@ -78,12 +78,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
              [&] { write_text_file(failure / "report.txt", fmt::format("{}\n{}", message, fmt::join(reports, ""))); });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                    \
-  template std::optional<std::size_t> find_non_finite<Dim>(const Flow<Dim>&);                         \
-  template void write_failure<Dim>(const RunFolder&, const Flow<Dim>&, const Particles<Dim>&, double, \
-                                   std::optional<std::size_t>, const std::string&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_non_finite);
+TAILWATER_IN_2D_AND_3D(write_failure);
 
 }  // namespace tailwater

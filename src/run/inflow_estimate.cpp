@@ -84,7 +84,6 @@ WaterEstimate estimate_water(const CaseSpec& spec, const Boundary<Dim>& boundary
   return estimate;
 }
 
-template WaterEstimate estimate_water<2>(const CaseSpec&, const Boundary<2>&, double);
-template WaterEstimate estimate_water<3>(const CaseSpec&, const Boundary<3>&, double);
+TAILWATER_IN_2D_AND_3D(estimate_water);
 
 }  // namespace tailwater

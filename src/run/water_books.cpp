@@ -200,15 +200,11 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
           {"outlets", outlets}};
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                     \
-  template Water water_in<Dim>(const Flow<Dim>&);      \
-  template Water water_outside<Dim>(const Flow<Dim>&); \
-  template Water water_inside<Dim>(const Flow<Dim>&);  \
-  template Water water_out<Dim>(const Flow<Dim>&);     \
-  template Water water_came<Dim>(const Flow<Dim>&);    \
-  template nlohmann::ordered_json water_balance<Dim>(const Water&, const Flow<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(water_in);
+TAILWATER_IN_2D_AND_3D(water_outside);
+TAILWATER_IN_2D_AND_3D(water_inside);
+TAILWATER_IN_2D_AND_3D(water_out);
+TAILWATER_IN_2D_AND_3D(water_came);
+TAILWATER_IN_2D_AND_3D(water_balance);
 
 }  // namespace tailwater

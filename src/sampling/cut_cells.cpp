@@ -343,14 +343,8 @@ std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const CellTe
   return in_row;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                     \
-  template PartOfBox part_in_front(const Vec<Dim>&, const Vec<Dim>&, double);                                          \
-  template FittedCells<Dim> fit_cells<Dim>(const CaseSpec&, const Boundary<Dim>&, const FluidTable&, WaterShape<Dim>&, \
-                                           const LatticeBlock<Dim>&, const CellTest<Dim>&, const CellTest<Dim>&,       \
-                                           const Communicator&);                                                       \
-  template std::vector<double> count_in_rows<Dim>(const LatticeBlock<Dim>&, const CellTest<Dim>&, const Communicator&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(part_in_front);
+TAILWATER_IN_2D_AND_3D(fit_cells);
+TAILWATER_IN_2D_AND_3D(count_in_rows);
 
 }  // namespace tailwater

@@ -186,9 +186,6 @@ CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const s
   return Fill<Dim>(spec, block, owner, boundary, lattice).run();
 }
 
-template CellSet<2> filled_cells<2>(const CaseSpec&, const FluidTable&, const std::string&, const Boundary<2>&,
-                                    const Lattice<2>&);
-template CellSet<3> filled_cells<3>(const CaseSpec&, const FluidTable&, const std::string&, const Boundary<3>&,
-                                    const Lattice<3>&);
+TAILWATER_IN_2D_AND_3D(filled_cells);
 
 }  // namespace tailwater

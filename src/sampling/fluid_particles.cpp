@@ -341,9 +341,6 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
 
 template struct FluidParticles<2>;
 template struct FluidParticles<3>;
-template FluidParticles<2> make_fluid_particles(const CaseSpec&, const Boundary<2>&, const Communicator&, std::int64_t,
-                                                StartVelocities);
-template FluidParticles<3> make_fluid_particles(const CaseSpec&, const Boundary<3>&, const Communicator&, std::int64_t,
-                                                StartVelocities);
+TAILWATER_IN_2D_AND_3D(make_fluid_particles);
 
 }  // namespace tailwater

@@ -44,7 +44,6 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
   return count;
 }
 
-template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<2>&);
-template ParticleCount expected_particle_count(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(expected_particle_count);
 
 }  // namespace tailwater

@@ -108,13 +108,8 @@ WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, d
                             Lattice<Dim>{});
 }
 
-template WallParticles<2> make_dummy_particles<2>(const Boundary<2>&, double, int, const SpaceShare&,
-                                                  const Lattice<2>&);
-template WallParticles<3> make_dummy_particles<3>(const Boundary<3>&, double, int, const SpaceShare&,
-                                                  const Lattice<3>&);
-template WallParticles<2> make_surface_particles(const Boundary<2>&, double, const SpaceShare&);
-template WallParticles<3> make_surface_particles(const Boundary<3>&, double, const SpaceShare&);
-template WallParticles<2> make_row_and_dummy_particles(const Boundary<2>&, double, int, const SpaceShare&);
-template WallParticles<3> make_row_and_dummy_particles(const Boundary<3>&, double, int, const SpaceShare&);
+TAILWATER_IN_2D_AND_3D(make_dummy_particles);
+TAILWATER_IN_2D_AND_3D(make_surface_particles);
+TAILWATER_IN_2D_AND_3D(make_row_and_dummy_particles);
 
 }  // namespace tailwater

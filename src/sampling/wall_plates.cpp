@@ -89,7 +89,6 @@ std::vector<WallParticles<Dim>> sample_plates(const Boundary<Dim>& boundary, con
   return parts;
 }
 
-template std::vector<WallParticles<2>> sample_plates<2>(const Boundary<2>&, const WallLayers&, const Lattice<2>&);
-template std::vector<WallParticles<3>> sample_plates<3>(const Boundary<3>&, const WallLayers&, const Lattice<3>&);
+TAILWATER_IN_2D_AND_3D(sample_plates);
 
 }  // namespace tailwater

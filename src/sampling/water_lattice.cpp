@@ -148,9 +148,7 @@ Lattice<Dim> lattice_behind_meshes(const CaseSpec& spec, const Boundary<Dim>& bo
   return make_lattice<Dim>(spec, 0, boundary);
 }
 
-template Lattice<2> make_lattice<2>(const CaseSpec&, std::size_t, const Boundary<2>&);
-template Lattice<3> make_lattice<3>(const CaseSpec&, std::size_t, const Boundary<3>&);
-template Lattice<2> lattice_behind_meshes<2>(const CaseSpec&, const Boundary<2>&);
-template Lattice<3> lattice_behind_meshes<3>(const CaseSpec&, const Boundary<3>&);
+TAILWATER_IN_2D_AND_3D(make_lattice);
+TAILWATER_IN_2D_AND_3D(lattice_behind_meshes);
 
 }  // namespace tailwater

@@ -27,7 +27,6 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   return report;
 }
 
-template StepReport advance<2>(Flow<2>&, double);
-template StepReport advance<3>(Flow<3>&, double);
+TAILWATER_IN_2D_AND_3D(advance);
 
 }  // namespace tailwater

@@ -6,16 +6,15 @@ namespace tailwater {
 
 template <int Dim>
 StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  StepReport report = project(flow, start, dt);            // (F14)-(F16)
-  const auto divergence_old = divergence_to_report(flow);  // (F18): the remainder at the old positions
+  StepReport report = project(flow, start, dt);                    // (F14)-(F16)
+  const auto divergence_old = divergence_to_report(flow);          // (F18): the remainder at the old positions
   report.interventions.stopped_at_walls += move(flow, start, dt);  // (F17)
-  report.interventions += shift(flow, dt);                 // (F28)-(F32)
+  report.interventions += shift(flow, dt);                         // (F28)-(F32)
   locate(flow);
   report.divergence = report_of_divergence(flow, divergence_old);
   return report;
 }
 
-template StepReport explicit_projection_step<2>(Flow<2>&, const StepStart<2>&, double);
-template StepReport explicit_projection_step<3>(Flow<3>&, const StepStart<3>&, double);
+TAILWATER_IN_2D_AND_3D(explicit_projection_step);
 
 }  // namespace tailwater

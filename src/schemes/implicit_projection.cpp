@@ -23,7 +23,6 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   return report;
 }
 
-template StepReport two_projections_step<2>(Flow<2>&, const StepStart<2>&, double);
-template StepReport two_projections_step<3>(Flow<3>&, const StepStart<3>&, double);
+TAILWATER_IN_2D_AND_3D(two_projections_step);
 
 }  // namespace tailwater

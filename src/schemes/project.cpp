@@ -45,13 +45,8 @@ std::optional<DivergenceReport> report_of_divergence(Flow<Dim>& flow, const std:
   return DivergenceReport{rms_of_old, bulk_rms(flow, divergence), bulk_rms(flow, change)};
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                   \
-  template StepReport project<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);       \
-  template std::optional<std::vector<double>> divergence_to_report<Dim>(Flow<Dim>&); \
-  template std::optional<DivergenceReport> report_of_divergence<Dim>(Flow<Dim>&,     \
-                                                                     const std::optional<std::vector<double>>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(project);
+TAILWATER_IN_2D_AND_3D(divergence_to_report);
+TAILWATER_IN_2D_AND_3D(report_of_divergence);
 
 }  // namespace tailwater

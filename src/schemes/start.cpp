@@ -48,12 +48,8 @@ void start(Flow<Dim>& flow) {
   flow.setup.formulation.find_first_pressure(flow, start, dt);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                         \
-  template void project_at_start<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);          \
-  template void predict_pressure_at_start<Dim>(Flow<Dim>&, const StepStart<Dim>&, double); \
-  template void start<Dim>(Flow<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(project_at_start);
+TAILWATER_IN_2D_AND_3D(predict_pressure_at_start);
+TAILWATER_IN_2D_AND_3D(start);
 
 }  // namespace tailwater

@@ -36,11 +36,7 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   return report;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
-  template PredictedPressure<Dim> predict_pressure<Dim>(Flow<Dim>&, const StepStart<Dim>&, WallDrive<Dim>&, double); \
-  template StepReport two_step<Dim>(Flow<Dim>&, const StepStart<Dim>&, double);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(predict_pressure);
+TAILWATER_IN_2D_AND_3D(two_step);
 
 }  // namespace tailwater

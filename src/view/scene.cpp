@@ -296,11 +296,7 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
           {"scalars", std::move(scalars)}};
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                               \
-  template std::vector<int> pose_of_walls(const Boundary<Dim>&); \
-  template Json scene_json(const CaseSpec&, const Boundary<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(pose_of_walls);
+TAILWATER_IN_2D_AND_3D(scene_json);
 
 }  // namespace tailwater

@@ -109,7 +109,6 @@ std::unique_ptr<const WallModel<Dim>> make_dummies() {
   return std::make_unique<Dummies<Dim>>();
 }
 
-template std::unique_ptr<const WallModel<2>> make_dummies<2>();
-template std::unique_ptr<const WallModel<3>> make_dummies<3>();
+TAILWATER_IN_2D_AND_3D(make_dummies);
 
 }  // namespace tailwater

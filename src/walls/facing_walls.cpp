@@ -43,7 +43,6 @@ double share_of_water(const Walls<Dim>& walls, std::size_t row, double radius) {
   return meet_in_corner(boundary, own, other, radius) ? 0.5 : 0.0;
 }
 
-template double share_of_water<2>(const Walls<2>&, std::size_t, double);
-template double share_of_water<3>(const Walls<3>&, std::size_t, double);
+TAILWATER_IN_2D_AND_3D(share_of_water);
 
 }  // namespace tailwater

@@ -43,9 +43,7 @@ void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& par
   });
 }
 
-template std::vector<int> plates_of_particles(const Walls<2>&, const Particles<2>&);
-template std::vector<int> plates_of_particles(const Walls<3>&, const Particles<3>&);
-template void hide_pairs_behind_plates(const Walls<2>&, const Particles<2>&, Neighbourhood<2>&);
-template void hide_pairs_behind_plates(const Walls<3>&, const Particles<3>&, Neighbourhood<3>&);
+TAILWATER_IN_2D_AND_3D(plates_of_particles);
+TAILWATER_IN_2D_AND_3D(hide_pairs_behind_plates);
 
 }  // namespace tailwater

@@ -113,12 +113,7 @@ void follow_turning_walls(const WallScene<Dim>& scene, const WallTurns<Dim>& tur
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                 \
-  template std::vector<Mat<Dim>> find_curvature<Dim>(const Walls<Dim>&, double, double);                           \
-  template void follow_turning_walls<Dim>(const WallScene<Dim>&, const WallTurns<Dim>&, std::span<const Vec<Dim>>, \
-                                          std::span<Vec<Dim>>, std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_curvature);
+TAILWATER_IN_2D_AND_3D(follow_turning_walls);
 
 }  // namespace tailwater

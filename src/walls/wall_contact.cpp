@@ -87,14 +87,7 @@ std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundar
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template void find_wall_overlap<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double, const Particles<Dim>&,        \
-                                       std::span<double>);                                                            \
-  template std::size_t keep_off_walls<Dim>(const Pairs<Dim>&, const Boundary<Dim>&, double,                           \
-                                           const WallDisplacements<Dim>&, std::span<const Vec<Dim>>, Particles<Dim>&, \
-                                           std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_wall_overlap);
+TAILWATER_IN_2D_AND_3D(keep_off_walls);
 
 }  // namespace tailwater

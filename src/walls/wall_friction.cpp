@@ -126,17 +126,8 @@ void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
   });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                    \
-  template std::vector<FrictionWall<Dim>> find_friction_walls<Dim>(                                                   \
-      const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>, std::span<const Vec<Dim>>);               \
-  template void add_wall_friction<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const FrictionWall<Dim>>, \
-                                       std::span<const Vec<Dim>>, std::span<const Vec<Dim>>, std::span<Vec<Dim>>,     \
-                                       std::span<double>);                                                            \
-  template void find_friction_on_walls<Dim>(const WallScene<Dim>&, const FrictionLaw&, std::span<const Vec<Dim>>,     \
-                                            std::span<const Vec<Dim>>, std::span<const Vec<Dim>>,                     \
-                                            std::span<const double>, std::span<Vec<Dim>>);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_friction_walls);
+TAILWATER_IN_2D_AND_3D(add_wall_friction);
+TAILWATER_IN_2D_AND_3D(find_friction_on_walls);
 
 }  // namespace tailwater

@@ -25,9 +25,6 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
   });
 }
 
-template void find_wet_walls<2>(const Pairs<2>&, const Particles<2>&, double, std::span<double>,
-                                std::span<std::uint8_t>);
-template void find_wet_walls<3>(const Pairs<3>&, const Particles<3>&, double, std::span<double>,
-                                std::span<std::uint8_t>);
+TAILWATER_IN_2D_AND_3D(find_wet_walls);
 
 }  // namespace tailwater
