@@ -12,36 +12,28 @@ namespace tailwater {
 
 template <class Body>
 void for_each(std::size_t count, Body&& body) {
-  for (std::size_t i = 0; i < count; ++i) {
-    body(i);
-  }
+  for (std::size_t i = 0; i < count; ++i) body(i);
 }
 
 /// The same for bodies that return how much they count (a number or a bool); returns the sum.
 template <class Body>
 std::size_t count_each(std::size_t count, Body&& body) {
   std::size_t sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    sum += body(i);
-  }
+  for (std::size_t i = 0; i < count; ++i) sum += body(i);
   return sum;
 }
 
 /// `zero` plus what the body returns for each index, added in ascending order.
 template <class T, class Body>
 T sum_over(std::size_t count, T zero, Body&& body) {
-  for (std::size_t i = 0; i < count; ++i) {
-    zero += body(i);
-  }
+  for (std::size_t i = 0; i < count; ++i) zero += body(i);
   return zero;
 }
 
 /// The largest of `least` and what the body returns for each index.
 template <class Body>
 double largest_over(std::size_t count, double least, Body&& body) {
-  for (std::size_t i = 0; i < count; ++i) {
-    least = std::max<double>(least, body(i));
-  }
+  for (std::size_t i = 0; i < count; ++i) least = std::max<double>(least, body(i));
   return least;
 }
 

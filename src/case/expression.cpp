@@ -56,9 +56,7 @@ ExpressionError unknown_name_error(const std::string& name, std::size_t position
     known.assign(functions.begin(), functions.end());
   } else {
     known.push_back("pi");
-    for (const auto& [number, value] : numbers) {
-      known.push_back(number);
-    }
+    for (const auto& [number, value] : numbers) known.push_back(number);
   }
   return ExpressionError(fmt::format("unknown {} \"{}\" at position {}; {}", is_call ? "function" : "name", name,
                                      position + 1, unknown_name_hint(name, known)),
@@ -86,9 +84,7 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
   if (error.GetCode() == mu::ecEMPTY_EXPRESSION) {
     return ExpressionError("the text is empty; write a number or an expression such as \"2*H\"");
   }
-  if (error.GetCode() == mu::ecMISSING_PARENS) {
-    return ExpressionError("a parenthesis is not closed; add \")\"");
-  }
+  if (error.GetCode() == mu::ecMISSING_PARENS) return ExpressionError("a parenthesis is not closed; add \")\"");
   return ExpressionError(
       fmt::format("cannot read \"{}\" at position {}; write an expression such as \"2*H\"", token, position + 1));
 }
@@ -114,12 +110,8 @@ Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span
   define_functions(parser);
   parser.ClearConst();
   parser.DefineConst("pi", std::numbers::pi);
-  for (const auto& [name, value] : used_numbers(text, numbers)) {
-    parser.DefineConst(name, value);
-  }
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    parser.DefineVar(std::string(variables[i]), &state_->variables[i]);
-  }
+  for (const auto& [name, value] : used_numbers(text, numbers)) parser.DefineConst(name, value);
+  for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(std::string(variables[i]), &state_->variables[i]);
   if (text.size() > longest_text) {
     throw ExpressionError(
         fmt::format("the expression has {} letters; write one of at most {}, with parameters for its parts",
@@ -135,9 +127,7 @@ Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span
     }
   } catch (const mu::Parser::exception_type& error) {
     NamedNumbers known = numbers;
-    for (const std::string_view name : variables) {
-      known.emplace(name, 0.0);
-    }
+    for (const std::string_view name : variables) known.emplace(name, 0.0);
     throw as_expression_error(error, text, known);
   }
 }
@@ -173,9 +163,7 @@ std::vector<std::string> function_names() {
   std::vector<std::string> names;
   mu::Parser parser;
   define_functions(parser);
-  for (const auto& [name, function] : parser.GetFunDef()) {
-    names.push_back(name);
-  }
+  for (const auto& [name, function] : parser.GetFunDef()) names.push_back(name);
   return names;
 }
 

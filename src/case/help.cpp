@@ -34,28 +34,16 @@ std::string courant_text() {
 }
 
 std::string default_text(const TableInfo& table, const KeyInfo& row) {
-  if (row.presence == Presence::required) {
-    return "required";
-  }
-  if (row.value == "[]" || row.value == "\"\"") {
-    return "";
-  }
+  if (row.presence == Presence::required) return "required";
+  if (row.value == "[]" || row.value == "\"\"") return "";
   return table.name == "scheme" && row.key == "courant" ? courant_text() : row.value;
 }
 
 std::string type_text(const KeyInfo& row) {
-  if (row.type == "vector") {
-    return "list of `dimension` numbers";
-  }
-  if (row.type == "points") {
-    return "list of points";
-  }
-  if (row.type == "numbers") {
-    return "list of numbers";
-  }
-  if (row.type == "texts") {
-    return "name or list of names";
-  }
+  if (row.type == "vector") return "list of `dimension` numbers";
+  if (row.type == "points") return "list of points";
+  if (row.type == "numbers") return "list of numbers";
+  if (row.type == "texts") return "name or list of names";
   return row.type;
 }
 
@@ -63,9 +51,7 @@ std::string type_text(const KeyInfo& row) {
 std::string cell(std::string_view text) {
   std::string escaped;
   for (const char letter : text) {
-    if (letter == '|') {
-      escaped += '\\';
-    }
+    if (letter == '|') escaped += '\\';
     escaped += letter;
   }
   return escaped;

@@ -13,9 +13,7 @@ namespace {
 
 std::string array_text(const std::vector<double>& values) {
   std::vector<std::string> texts;
-  for (const double value : values) {
-    texts.push_back(toml_float(value));
-  }
+  for (const double value : values) texts.push_back(toml_float(value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
@@ -95,9 +93,7 @@ void KeyCollector::field(std::string_view key, const VectorField& value, Variabl
                          std::string_view doc) {
   const std::string type = fmt::format("list of `dimension` numbers or expressions of {}", names_of(variables));
   std::vector<std::string> texts;
-  for (const Varying& component : value) {
-    texts.push_back(varying_text(component));
-  }
+  for (const Varying& component : value) texts.push_back(varying_text(component));
   rows_.push_back(
       {key, type, fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional, {}, {}, variables});
 }
@@ -105,9 +101,7 @@ void KeyCollector::field(std::string_view key, const VectorField& value, Variabl
 void KeyCollector::points(std::string_view key, const std::vector<Coordinates>& value, std::string_view unit,
                           std::string_view doc) {
   std::vector<std::string> texts;
-  for (const Coordinates& point : value) {
-    texts.push_back(array_text(point));
-  }
+  for (const Coordinates& point : value) texts.push_back(array_text(point));
   rows_.push_back({key, "points", fmt::format("[{}]", fmt::join(texts, ", ")), unit, "", doc, Presence::optional});
 }
 
@@ -119,9 +113,7 @@ void KeyCollector::numbers(std::string_view key, const std::vector<double>& valu
 void KeyCollector::texts(std::string_view key, const std::vector<std::string>& value,
                          std::span<const std::string_view> allowed, std::string_view doc) {
   std::vector<std::string> texts;
-  for (const std::string& text : value) {
-    texts.push_back(toml_string(text));
-  }
+  for (const std::string& text : value) texts.push_back(toml_string(text));
   rows_.push_back({key,
                    "texts",
                    fmt::format("[{}]", fmt::join(texts, ", ")),

@@ -8,9 +8,7 @@ namespace tailwater {
 
 void check_shape_dimension(std::string_view shape, int dimension, std::string_view instead, TableReader& reader) {
   const toml::node* node = reader.given("shape");
-  if (dimension == 0 || reader.dimension() == 0 || reader.dimension() == dimension) {
-    return;
-  }
+  if (dimension == 0 || reader.dimension() == 0 || reader.dimension() == dimension) return;
   const std::string message = fmt::format("\"{}\" is a shape of {} dimensions, but case.dimension = {}; use {}", shape,
                                           dimension == 2 ? "two" : "three", reader.dimension(), instead);
   if (node != nullptr) {
@@ -22,9 +20,7 @@ void check_shape_dimension(std::string_view shape, int dimension, std::string_vi
 
 void check_box(const Coordinates& min, const Coordinates& max, TableReader& reader) {
   const toml::node* node = reader.given("max");
-  if (node == nullptr || reader.given("min") == nullptr || reader.is_wrong("min") || reader.is_wrong("max")) {
-    return;
-  }
+  if (node == nullptr || reader.given("min") == nullptr || reader.is_wrong("min") || reader.is_wrong("max")) return;
   for (std::size_t d = 0; d < std::min(min.size(), max.size()); ++d) {
     if (max[d] <= min[d]) {
       reader.wrong("max", *node,

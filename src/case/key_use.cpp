@@ -71,9 +71,7 @@ std::span<const KeyUse> key_uses() {
 KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<const KeyInfo> rows) {
   std::string_view selector;
   for (const KeyUse& use : key_uses()) {
-    if (use.table == table && use.mentions(key)) {
-      selector = use.selector;
-    }
+    if (use.table == table && use.mentions(key)) selector = use.selector;
   }
   if (selector.empty()) {
     return {};

@@ -6,17 +6,13 @@ namespace tailwater {
 
 double gravity_magnitude(const PhysicsTable& physics) {
   double magnitude = 0.0;
-  for (const double component : physics.gravity) {
-    magnitude = std::hypot(magnitude, component);
-  }
+  for (const double component : physics.gravity) magnitude = std::hypot(magnitude, component);
   return magnitude;
 }
 
 NamedNumbers named_numbers(const CaseSpec& spec) {
   NamedNumbers numbers{{"dx", spec.particles.spacing}, {"g", gravity_magnitude(spec.physics)}};
-  for (const Parameter& parameter : spec.parameters) {
-    numbers[parameter.name] = parameter.value;
-  }
+  for (const Parameter& parameter : spec.parameters) numbers[parameter.name] = parameter.value;
   return numbers;
 }
 

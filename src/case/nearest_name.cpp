@@ -21,9 +21,7 @@ int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> row_before_last(b.size() + 1);
   std::vector<int> last_row(b.size() + 1);
   std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) {
-    row[j] = static_cast<int>(j);
-  }
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::swap(row_before_last, last_row);
     std::swap(last_row, row);
@@ -32,9 +30,7 @@ int edit_distance(std::string_view a, std::string_view b) {
       const bool is_equal = lower(a[i - 1]) == lower(b[j - 1]);
       row[j] = std::min({last_row[j] + 1, row[j - 1] + 1, last_row[j - 1] + (is_equal ? 0 : 1)});
       const bool is_swap = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
-      if (is_swap) {
-        row[j] = std::min(row[j], row_before_last[j - 2] + 1);
-      }
+      if (is_swap) row[j] = std::min(row[j], row_before_last[j - 2] + 1);
     }
   }
   return row[b.size()];

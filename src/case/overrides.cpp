@@ -63,9 +63,7 @@ std::vector<Step> parse_path(std::string_view path) {
       }
       bracket = segment.empty() ? std::string_view::npos : 0;
     }
-    if (dot == std::string_view::npos) {
-      return steps;
-    }
+    if (dot == std::string_view::npos) return steps;
     path.remove_prefix(dot + 1);
   }
 }
@@ -75,9 +73,7 @@ toml::table parse_value(std::string_view text, std::string_view origin) {
   if (line_of_deep_key(text)) throw Misplaced{fmt::format("the value is nested too deeply; {}", usage)};
   try {
     toml::table table = toml::parse(fmt::format("value = {}", text), origin);
-    if (table.size() == 1) {
-      return table;
-    }
+    if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     // A word or an expression without quotes.
   }
@@ -90,9 +86,7 @@ toml::node* find_named(toml::array& list, const std::string& list_name, const st
   for (std::size_t i = 0; i < list.size(); ++i) {
     const toml::table* table = list[i].as_table();
     names.push_back(table == nullptr ? "" : (*table)["name"].value_or(default_name(list_name, i)));
-    if (table != nullptr && names.back() == name) {
-      return &list[i];
-    }
+    if (table != nullptr && names.back() == name) return &list[i];
   }
   const std::vector<std::string_view> views(names.begin(), names.end());
   throw Misplaced{fmt::format("there is no {} named \"{}\"; {}", list_name, name, unknown_name_hint(name, views))};
@@ -108,9 +102,7 @@ toml::node* find_element(toml::array& list, std::string_view list_name, std::siz
 /// The node one step below `node`; a table that does not exist is made.
 toml::node* descend(toml::node* node, const Step& step, const std::string& above) {
   if (const auto* name = std::get_if<std::string>(&step)) {
-    if (toml::array* list = node->as_array()) {
-      return find_named(*list, above, *name);
-    }
+    if (toml::array* list = node->as_array()) return find_named(*list, above, *name);
     if (toml::table* table = node->as_table()) {
       if (!table->contains(*name)) {
         table->insert(*name, toml::table{});

@@ -17,18 +17,14 @@ namespace {
 constexpr std::size_t longest = 60;  ///< letters of a value that are shown
 
 std::string full_value_text(const toml::node& node) {
-  if (const auto* text = node.as_string()) {
-    return toml_string(text->get());
-  }
+  if (const auto* text = node.as_string()) return toml_string(text->get());
   if (const auto* number = node.as_integer()) {
     return fmt::format("{}", number->get());
   }
   if (const auto* number = node.as_floating_point()) {
     return fmt::format("{}", number->get());
   }
-  if (const auto* flag = node.as_boolean()) {
-    return flag->get() ? "true" : "false";
-  }
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* array = node.as_array()) {
     std::string text = "[";
     for (std::size_t i = 0; i < array->size() && text.size() <= longest; ++i) {
@@ -73,9 +69,7 @@ std::string Problems::text() const {
   std::stable_sort(sorted.begin(), sorted.end(), [](const Line& a, const Line& b) { return a.number < b.number; });
   constexpr std::size_t most_shown = 50;
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) {
-    texts.push_back(sorted[i].text);
-  }
+  for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) texts.push_back(sorted[i].text);
   if (sorted.size() > most_shown) {
     texts.push_back(fmt::format("{}: and {} more problems", file_, sorted.size() - most_shown));
   }

@@ -65,9 +65,7 @@ class CaseReader {
   void tables(std::string_view name, std::vector<Table>& tables, std::string_view) {
     names_.push_back(name);
     const toml::node* node = root_.get(name);
-    if (node == nullptr) {
-      return;
-    }
+    if (node == nullptr) return;
     const toml::array* list = node->as_array();
     const bool are_tables =
         list != nullptr && std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_table(); });
@@ -138,9 +136,7 @@ std::optional<std::string> CaseReader::settle(const std::string& name, const tom
     try {
       value = evaluate(text->get(), context_.numbers);
     } catch (const ExpressionError& error) {
-      if (error.unknown_name() && open.contains(*error.unknown_name())) {
-        return error.unknown_name();
-      }
+      if (error.unknown_name() && open.contains(*error.unknown_name())) return error.unknown_name();
       report(node, key, error.what());
     }
   } else if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) {
@@ -155,9 +151,7 @@ std::optional<std::string> CaseReader::settle(const std::string& name, const tom
 void CaseReader::parameters(std::vector<Parameter>& parameters) {
   names_.push_back("parameters");
   const toml::node* node = root_.get("parameters");
-  if (node == nullptr) {
-    return;
-  }
+  if (node == nullptr) return;
   const toml::table* table = node->as_table();
   if (table == nullptr) {
     report(*node, "parameters", "not a table; write the parameters below a line [parameters]");
@@ -169,9 +163,7 @@ void CaseReader::parameters(std::vector<Parameter>& parameters) {
     return;
   }
   std::set<std::string> open;
-  for (const auto& [name, value] : *table) {
-    open.emplace(name.str());
-  }
+  for (const auto& [name, value] : *table) open.emplace(name.str());
   std::vector<std::string> next(open.begin(), open.end());
   std::map<std::string, std::vector<std::string>> waiting_for;
   while (!next.empty()) {
@@ -226,9 +218,7 @@ void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, cons
 CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
   CaseSources sources;
   const auto add_keys = [&](const toml::table& table, const std::string& start) {
-    for (const auto& [key, node] : table) {
-      sources.add(start + std::string(key.str()), place_text(file, &node.source()));
-    }
+    for (const auto& [key, node] : table) sources.add(start + std::string(key.str()), place_text(file, &node.source()));
   };
   const auto add_tables = [&](std::string_view name, const auto& tables) {
     for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -262,9 +252,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
                       const std::vector<std::string>& overrides) {
   Context context(origin, folder);
   toml::table root = parse_case(text, origin);
-  for (const std::string& problem : apply_overrides(root, overrides)) {
-    context.problems.add_override(problem);
-  }
+  for (const std::string& problem : apply_overrides(root, overrides)) context.problems.add_override(problem);
   CaseSpec spec;
   CaseReader reader(context, root);
   read_foundations(spec, context, reader, root);
@@ -276,9 +264,7 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   }
   if (context.problems.none()) check_across_tables(spec, root, context.problems);
   if (context.problems.none()) read_measurements(spec, root, context.problems);
-  if (!context.problems.none()) {
-    throw InputError(context.problems.text());
-  }
+  if (!context.problems.none()) throw InputError(context.problems.text());
   spec.sources = find_sources(spec, root, origin);
   append_driven_walls(spec);
   return spec;

@@ -27,9 +27,7 @@ std::string home_of(std::string_view key) {
   std::vector<std::string> homes;
   for (const TableInfo& table : case_tables()) {
     for (const KeyInfo& info : table.keys) {
-      if (info.key == key) {
-        homes.push_back(table.heading());
-      }
+      if (info.key == key) homes.push_back(table.heading());
     }
   }
   return homes.empty() ? "" : fmt::format("it belongs to {}; ", fmt::join(homes, " or "));
@@ -61,9 +59,7 @@ void TableReader::integer(std::string_view key, int& value, std::string_view uni
                           std::string_view doc, Presence presence) {
   const toml::node* node = find(key, doc, unit, range_text(range), presence);
   const auto given = node == nullptr ? std::nullopt : evaluated(key, key, *node, unit);
-  if (!given) {
-    return;
-  }
+  if (!given) return;
   const bool is_int = std::trunc(*given) == *given && std::abs(*given) <= std::numeric_limits<int>::max();
   if (is_int && range.contains(*given)) {
     value = static_cast<int>(*given);
@@ -76,9 +72,7 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
                          std::string_view doc, Presence presence) {
   const toml::node* node = find(key, doc, unit, range_text(range), presence);
   const auto given = node == nullptr ? std::nullopt : evaluated(key, key, *node, unit);
-  if (!given) {
-    return;
-  }
+  if (!given) return;
   if (is_too_small(*given, range)) {
     wrong(key, *node,
           fmt::format("too small to be meant; give {}a number of at least {:g}{}", range.low_is_excluded ? "" : "0 or ",
@@ -94,18 +88,14 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
 void TableReader::coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc,
                               Presence presence) {
   if (const toml::node* node = find(key, doc, unit, "", presence)) {
-    if (auto given = point(key, std::string(key), *node, unit)) {
-      value = std::move(*given);
-    }
+    if (auto given = point(key, std::string(key), *node, unit)) value = std::move(*given);
   }
 }
 
 void TableReader::varying(std::string_view key, Varying& value, Variables variables, std::string_view unit,
                           std::string_view doc) {
   if (const toml::node* node = find(key, doc, unit, "", Presence::optional)) {
-    if (auto given = read_varying(key, std::string(key), *node, variables, unit)) {
-      value = std::move(*given);
-    }
+    if (auto given = read_varying(key, std::string(key), *node, variables, unit)) value = std::move(*given);
   }
 }
 
@@ -120,24 +110,18 @@ void TableReader::field(std::string_view key, VectorField& value, Variables vari
                         std::string_view doc) {
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
   const toml::array* list = node == nullptr ? nullptr : components(key, std::string(key), *node, unit);
-  if (list == nullptr) {
-    return;
-  }
+  if (list == nullptr) return;
   VectorField given;
   for (std::size_t i = 0; i < list->size(); ++i) {
     if (auto component = read_varying(key, fmt::format("{}[{}]", key, i), (*list)[i], variables, unit)) {
       given.push_back(std::move(*component));
     }
   }
-  if (given.size() == list->size()) {
-    value = std::move(given);
-  }
+  if (given.size() == list->size()) value = std::move(given);
 }
 
 const toml::array* TableReader::list_at(std::string_view key, const toml::node* node, const std::string& wanted) {
-  if (node != nullptr && !node->is_array()) {
-    wrong(key, *node, wanted);
-  }
+  if (node != nullptr && !node->is_array()) wrong(key, *node, wanted);
   return node == nullptr ? nullptr : node->as_array();
 }
 
@@ -146,9 +130,7 @@ void TableReader::points(std::string_view key, std::vector<Coordinates>& value, 
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
   const toml::array* list =
       list_at(key, node, fmt::format("give a list of points{}, such as [[0, 0], [1, 0]]", in_unit(unit)));
-  if (list == nullptr) {
-    return;
-  }
+  if (list == nullptr) return;
   constexpr std::size_t most = 10000;  // faces are compared with one another
   if (list->size() > most) {
     wrong(key, *node,
@@ -157,9 +139,7 @@ void TableReader::points(std::string_view key, std::vector<Coordinates>& value, 
   }
   std::vector<Coordinates> given;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    if (auto corner = point(key, fmt::format("{}[{}]", key, i), (*list)[i], unit)) {
-      given.push_back(std::move(*corner));
-    }
+    if (auto corner = point(key, fmt::format("{}[{}]", key, i), (*list)[i], unit)) given.push_back(std::move(*corner));
   }
   value = std::move(given);
 }
@@ -169,12 +149,8 @@ void TableReader::numbers(std::string_view key, std::vector<double>& value, std:
   const toml::node* node = find(key, doc, unit, "", Presence::optional);
   const toml::array* list =
       list_at(key, node, fmt::format("give a list of numbers{}, such as [0.5, 1.0]", in_unit(unit)));
-  if (list == nullptr) {
-    return;
-  }
-  if (auto given = elements(key, std::string(key), *list, unit)) {
-    value = std::move(*given);
-  }
+  if (list == nullptr) return;
+  if (auto given = elements(key, std::string(key), *list, unit)) value = std::move(*given);
 }
 
 void TableReader::texts(std::string_view key, std::vector<std::string>& value,
@@ -183,9 +159,7 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
   const std::string choice = allowed.empty() ? "names in quotes" : fmt::format("any of {}", quoted_list(allowed));
   const bool is_one = node != nullptr && node->is_string();
   const toml::array* list = is_one ? nullptr : list_at(key, node, fmt::format("give a list of {}", choice));
-  if (!is_one && list == nullptr) {
-    return;
-  }
+  if (!is_one && list == nullptr) return;
   std::vector<std::string> given;
   for (std::size_t i = 0; i < (is_one ? 1 : list->size()); ++i) {
     const toml::node& element = is_one ? *node : (*list)[i];
@@ -234,13 +208,9 @@ void TableReader::missing(std::string_view key, const std::string& message) {
 }
 
 void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
-  if (source_ == nullptr) {
-    return;
-  }
+  if (source_ == nullptr) return;
   std::vector<std::string_view> valid;
-  for (const KeyInfo& info : keys) {
-    valid.push_back(info.key);
-  }
+  for (const KeyInfo& info : keys) valid.push_back(info.key);
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
       const std::string fate = fate_of(std::string_view(name_).substr(0, name_.find('[')), key.str());
@@ -254,9 +224,7 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
 const toml::node* TableReader::find(std::string_view key, std::string_view doc, std::string_view unit,
                                     std::string_view allowed, Presence presence) {
   const bool is_not_now = !only_.empty() && std::find(only_.begin(), only_.end(), key) == only_.end();
-  if (is_not_now || context_.keys_done.contains(full(key))) {
-    return nullptr;
-  }
+  if (is_not_now || context_.keys_done.contains(full(key))) return nullptr;
   const toml::node* node = given(key);
   if (node == nullptr && presence == Presence::required) {
     missing(key,
@@ -268,9 +236,7 @@ const toml::node* TableReader::find(std::string_view key, std::string_view doc, 
 std::optional<std::size_t> TableReader::chosen(std::string_view key, std::span<const std::string_view> names,
                                                std::string_view doc, Presence presence) {
   const toml::node* node = find(key, doc, "", quoted_list(names), presence);
-  if (node == nullptr) {
-    return std::nullopt;
-  }
+  if (node == nullptr) return std::nullopt;
   const auto* name = node->as_string();
   if (name == nullptr) {
     wrong(key, *node, fmt::format("give one of {}", quoted_list(names)));
@@ -328,9 +294,7 @@ std::optional<Varying> TableReader::read_varying(std::string_view key, const std
   NamedNumbers numbers = context_.numbers;
   if (variables == Variables::height) numbers.erase(std::string(height_name[0]));  // a parameter may have the name
   try {
-    if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) {
-      return text->get();
-    }
+    if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) return text->get();
   } catch (const ExpressionError& error) {
     wrong(key, *text, error.what(), place);
     return std::nullopt;
@@ -342,9 +306,7 @@ std::optional<std::vector<double>> TableReader::elements(std::string_view key, c
                                                          const toml::array& list, std::string_view unit) {
   std::vector<double> values;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (const auto value = evaluated(key, fmt::format("{}[{}]", place, i), list[i], unit)) {
-      values.push_back(*value);
-    }
+    if (const auto value = evaluated(key, fmt::format("{}[{}]", place, i), list[i], unit)) values.push_back(*value);
   }
   return values.size() == list.size() ? std::optional(values) : std::nullopt;
 }

@@ -74,9 +74,7 @@ class TableReader {
     only_ = keys;
     Table::describe(table, *this);
     only_.clear();
-    for (const std::string_view key : keys) {
-      context_.keys_done.insert(full(key));
-    }
+    for (const std::string_view key : keys) context_.keys_done.insert(full(key));
   }
 
   /// The node that the file has for a key; null if there is none.

@@ -238,9 +238,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
 void check(const DomainTable& domain, TableReader& reader) {
   const auto check_period = [&](std::string_view key, const std::vector<double>& range, int least_dimension) {
     const toml::node* node = reader.given(key);
-    if (node == nullptr || reader.is_wrong(key) || range.empty()) {
-      return;
-    }
+    if (node == nullptr || reader.is_wrong(key) || range.empty()) return;
     if (range.size() != 2) {
       reader.wrong(key, *node, "give two numbers in m, [low, high], or remove the key");
     } else if (range[0] >= range[1]) {
@@ -258,9 +256,7 @@ void check(const DomainTable& domain, TableReader& reader) {
 void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader) {
   for (const KeyInfo& info : rows) {
     const auto [need, use] = key_verdict(table, info.key, rows);
-    if (use == nullptr || reader.is_wrong(use->selector)) {
-      continue;
-    }
+    if (use == nullptr || reader.is_wrong(use->selector)) continue;
     const std::string choice = fmt::format("{} = \"{}\"", use->selector, use->choice);
     const toml::node* node = reader.given(info.key);
     if (need == KeyNeed::needed && node == nullptr) {

@@ -48,9 +48,7 @@ std::string toml_string(std::string_view text) {
 
 std::string toml_float(double value) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) {
-    text += ".0";
-  }
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 

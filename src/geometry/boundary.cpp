@@ -72,9 +72,7 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
       }
       is_far = is_far || std::max(low - x[axis], x[axis] - high) > best_distance + tie;
     }
-    if (is_far) {
-      return;
-    }
+    if (is_far) return;
     const Vec<Dim> point = closest_point(face, x);
     const double distance = (x - point).norm();
     const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;

@@ -57,9 +57,7 @@ template <int Dim>
 bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance) {
   const double before = face.height(from);
   const double after = face.height(to);
-  if (std::min(before, after) > -tolerance || std::max(before, after) < tolerance) {
-    return false;
-  }
+  if (std::min(before, after) > -tolerance || std::max(before, after) < tolerance) return false;
   const Vec<Dim> hit = meet(face, from, to);
   return (closest_point(face, hit) - hit).norm() <= tolerance;
 }

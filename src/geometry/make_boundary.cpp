@@ -50,9 +50,7 @@ int body_of(const CaseSpec& spec, std::size_t w) {
   const WallTable& wall = spec.walls[w];
   const auto varies = [](const Varying& value) { return std::holds_alternative<std::string>(value); };
   const bool is_driven = wall.drive.by != Drive::By::wall || !wall.series.empty();
-  if (!is_driven && !varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) {
-    return resting_body;
-  }
+  if (!is_driven && !varies(wall.rotation) && std::ranges::none_of(wall.displacement, varies)) return resting_body;
   const auto same = std::ranges::find_if(spec.walls, [&](const WallTable& other) {
     return other.displacement == wall.displacement && other.rotation == wall.rotation && other.pivot == wall.pivot &&
            other.axis == wall.axis && other.drive == wall.drive && other.motion == wall.motion;
@@ -108,9 +106,7 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   for (std::size_t k = 0; k < face_count; ++k) {
     Vec<2> from = points[k];
     Vec<2> to = points[(k + 1) % points.size()];
-    if (!fluid_is_left) {
-      std::swap(from, to);
-    }
+    if (!fluid_is_left) std::swap(from, to);
     const Vec<2> along = (to - from).normalized();
     faces.push_back({{from, to}, Vec<2>(-along[1], along[0]), wall});
   }
@@ -125,9 +121,7 @@ void append_box_face(const std::array<Vec<Dim>, 2>& ends, int axis, int side, bo
   const auto corner = [&](int first, int second) {
     Vec<Dim> x = ends[side];
     x[(axis + 1) % Dim] = ends[first][(axis + 1) % Dim];
-    if constexpr (Dim == 3) {
-      x[(axis + 2) % Dim] = ends[second][(axis + 2) % Dim];
-    }
+    if constexpr (Dim == 3) x[(axis + 2) % Dim] = ends[second][(axis + 2) % Dim];
     return x;
   };
   if constexpr (Dim == 2) {
@@ -136,9 +130,7 @@ void append_box_face(const std::array<Vec<Dim>, 2>& ends, int axis, int side, bo
     faces.push_back({{corner(upwards ? 0 : 1, 0), corner(upwards ? 1 : 0, 0)}, normal, wall});
   } else {
     std::array<Vec<3>, 4> c{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-    if (sign < 0.0) {
-      std::reverse(c.begin(), c.end());
-    }
+    if (sign < 0.0) std::reverse(c.begin(), c.end());
     faces.push_back({{c[0], c[1], c[2]}, normal, wall});
     faces.push_back({{c[0], c[2], c[3]}, normal, wall});
   }
@@ -271,9 +263,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
                                    name_of(table.shape)));
     }
     const double reach = dummy_layers(spec) * spec.particles.spacing;
-    if (table.shape == WallShape::plate) {
-      require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
-    }
+    if (table.shape == WallShape::plate) require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
     if (compared > most_faces) {

@@ -64,9 +64,7 @@ class PointGrid {
     for_each_around<Dim>(cell_of<Dim>(x, radius_), [&](const Cell<Dim>& c) {
       const auto found = first_.find(cell_key<Dim>(c));
       for (int i = found == first_.end() ? -1 : found->second; i >= 0; i = next_[i]) {
-        if ((points_[i] - x).norm() < radius_) {
-          visit(i);
-        }
+        if ((points_[i] - x).norm() < radius_) visit(i);
       }
     });
   }

@@ -33,9 +33,7 @@ Where Polygon::where(const Vec<2>& x) const {
   for (const int i : edges_[static_cast<std::size_t>(band)]) {
     const Vec<2>& a = corners_[i == 0 ? corners_.size() - 1 : i - 1];
     const Vec<2>& b = corners_[i];
-    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance_) {
-      return Where::on_outline;
-    }
+    if ((x - closest_point(WallFace<2>{{a, b}, Vec<2>::Zero()}, x)).norm() <= tolerance_) return Where::on_outline;
     if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {
       is_inside = !is_inside;
     }

@@ -193,9 +193,7 @@ void require_no_links(const fs::path& run) {
 FolderLock make_run_folder(const fs::path& path, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() != fs::file_type::not_found) {
-    require(error, "read", path);
-  }
+  if (status.type() != fs::file_type::not_found) require(error, "read", path);
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("output folder '{}' is a file: name another folder", path.string()));
   }

@@ -77,9 +77,7 @@ template <class Value, int Dim>
 std::vector<Value> three_components(std::span<const Vec<Dim>> vectors) {
   std::vector<Value> values(3 * vectors.size(), Value(0));
   for_each(vectors.size(), [&](std::size_t i) {
-    for (int d = 0; d < Dim; ++d) {
-      values[3 * i + d] = static_cast<Value>(vectors[i][d]);
-    }
+    for (int d = 0; d < Dim; ++d) values[3 * i + d] = static_cast<Value>(vectors[i][d]);
   });
   return values;
 }
@@ -133,9 +131,7 @@ void append_piece_xml(std::string& xml, const EncodedPiece& piece, std::size_t p
   fmt::format_to(std::back_inserter(xml), "    <Piece NumberOfPoints=\"{}\" NumberOf{}=\"{}\">\n", piece.count, kind,
                  piece.count / piece.corners);
   xml += "      <PointData>\n";
-  for (const EncodedPiece::Array& field : piece.fields) {
-    append_array_xml(xml, field, piece_offset);
-  }
+  for (const EncodedPiece::Array& field : piece.fields) append_array_xml(xml, field, piece_offset);
   xml += "      </PointData>\n      <Points>\n";
   append_array_xml(xml, piece.points, piece_offset);
   fmt::format_to(std::back_inserter(xml), "      </Points>\n      <{}>\n", kind);

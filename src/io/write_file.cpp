@@ -34,17 +34,13 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
   }
   int error_number = 0;
   for (const std::string_view part : parts) {
-    if (error_number == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) {
-      error_number = errno;
-    }
+    if (error_number == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error_number = errno;
   }
   if (error_number == 0 && lasting == Lasting::on_disk && (std::fflush(file) != 0 || syncfs(fileno(file)) != 0)) {
     error_number = errno;
   }
   // A full disk often shows only when the last buffer is written or the file is closed.
-  if (std::fclose(file) != 0 && error_number == 0) {
-    error_number = errno;
-  }
+  if (std::fclose(file) != 0 && error_number == 0) error_number = errno;
   return error_number;
 }
 
@@ -119,9 +115,7 @@ void replace_file(const std::filesystem::path& path, std::span<const std::string
   std::filesystem::path temporary = path;
   temporary += temporary_ending;
   int error_number = write_parts(temporary, parts, lasting);
-  if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
-    error_number = errno;
-  }
+  if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error_number = errno;
   if (error_number != 0) {
     std::remove(temporary.c_str());
     throw_io_error("write", path, error_number);

@@ -48,9 +48,8 @@ Kernel<Dim, float> in_single_precision(const Kernel<Dim>& kernel) {
 /// Calls body with the kernel that was chosen. The default one is asked for first, and in the caller's loop.
 template <int Dim, class Real, class Body>
 inline auto with_kernel(const Kernel<Dim, Real>& kernel, Body&& body) {
-  if (const auto* wendland = std::get_if<WendlandC2<Dim, Real>>(&kernel)) [[likely]] {
+  if (const auto* wendland = std::get_if<WendlandC2<Dim, Real>>(&kernel)) [[likely]]
     return body(*wendland);
-  }
   return std::visit(body, kernel);
 }
 

@@ -9,9 +9,7 @@ void TriangularSweeps::forward(double omega, std::span<const double> b, std::spa
 
 void TriangularSweeps::backward(double omega, std::span<const double> b, std::span<double> x) const {
   const LinearSystem::Part behind = system_.behind();
-  for (std::size_t i = b.size(); i-- > 0;) {
-    x[i] = omega * (b[i] + system_.scale(i) * behind.sum_back(i, x.data()));
-  }
+  for (std::size_t i = b.size(); i-- > 0;) x[i] = omega * (b[i] + system_.scale(i) * behind.sum_back(i, x.data()));
 }
 
 void TriangularSweeps::times_lower(double omega, std::span<const double> b, std::span<double> x) const {

@@ -121,9 +121,7 @@ template <int Dim>
 typename WallPath<Dim>::Motion WallPath<Dim>::make_motion(const CaseSpec& spec, const WallTable& table,
                                                           const std::string& owner) {
   if (table.drive.by == Drive::By::gate) return MotionOfGate<Dim>(spec, spec.gates[table.drive.index]);
-  if (table.drive.by == Drive::By::wave_maker) {
-    return MotionOfMaker<Dim>(spec, spec.wave_makers[table.drive.index]);
-  }
+  if (table.drive.by == Drive::By::wave_maker) return MotionOfMaker<Dim>(spec, spec.wave_makers[table.drive.index]);
   if (!table.series.empty()) return MotionOfFile<Dim>(table.series);
   return WrittenMotion<Dim>(spec, table, owner);
 }
@@ -263,9 +261,7 @@ double WallMotion<Dim>::farthest_corner(int wall, const AffineMap<Dim>& before, 
   double farthest = 0.0;
   for (const WallFace<Dim>& face : drawn_faces_) {
     if (face.wall != wall) continue;
-    for (const Vec<Dim>& corner : face.corners) {
-      farthest = std::max(farthest, (after(corner) - before(corner)).norm());
-    }
+    for (const Vec<Dim>& corner : face.corners) farthest = std::max(farthest, (after(corner) - before(corner)).norm());
   }
   return farthest;
 }

@@ -59,21 +59,15 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
   std::vector<std::int64_t> cell(positions.size());
   for_each(positions.size(), [&](std::size_t i) {
     cell[i] = 0;
-    for (int d = 0; d < Dim; ++d) {
-      cell[i] = cell[i] * count_[d] + static_cast<std::int64_t>(in_cells(positions[i], d));
-    }
+    for (int d = 0; d < Dim; ++d) cell[i] = cell[i] * count_[d] + static_cast<std::int64_t>(in_cells(positions[i], d));
   });
   cell_begin_.assign(cells + 1, 0);
   for (const std::int64_t c : cell) ++cell_begin_[c + 1];
-  for (std::int64_t c = 0; c < cells; ++c) {
-    cell_begin_[c + 1] += cell_begin_[c];
-  }
+  for (std::int64_t c = 0; c < cells; ++c) cell_begin_[c + 1] += cell_begin_[c];
   std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
   size_ = positions.size();
   order_.resize(size_ + batch);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    order_[next[cell[i]]++] = static_cast<std::int32_t>(i);
-  }
+  for (std::size_t i = 0; i < positions.size(); ++i) order_[next[cell[i]]++] = static_cast<std::int32_t>(i);
 }
 
 template class CellGrid<2>;

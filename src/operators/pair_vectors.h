@@ -95,9 +95,7 @@ struct PairVectorField {
     SymmetricLanes<Dim> corrections;
     for (int n = 0; n < symmetric_size<Dim>; ++n) corrections.packed[n] = own.correction[n] + other[correction + n];
     const VecLanes<Dim> corrected = corrections.times(pair.place.d);
-    for (int a = 0; a < Dim; ++a) {
-      pair.a.at[a] = -pair.F * (0.5F * corrected.at[a] - (own.l[a] - other[l + a]));
-    }
+    for (int a = 0; a < Dim; ++a) pair.a.at[a] = -pair.F * (0.5F * corrected.at[a] - (own.l[a] - other[l + a]));
     return pair;
   }
 

@@ -60,9 +60,7 @@ struct LevelMap {
       }
     }
     memory = std::make_shared<std::vector<double>>(values_before_lines + values_per_line * lines.size(), 0.0);
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      of(k, largest) = of(k, last) = bed(k);
-    }
+    for (std::size_t k = 0; k < lines.size(); ++k) of(k, largest) = of(k, last) = bed(k);
   }
 
   double& time_of_last_reading() const { return (*memory)[0]; }

@@ -36,9 +36,7 @@ std::vector<Vec<Dim>> places_between(const ProbeTable& probe, double step) {
   const Vec<Dim> to = to_vec<Dim>(probe.to, label(probe), "to");
   const int count = pieces_of_at_most(step, (to - from).norm());
   std::vector<Vec<Dim>> places;
-  for (int k = 0; k < count; ++k) {
-    places.push_back(from + (k + 0.5) / count * (to - from));
-  }
+  for (int k = 0; k < count; ++k) places.push_back(from + (k + 0.5) / count * (to - from));
   return places;
 }
 

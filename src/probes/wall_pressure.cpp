@@ -64,9 +64,7 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
 template <int Dim>
 Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) {
   Region<Dim> region{points.front().at(time), points.back().at(time)};
-  for (const PointOnWall<Dim>& point : points) {
-    region.margin = std::max(region.margin, region.distance(point.at(time)));
-  }
+  for (const PointOnWall<Dim>& point : points) region.margin = std::max(region.margin, region.distance(point.at(time)));
   return region;
 }
 

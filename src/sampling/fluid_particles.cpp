@@ -94,9 +94,7 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   const double dx = spec.particles.spacing;
   const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
   if (wall.face < 0) return false;
-  if (traits_of(spec).walls.on_wall) {
-    return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
-  }
+  if (traits_of(spec).walls.on_wall) return std::abs(wall.signed_distance) < (0.5 - corner_tolerance) * dx;
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 

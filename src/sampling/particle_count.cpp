@@ -38,9 +38,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
     }
   }
   const int layers = traits_of(spec).walls.behind ? dummy_layers(spec) : 1;
-  for (const WallFace<Dim>& face : boundary.faces) {
-    count.wall += layers * face.measure() * dx / power<Dim>(dx);
-  }
+  for (const WallFace<Dim>& face : boundary.faces) count.wall += layers * face.measure() * dx / power<Dim>(dx);
   return count;
 }
 

@@ -86,17 +86,13 @@ std::vector<Run> make_runs(const Boundary<2>& boundary, const Joints& joints) {
       run.faces.push_back(f);
       is_taken[f] = true;
       run.after = joints.next[f];
-      if (run.after < 0 || is_taken[run.after] || is_sharp(boundary, f, run.after)) {
-        break;
-      }
+      if (run.after < 0 || is_taken[run.after] || is_sharp(boundary, f, run.after)) break;
       f = run.after;
     }
     return run;
   };
   for (int f = 0; f < count; ++f) {
-    if (joints.previous[f] < 0 || is_sharp(boundary, joints.previous[f], f)) {
-      runs.push_back(follow(f));
-    }
+    if (joints.previous[f] < 0 || is_sharp(boundary, joints.previous[f], f)) runs.push_back(follow(f));
   }
   for (int f = 0; f < count; ++f) {
     if (!is_taken[f]) {
@@ -128,9 +124,7 @@ std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, doubl
   corners.push_back(run.after < 0 ? Vec<2>(last.corners[1] - depth * last.normal)
                                   : mitre(last, face(run.after), depth));
   std::vector<double> along{0.0};
-  for (std::size_t k = 1; k < corners.size(); ++k) {
-    along.push_back(along.back() + (corners[k] - corners[k - 1]).norm());
-  }
+  for (std::size_t k = 1; k < corners.size(); ++k) along.push_back(along.back() + (corners[k] - corners[k - 1]).norm());
 
   // In steps: distance of the first and last place from the run's ends.
   const double head = run.is_closed ? 0.5 : run.before < 0 ? free_end : 0.0;
@@ -144,9 +138,7 @@ std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, doubl
   std::size_t piece = 1;
   for (int k = 0; k < steps + (leaves_out_last ? 0 : 1); ++k) {
     const double s = (head + k) * step;
-    while (piece + 1 < along.size() && along[piece] < s) {
-      ++piece;
-    }
+    while (piece + 1 < along.size() && along[piece] < s) ++piece;
     const double length = along[piece] - along[piece - 1];
     const double share = length > 0.0 ? std::min((s - along[piece - 1]) / length, 1.0) : 0.0;
     places.push_back(corners[piece - 1] + share * (corners[piece] - corners[piece - 1]));

@@ -58,9 +58,7 @@ WallParticles<3> sample_side(const Boundary<3>& boundary, const WallPlate& plate
   const Vec<3> normal = is_front ? screen.normal : Vec<3>(-screen.normal);
   const std::array<double, 2> length{screen.range[0][1], screen.range[1][1]};
   std::array<int, 2> count{};
-  for (const int axis : {0, 1}) {
-    count[axis] = std::max(1, static_cast<int>(std::lround(length[axis] / layers.spacing)));
-  }
+  for (const int axis : {0, 1}) count[axis] = std::max(1, static_cast<int>(std::lround(length[axis] / layers.spacing)));
   WallParticleCollector<3> collector(boundary, layers);
   const int more = layers.count;
   for (int layer = 0; layer < layers.count; ++layer) {

@@ -259,9 +259,7 @@ std::string planes_of(const Frame& frame, const FramesBefore& before) {
   }
   for (std::size_t s = 0; s < now.scalar.size(); ++s) {
     std::vector<std::uint8_t> residuals = predictor.scalars(s);
-    for (std::size_t i = 0; i < count; ++i) {
-      residuals[i] = static_cast<std::uint8_t>(now.scalar[s][i] - residuals[i]);
-    }
+    for (std::size_t i = 0; i < count; ++i) residuals[i] = static_cast<std::uint8_t>(now.scalar[s][i] - residuals[i]);
     planes.append(reinterpret_cast<const char*>(residuals.data()), count);
   }
   return planes;

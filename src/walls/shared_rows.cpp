@@ -141,9 +141,7 @@ template <int Dim>
 void SharedRows<Dim>::bring(Walls<Dim>& walls, std::vector<std::int64_t> numbers) {
   const auto size = static_cast<std::size_t>(ranks_.size());
   std::vector<std::vector<std::int32_t>> asked(size);
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    asked[home_of(numbers[k])].push_back(static_cast<std::int32_t>(k));
-  }
+  for (std::size_t k = 0; k < numbers.size(); ++k) asked[home_of(numbers[k])].push_back(static_cast<std::int32_t>(k));
   std::vector<int> asker(numbers.size(), ranks_.rank());
   const ExchangePlan question(ranks_, numbers.size(), asked);
   question.exchange(numbers, asker);
