@@ -1,4 +1,4 @@
-// The named alternatives that a case file can select. Each enumeration lists its names here, once, in the order of its
+// The named alternatives that a case file can select. The names of an enumeration stand below it, in the order of its
 // enumerators; the reader, the effective case, the error messages and the help all use this list.
 #pragma once
 
@@ -8,28 +8,89 @@
 
 namespace tailwater {
 
+/// The names of an enumeration; an array where it has some.
+template <class Enumeration>
+inline constexpr auto choices = nullptr;
+
 enum class BlockShape { box, polygon, fill, mesh };
+template <>
+inline constexpr auto choices<BlockShape> = std::to_array<std::string_view>({"box", "polygon", "fill", "mesh"});
+
 enum class WallShape { polyline, polygon, box, mesh, plate };
+template <>
+inline constexpr auto choices<WallShape> = std::to_array<std::string_view>({"polyline", "polygon", "box", "mesh",
+                                                                            "plate"});
+
 enum class FluidSide { left, right, inside, outside, above, below, front, back };
+template <>
+inline constexpr auto choices<FluidSide> = std::to_array<std::string_view>({"left", "right", "inside", "outside",
+                                                                            "above", "below", "front", "back"});
+
 enum class Slip { free, no_slip, partial };
+template <>
+inline constexpr auto choices<Slip> = std::to_array<std::string_view>({"free", "no-slip", "partial"});
+
 enum class Turbulence { none, spalart_allmaras };
+template <>
+inline constexpr auto choices<Turbulence> = std::to_array<std::string_view>({"none", "spalart-allmaras"});
+
 enum class AirPockets { none, adiabatic, isothermal };
+template <>
+inline constexpr auto choices<AirPockets> = std::to_array<std::string_view>({"none", "adiabatic", "isothermal"});
+
 enum class AxisDirection { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z };
+template <>
+inline constexpr auto choices<AxisDirection> = std::to_array<std::string_view>({"-x", "+x", "-y", "+y", "-z", "+z"});
+
 enum class MakerType { piston, flap };
+template <>
+inline constexpr auto choices<MakerType> = std::to_array<std::string_view>({"piston", "flap"});
+
 enum class WaveKind { regular, solitary, jonswap, none };
+template <>
+inline constexpr auto choices<WaveKind> = std::to_array<std::string_view>({"regular", "solitary", "jonswap", "none"});
+
 enum class Absorption { none, active };
+template <>
+inline constexpr auto choices<Absorption> = std::to_array<std::string_view>({"none", "active"});
+
 enum class GateMotion { speed, acceleration, file };
+template <>
+inline constexpr auto choices<GateMotion> = std::to_array<std::string_view>({"speed", "acceleration", "file"});
 
 enum class SchemeName { farzin2014, farmani2020 };
+template <>
+inline constexpr auto choices<SchemeName> = std::to_array<std::string_view>({"farzin2014", "farmani2020"});
+
 enum class Formulation { robust, published };
+template <>
+inline constexpr auto choices<Formulation> = std::to_array<std::string_view>({"robust", "published"});
+
 enum class Integrator { explicit_projection, implicit_projection };
+template <>
+inline constexpr auto choices<Integrator> = std::to_array<std::string_view>({"explicit", "implicit"});
 
 enum class PairVectors { kernel, corrected, corrected_to_surface };
+template <>
+inline constexpr auto choices<PairVectors> = std::to_array<std::string_view>({"kernel", "corrected",
+                                                                              "corrected-to-surface"});
+
 enum class DivergenceFree { start, midway };
+template <>
+inline constexpr auto choices<DivergenceFree> = std::to_array<std::string_view>({"start", "midway"});
+
 enum class Displacement { new_velocity, mean_velocity };
+template <>
+inline constexpr auto choices<Displacement> = std::to_array<std::string_view>({"new-velocity", "mean-velocity"});
 
 enum class KrylovMethod { automatic, bicgstab, gmres, fgmres };
+template <>
+inline constexpr auto choices<KrylovMethod> = std::to_array<std::string_view>({"auto", "bicgstab", "gmres", "fgmres"});
+
 enum class PreconditionerName { automatic, ssor, cell_multigrid, ilu, boomeramg, gamg, jacobi };
+template <>
+inline constexpr auto choices<PreconditionerName> =
+    std::to_array<std::string_view>({"auto", "ssor", "cell-multigrid", "ilu", "boomeramg", "gamg", "jacobi"});
 
 enum class ProbeType {
   depth,
@@ -50,108 +111,10 @@ enum class ProbeType {
   velocity_profile,
   pockets,
 };
-
-template <class Enumeration>
-struct Choices;
-
 template <>
-struct Choices<BlockShape> {
-  static constexpr std::array<std::string_view, 4> names{"box", "polygon", "fill", "mesh"};
-};
-template <>
-struct Choices<WallShape> {
-  static constexpr std::array<std::string_view, 5> names{"polyline", "polygon", "box", "mesh", "plate"};
-};
-template <>
-struct Choices<FluidSide> {
-  static constexpr std::array<std::string_view, 8> names{"left",  "right", "inside", "outside",
-                                                         "above", "below", "front",  "back"};
-};
-template <>
-struct Choices<Slip> {
-  static constexpr std::array<std::string_view, 3> names{"free", "no-slip", "partial"};
-};
-template <>
-struct Choices<Turbulence> {
-  static constexpr std::array<std::string_view, 2> names{"none", "spalart-allmaras"};
-};
-template <>
-struct Choices<AirPockets> {
-  static constexpr std::array<std::string_view, 3> names{"none", "adiabatic", "isothermal"};
-};
-template <>
-struct Choices<AxisDirection> {
-  static constexpr std::array<std::string_view, 6> names{"-x", "+x", "-y", "+y", "-z", "+z"};
-};
-template <>
-struct Choices<MakerType> {
-  static constexpr std::array<std::string_view, 2> names{"piston", "flap"};
-};
-template <>
-struct Choices<WaveKind> {
-  static constexpr std::array<std::string_view, 4> names{"regular", "solitary", "jonswap", "none"};
-};
-template <>
-struct Choices<Absorption> {
-  static constexpr std::array<std::string_view, 2> names{"none", "active"};
-};
-template <>
-struct Choices<GateMotion> {
-  static constexpr std::array<std::string_view, 3> names{"speed", "acceleration", "file"};
-};
-template <>
-struct Choices<SchemeName> {
-  static constexpr std::array<std::string_view, 2> names{"farzin2014", "farmani2020"};
-};
-template <>
-struct Choices<Formulation> {
-  static constexpr std::array<std::string_view, 2> names{"robust", "published"};
-};
-template <>
-struct Choices<Integrator> {
-  static constexpr std::array<std::string_view, 2> names{"explicit", "implicit"};
-};
-template <>
-struct Choices<PairVectors> {
-  static constexpr std::array<std::string_view, 3> names{"kernel", "corrected", "corrected-to-surface"};
-};
-template <>
-struct Choices<DivergenceFree> {
-  static constexpr std::array<std::string_view, 2> names{"start", "midway"};
-};
-template <>
-struct Choices<Displacement> {
-  static constexpr std::array<std::string_view, 2> names{"new-velocity", "mean-velocity"};
-};
-template <>
-struct Choices<KrylovMethod> {
-  static constexpr std::array<std::string_view, 4> names{"auto", "bicgstab", "gmres", "fgmres"};
-};
-template <>
-struct Choices<PreconditionerName> {
-  static constexpr std::array<std::string_view, 7> names{"auto",      "ssor", "cell-multigrid", "ilu",
-                                                         "boomeramg", "gamg", "jacobi"};
-};
-template <>
-struct Choices<ProbeType> {
-  static constexpr std::array<std::string_view, 17> names{"depth",
-                                                          "wall-pressure",
-                                                          "wall-pressure-mean",
-                                                          "front",
-                                                          "profile",
-                                                          "pressure",
-                                                          "velocity",
-                                                          "energy",
-                                                          "volume",
-                                                          "discharge",
-                                                          "force",
-                                                          "pressure-map",
-                                                          "motion",
-                                                          "run-up",
-                                                          "level-map",
-                                                          "velocity-profile",
-                                                          "pockets"};
-};
+inline constexpr auto choices<ProbeType> = std::to_array<std::string_view>(
+    {"depth", "wall-pressure", "wall-pressure-mean", "front", "profile", "pressure", "velocity", "energy", "volume",
+     "discharge", "force", "pressure-map", "motion", "run-up", "level-map", "velocity-profile", "pockets"});
 
 /// Faces of an axis-parallel box, by the direction of their outward normal; in 2D the first four.
 inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
@@ -162,7 +125,7 @@ inline constexpr std::array<std::string_view, 6> field_names{"pressure",        
 
 template <class Enumeration>
 constexpr std::string_view name_of(Enumeration value) {
-  return Choices<Enumeration>::names[static_cast<std::size_t>(value)];
+  return choices<Enumeration>[static_cast<std::size_t>(value)];
 }
 
 }  // namespace tailwater

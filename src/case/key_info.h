@@ -59,7 +59,7 @@ class KeyCollector {
 
   template <class Enumeration>
   void choice(std::string_view key, Enumeration value, std::string_view doc, Presence presence = Presence::optional) {
-    add_choice(key, name_of(value), Choices<Enumeration>::names, doc, presence);
+    add_choice(key, name_of(value), choices<Enumeration>, doc, presence);
   }
 
   std::vector<KeyInfo> take() { return std::move(rows_); }

@@ -63,7 +63,7 @@ class TableReader {
 
   template <class Enumeration>
   void choice(std::string_view key, Enumeration& value, std::string_view doc, Presence presence = Presence::optional) {
-    if (const auto index = chosen(key, Choices<Enumeration>::names, doc, presence)) {
+    if (const auto index = chosen(key, choices<Enumeration>, doc, presence)) {
       value = static_cast<Enumeration>(*index);
     }
   }

@@ -110,10 +110,10 @@ TEST(KeyUses, FitTheTables) {
       EXPECT_EQ(rows, 1) << table << ' ' << selector << ' ' << name;
     }
   };
-  expect_rows("fluid", "shape", Choices<BlockShape>::names);
-  expect_rows("wall", "shape", Choices<WallShape>::names);
-  expect_rows("wall", "slip", Choices<Slip>::names);
-  expect_rows("probe", "type", Choices<ProbeType>::names);
+  expect_rows("fluid", "shape", choices<BlockShape>);
+  expect_rows("wall", "shape", choices<WallShape>);
+  expect_rows("wall", "slip", choices<Slip>);
+  expect_rows("probe", "type", choices<ProbeType>);
 }
 
 }  // namespace
