@@ -10,77 +10,31 @@
 #include "base/error.h"
 
 namespace tailwater {
+
+void require_fit(bool condition, const char* part) {
+  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
+}
+
+// There may be many.
+inline void to_json(nlohmann::json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
+inline void from_json(const nlohmann::json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
+
+/// Saves a struct as its members. A new one does not compile until it is named here.
+#define TAILWATER_SAVED(Struct, ...)                      \
+  NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Struct, __VA_ARGS__) \
+  [[maybe_unused]] static void has_no_more(const Struct& all) { [[maybe_unused]] const auto& [__VA_ARGS__] = all; }
+
+TAILWATER_SAVED(Passed, particles, volume, energy)
+TAILWATER_SAVED(LevelMiss, mean, lasts, since, total, most)
+TAILWATER_SAVED(OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
+                entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,
+                short_steps)
+TAILWATER_SAVED(MakerState, correction, rate, time)
+TAILWATER_SAVED(AirPocket, number, gas, volume, torn, cells)
+TAILWATER_SAVED(AirState, pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost,
+                energy_vented, energy_set)
+
 namespace {
-
-nlohmann::json json_of(const Passed& passed) {
-  const auto& [particles, volume, energy] = passed;
-  return {{"particles", particles}, {"volume", volume}, {"energy", energy}};
-}
-
-Passed passed_of(const nlohmann::json& json) { return {json.at("particles"), json.at("volume"), json.at("energy")}; }
-
-nlohmann::json json_of(const LevelMiss& miss) {
-  const auto& [mean, lasts, since, total, most] = miss;
-  return {{"mean", mean}, {"lasts", lasts}, {"since", since}, {"total", total}, {"most", most}};
-}
-
-LevelMiss miss_of(const nlohmann::json& json) {
-  return {json.at("mean"), json.at("lasts"), json.at("since"), json.at("total"), json.at("most")};
-}
-
-nlohmann::json json_of(const OpenEndState& end) {
-  const auto& [is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate, entry_speed,
-               depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived, short_steps] =
-      end;
-  return {{"is_wet", is_wet},
-          {"wet_time", wet_time},
-          {"speed", speed},
-          {"speed_beyond", speed_beyond},
-          {"invariant", invariant},
-          {"mean_speed", mean_speed},
-          {"depth", depth},
-          {"depth_rate", depth_rate},
-          {"entry_speed", entry_speed},
-          {"depth_at_gauge", depth_at_gauge},
-          {"depth_in_middle", depth_in_middle},
-          {"border_speed", border_speed},
-          {"gain", gain},
-          {"miss", json_of(miss)},
-          {"asked", asked},
-          {"rows", rows},
-          {"departed", json_of(departed)},
-          {"arrived", json_of(arrived)},
-          {"short_steps", short_steps}};
-}
-
-OpenEndState open_end_of(const nlohmann::json& json) {
-  return {json.at("is_wet"),
-          json.at("wet_time"),
-          json.at("speed"),
-          json.at("speed_beyond"),
-          json.at("invariant"),
-          json.at("mean_speed"),
-          json.at("depth"),
-          json.at("depth_rate"),
-          json.at("entry_speed"),
-          json.at("depth_at_gauge"),
-          json.at("depth_in_middle"),
-          json.at("border_speed"),
-          json.at("gain"),
-          miss_of(json.at("miss")),
-          json.at("asked"),
-          json.at("rows"),
-          passed_of(json.at("departed")),
-          passed_of(json.at("arrived")),
-          json.at("short_steps")};
-}
-
-nlohmann::json json_of(const MakerState& maker) {
-  const auto& [correction, rate, time] = maker;
-  return {{"correction", correction}, {"rate", rate}, {"time", time}};
-}
-
-MakerState maker_of(const nlohmann::json& json) { return {json.at("correction"), json.at("rate"), json.at("time")}; }
 
 template <class Numbers>
 std::vector<double> list_of(const Numbers& numbers) {
@@ -121,54 +75,7 @@ BodyState<Dim> body_of(const nlohmann::json& json) {
   return body;
 }
 
-nlohmann::json json_of(const AirState& air) {
-  const auto& [pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost, energy_vented,
-               energy_set] = air;
-  nlohmann::json json{{"begun", begun},
-                      {"ended", ended},
-                      {"displacement", displacement},
-                      {"gas_found", gas_found},
-                      {"gas_lost", gas_lost},
-                      {"gas_vented", gas_vented},
-                      {"energy_lost", energy_lost},
-                      {"energy_vented", energy_vented},
-                      {"energy_set", energy_set},
-                      {"pockets", nlohmann::json::array()}};
-  for (const auto& [number, gas, volume, torn, cells] : pockets) {
-    std::vector<std::int32_t> runs;
-    for (const auto& [row, begin, end] : cells) runs.insert(runs.end(), {row, begin, end});
-    json["pockets"].push_back(
-        {{"number", number}, {"gas", gas}, {"volume", volume}, {"torn", torn}, {"cells", std::move(runs)}});
-  }
-  return json;
-}
-
-AirState air_of(const nlohmann::json& json) {
-  AirState air{{},
-               json.at("begun"),
-               json.at("ended"),
-               json.at("displacement"),
-               json.at("gas_found"),
-               json.at("gas_lost"),
-               json.at("gas_vented"),
-               json.at("energy_lost"),
-               json.at("energy_vented"),
-               json.at("energy_set")};
-  for (const nlohmann::json& each : json.at("pockets")) {
-    AirPocket pocket{each.at("number"), each.at("gas"), each.at("volume"), each.at("torn"), {}};
-    const auto runs = each.at("cells").get<std::vector<std::int32_t>>();
-    require_fit(runs.size() % 3 == 0 && pocket.gas >= 0.0 && pocket.volume > 0.0, "air");
-    for (std::size_t k = 0; k < runs.size(); k += 3) pocket.cells.push_back({runs[k], runs[k + 1], runs[k + 2]});
-    air.pockets.push_back(std::move(pocket));
-  }
-  return air;
-}
-
 }  // namespace
-
-void require_fit(bool condition, const char* part) {
-  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
-}
 
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
@@ -180,17 +87,15 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
                       {"approach", approach},
                       {"energy_rise", energy_rise},
                       {"density_share", density_share},
-                      {"air", json_of(air)},
-                      {"fallen", json_of(fallen)},
+                      {"air", air},
+                      {"fallen", fallen},
                       {"reference_step", checkpoint.reference_step},
-                      {"open_ends", nlohmann::json::array()},
-                      {"wave_makers", nlohmann::json::array()},
+                      {"open_ends", open_ends},
+                      {"wave_makers", motion.wave_makers},
                       {"bodies", nlohmann::json::array()},
                       {"inertia", motion.bodies.inertia},
                       {"section_volumes", section_volumes},
                       {"output", checkpoint.output}};
-  for (const OpenEndState& end : open_ends) json["open_ends"].push_back(json_of(end));
-  for (const MakerState& maker : motion.wave_makers) json["wave_makers"].push_back(json_of(maker));
   for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(json_of(body));
   return json.dump(1);
 }
@@ -204,11 +109,13 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
-  state.air = air_of(json.at("air"));
-  state.fallen = passed_of(json.at("fallen"));
+  state.air = json.at("air");
+  require_fit(std::ranges::all_of(state.air.pockets, [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; }),
+              "air");
+  state.fallen = json.at("fallen");
   checkpoint.reference_step = json.at("reference_step");
-  for (const nlohmann::json& end : json.at("open_ends")) state.open_ends.push_back(open_end_of(end));
-  for (const nlohmann::json& maker : json.at("wave_makers")) state.motion.wave_makers.push_back(maker_of(maker));
+  json.at("open_ends").get_to(state.open_ends);
+  json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const nlohmann::json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
   json.at("inertia").get_to(state.motion.bodies.inertia);
   json.at("section_volumes").get_to(state.section_volumes);
