@@ -122,7 +122,7 @@ nlohmann::json RunOutput<Dim>::saved() const {
           {"probes", probes},
           {"fields", fields},
           {"view", frames_.saved()},
-          {"statistics", statistics_.saved()},
+          {"statistics", statistics_},
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
           {"warnings", warnings()},
           {"limits", limits_.saved()},
@@ -142,7 +142,7 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   wall_series_.go_on(fields.at("wall_times"), ranks_);
   fields_schedule_.take_up(fields);
   frames_.take_up(kept.at("view"), ranks_);
-  statistics_.restore(kept.at("statistics"));
+  kept.at("statistics").get_to(statistics_);
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));

@@ -1,7 +1,6 @@
 #include "run/statistics.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace tailwater {
 
@@ -45,53 +44,6 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   escaped_ = escaped;
   most_escaped_ = std::max(most_escaped_, escaped);
   interventions_ += report.interventions;
-}
-
-/// Calls body with the name and the value of each member.
-template <class Self, class Body>
-void RunStatistics::for_each_sum(Self& self, Body&& body) {
-  body("steps", self.steps_);
-  body("passes", self.passes_);
-  body("iterations", self.iterations_);
-  body("dt_sum", self.dt_sum_);
-  body("dt_least", self.dt_least_);
-  body("dt_largest", self.dt_largest_);
-  body("divergence_reports", self.divergence_reports_);
-  body("divergence_old_squares", self.divergence_old_squares_);
-  body("divergence_new_squares", self.divergence_new_squares_);
-  body("divergence_moved_squares", self.divergence_moved_squares_);
-  body("density_error_sum", self.density_error_sum_);
-  body("density_error_squares", self.density_error_squares_);
-  body("energy_start", self.energy_start_);
-  body("energy_end", self.energy_end_);
-  body("energy_out", self.energy_out_);
-  body("energy_in", self.energy_in_);
-  body("brought_by_walls", self.brought_by_walls_);
-  body("brought_by_ends", self.brought_by_ends_);
-  body("brought_by_air", self.brought_by_air_);
-  body("viscous_work", self.viscous_work_);
-  body("energy_least", self.energy_least_);
-  body("energy_rise", self.energy_rise_);
-  body("density_work", self.density_work_);
-  body("density_share_sum", self.density_share_sum_);
-  body("unexplained_least", self.unexplained_least_);
-  body("unexplained_rise", self.unexplained_rise_);
-  body("most_escaped", self.most_escaped_);
-  body("escaped", self.escaped_);
-  body("stopped_at_walls", self.interventions_.stopped_at_walls);
-  body("capped_shifts", self.interventions_.capped_shifts);
-  body("fallback_rows", self.interventions_.fallback_rows);
-  body("restarted_solves", self.interventions_.restarted_solves);
-}
-
-nlohmann::json RunStatistics::saved() const {
-  nlohmann::json saved;
-  for_each_sum(*this, [&](const char* name, const auto& value) { saved[name] = value; });
-  return saved;
-}
-
-void RunStatistics::restore(const nlohmann::json& saved) {
-  for_each_sum(*this, [&](const char* name, auto& value) { saved.at(name).get_to(value); });
 }
 
 nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "flow/measure.h"
 #include "flow/step.h"
 
 namespace tailwater {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Interventions, stopped_at_walls, capped_shifts, fallback_rows, restarted_solves)
 
 class RunStatistics {
  public:
@@ -21,14 +23,16 @@ class RunStatistics {
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
-  /// All sums, for a checkpoint, and from one.
-  nlohmann::json saved() const;
-  void restore(const nlohmann::json& saved);
+  /// All of it is saved in a checkpoint.
+  NLOHMANN_DEFINE_TYPE_INTRUSIVE(RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
+                                 divergence_reports_, divergence_old_squares_, divergence_new_squares_,
+                                 divergence_moved_squares_, density_error_sum_, density_error_squares_, energy_start_,
+                                 energy_end_, energy_out_, energy_in_, brought_by_walls_, brought_by_ends_,
+                                 brought_by_air_, viscous_work_, energy_least_, energy_rise_, density_work_,
+                                 density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_, escaped_,
+                                 interventions_)
 
  private:
-  template <class Self, class Body>
-  static void for_each_sum(Self& self, Body&& body);
-
   std::int64_t steps_ = 0;
   std::int64_t passes_ = 0;
   std::int64_t iterations_ = 0;
