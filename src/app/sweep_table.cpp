@@ -15,12 +15,12 @@
 namespace tailwater {
 namespace {
 
-struct SummaryColumn {
+struct TableColumn {
   const char* name;
-  const char* place;  ///< in summary.json
+  const char* place;  ///< in summary.json, or in a measurement of it
 };
 
-constexpr std::array<SummaryColumn, 26> summary_columns{{
+constexpr std::array<TableColumn, 26> summary_columns{{
     {"time_reached_s", "/time_s/reached"},
     {"time_end_s", "/time_s/end"},
     {"steps", "/steps/count"},
@@ -92,11 +92,7 @@ Scores scores_of(const nlohmann::json& summary) {
   return scores;
 }
 
-struct ScoreColumn {
-  const char* name;
-  const char* place;
-};
-constexpr std::array<ScoreColumn, 5> score_columns{{{"rms", "/rms"},
+constexpr std::array<TableColumn, 5> score_columns{{{"rms", "/rms"},
                                                     {"bias", "/bias"},
                                                     {"best_shift_s", "/best_shift_s"},
                                                     {"shifted_rms", "/shifted/rms"},
@@ -133,12 +129,12 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   std::vector<std::string> names{"member"};
   for (const std::string& key : plan.keys) names.push_back(quoted_field(key));
   names.insert(names.end(), {"status", "exit_code"});
-  for (const SummaryColumn& column : summary_columns) names.emplace_back(column.name);
+  for (const TableColumn& column : summary_columns) names.emplace_back(column.name);
   std::vector<nlohmann::json> summaries;
   for (const SweepMember& member : plan.members) summaries.push_back(summary_of(sweep / member.folder));
   const std::set<std::string> measured = measured_in(summaries);
   for (const std::string& name : measured) {
-    for (const ScoreColumn& column : score_columns) names.push_back(quoted_field(name + "_" + column.name));
+    for (const TableColumn& column : score_columns) names.push_back(quoted_field(name + "_" + column.name));
   }
   names.insert(names.end(), {"warnings", "message"});
   std::string table = fmt::format("{}\n", fmt::join(names, ","));
@@ -151,10 +147,10 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
     for (const std::string& value : member.values) fields.push_back(quoted_field(value));
     fields.push_back(status);
     fields.push_back(news[m].exit_code ? std::to_string(*news[m].exit_code) : number_at(summary, "/exit_code"));
-    for (const SummaryColumn& column : summary_columns) fields.push_back(number_at(summary, column.place));
+    for (const TableColumn& column : summary_columns) fields.push_back(number_at(summary, column.place));
     const Scores scores = scores_of(summary);
     for (const std::string& name : measured) {
-      for (const ScoreColumn& column : score_columns) fields.push_back(score_at(scores, name, column.place));
+      for (const TableColumn& column : score_columns) fields.push_back(score_at(scores, name, column.place));
     }
     fields.push_back(summary.contains("warnings") ? std::to_string(summary["warnings"].size()) : "");
     const bool has_message = status == "failed";

@@ -38,76 +38,54 @@ const Ending* ending_of(std::string_view column) {
   return found == endings.end() ? nullptr : found;
 }
 
-constexpr std::array<SeriesColumn, 7> forces{{{"force_x", Measure::force},
-                                              {"force_y", Measure::force},
-                                              {"force_z", Measure::force},
-                                              {"moment", Measure::moment},
-                                              {"moment_x", Measure::moment},
-                                              {"moment_y", Measure::moment},
-                                              {"moment_z", Measure::moment}}};
-constexpr std::array<SeriesColumn, 10> motions{{{"displacement_x"},
-                                                {"displacement_y"},
-                                                {"displacement_z"},
-                                                {"angle", Measure::angle},
-                                                {"angle_x", Measure::angle},
-                                                {"angle_y", Measure::angle},
-                                                {"angle_z", Measure::angle},
-                                                {"velocity_x", Measure::speed},
-                                                {"velocity_y", Measure::speed},
-                                                {"velocity_z", Measure::speed}}};
-
 /// Of both dimensions.
-std::span<const SeriesColumn> all_columns_of(ProbeType type) {
-  static constexpr std::array<SeriesColumn, 3> depths{{{"connected"}, {"highest"}, {"wet"}}};
-  static constexpr std::array<SeriesColumn, 1> pressures{{{"pressure", Measure::pressure}}};
-  static constexpr std::array<SeriesColumn, 2> fronts{{{"front_connected"}, {"front"}}};
-  static constexpr std::array<SeriesColumn, 3> velocities{
-      {{"u", Measure::speed}, {"v", Measure::speed}, {"w", Measure::speed}}};
-  static constexpr std::array<SeriesColumn, 3> energies{
-      {{"total", Measure::energy}, {"kinetic", Measure::energy}, {"potential", Measure::energy}}};
-  static constexpr std::array<SeriesColumn, 2> volumes{
-      {{"volume_out", Measure::volume}, {"volume_in", Measure::volume}}};
-  static constexpr std::array<SeriesColumn, 2> discharges{
-      {{"discharge", Measure::discharge}, {"volume", Measure::volume}}};
-  static constexpr std::array<SeriesColumn, 2> maps{{{"largest", Measure::pressure}, {"mean", Measure::pressure}}};
-  static constexpr std::array<SeriesColumn, 2> run_ups{{{"connected"}, {"highest"}}};
-  static constexpr std::array<SeriesColumn, 2> levels{{{"mean"}, {"highest"}}};
-  static constexpr std::array<SeriesColumn, 5> pockets{{{"pressure", Measure::pressure},
-                                                        {"volume", Measure::volume},
-                                                        {"gas", Measure::volume},
-                                                        {"vented", Measure::volume},
-                                                        {"energy", Measure::energy}}};
+std::vector<SeriesColumn> all_columns_of(ProbeType type) {
   switch (type) {
     case ProbeType::depth:
-      return depths;
+      return {{"connected"}, {"highest"}, {"wet"}};
     case ProbeType::wall_pressure:
     case ProbeType::wall_pressure_mean:
     case ProbeType::pressure:
-      return pressures;
+      return {{"pressure", Measure::pressure}};
     case ProbeType::front:
-      return fronts;
+      return {{"front_connected"}, {"front"}};
     case ProbeType::velocity:
-      return velocities;
+      return {{"u", Measure::speed}, {"v", Measure::speed}, {"w", Measure::speed}};
     case ProbeType::energy:
-      return energies;
+      return {{"total", Measure::energy}, {"kinetic", Measure::energy}, {"potential", Measure::energy}};
     case ProbeType::volume:
-      return volumes;
+      return {{"volume_out", Measure::volume}, {"volume_in", Measure::volume}};
     case ProbeType::discharge:
-      return discharges;
+      return {{"discharge", Measure::discharge}, {"volume", Measure::volume}};
     case ProbeType::force:
-      return forces;
+      return {{"force_x", Measure::force},  {"force_y", Measure::force},   {"force_z", Measure::force},
+              {"moment", Measure::moment},  {"moment_x", Measure::moment}, {"moment_y", Measure::moment},
+              {"moment_z", Measure::moment}};
     case ProbeType::pressure_map:
-      return maps;
+      return {{"largest", Measure::pressure}, {"mean", Measure::pressure}};
     case ProbeType::motion:
-      return motions;
+      return {{"displacement_x"},
+              {"displacement_y"},
+              {"displacement_z"},
+              {"angle", Measure::angle},
+              {"angle_x", Measure::angle},
+              {"angle_y", Measure::angle},
+              {"angle_z", Measure::angle},
+              {"velocity_x", Measure::speed},
+              {"velocity_y", Measure::speed},
+              {"velocity_z", Measure::speed}};
     case ProbeType::run_up:
-      return run_ups;
+      return {{"connected"}, {"highest"}};
     case ProbeType::level_map:
-      return levels;
+      return {{"mean"}, {"highest"}};
     case ProbeType::pockets:
-      return pockets;
+      return {{"pressure", Measure::pressure},
+              {"volume", Measure::volume},
+              {"gas", Measure::volume},
+              {"vented", Measure::volume},
+              {"energy", Measure::energy}};
     case ProbeType::profile:
-      return std::span(depths).first(2);
+      return {{"connected"}, {"highest"}};
     case ProbeType::velocity_profile:
       break;
   }

@@ -25,88 +25,67 @@ struct Rule {
   Tell tell;
 };
 
-namespace rules {
-inline constexpr std::array depth{Rule{"depth", "", "connected_m", Tell::mean},
-                                  Rule{"highest water", "highest", "highest_m", Tell::largest}};
-inline constexpr std::array pressure{Rule{"pressure", "", "pressure_Pa", Tell::mean},
-                                     Rule{"largest pressure", "largest", "pressure_Pa", Tell::largest}};
-// From the impulse, so that no step between two lines is left out.
-inline constexpr std::array wall_pressure{Rule{"pressure", "", "impulse_Pa_s", Tell::rate},
-                                          Rule{"largest pressure", "largest", "impulse_Pa_s", Tell::largest_rate},
-                                          Rule{"rise", "risen in", "impulse_Pa_s", Tell::rise},
-                                          Rule{"impulse", "impulse", "impulse_Pa_s", Tell::last}};
-inline constexpr std::array front{Rule{"front", "", "front_connected_m", Tell::last}};
-inline constexpr std::array profile{Rule{"least depth", "depth from", "connected_m", Tell::least_of_last},
-                                    Rule{"largest depth", "to", "connected_m", Tell::largest_of_last}};
-inline constexpr std::array velocity{Rule{"u", "u", "u_m_s", Tell::mean}, Rule{"v", "v", "v_m_s", Tell::mean},
-                                     Rule{"w", "w", "w_m_s", Tell::mean}};
-inline constexpr std::array energy{Rule{"energy", "", "total_J", Tell::last}};
-inline constexpr std::array volume{Rule{"particles", "", "particles", Tell::last},
-                                   Rule{"volume in", "in", "volume_in_m3", Tell::last},
-                                   Rule{"volume out", "out", "volume_out_m3", Tell::last}};
-inline constexpr std::array discharge{Rule{"discharge", "", "volume_m3", Tell::rate},
-                                      Rule{"largest discharge", "largest", "discharge_m3_per_s", Tell::largest}};
-inline constexpr std::array force{
-    Rule{"force x", "x", "force_x", Tell::mean}, Rule{"force y", "y", "force_y", Tell::mean},
-    Rule{"force z", "z", "force_z", Tell::mean}, Rule{"largest force", "largest", magnitude_of_force, Tell::largest}};
-inline constexpr std::array pressure_map{Rule{"largest pressure", "largest", "largest_Pa", Tell::largest}};
-inline constexpr std::array motion{Rule{"displacement x", "x", "displacement_x_m", Tell::range},
-                                   Rule{"displacement y", "y", "displacement_y_m", Tell::range},
-                                   Rule{"displacement z", "z", "displacement_z_m", Tell::range},
-                                   Rule{"angle", "angle", "angle_rad", Tell::range},
-                                   Rule{"angle about x", "angle about x", "angle_x_rad", Tell::range},
-                                   Rule{"angle about y", "angle about y", "angle_y_rad", Tell::range},
-                                   Rule{"angle about z", "angle about z", "angle_z_rad", Tell::range}};
-inline constexpr std::array run_up{Rule{"run-up", "", "connected_m", Tell::largest},
-                                   Rule{"highest drop", "drops to", "highest_m", Tell::largest}};
-inline constexpr std::array level_map{Rule{"level", "", "mean_m", Tell::mean},
-                                      Rule{"highest level", "highest", "highest_m", Tell::largest}};
-inline constexpr std::array pockets{Rule{"pressure", "", "pressure_Pa", Tell::range},
-                                    Rule{"volume", "volume", "volume_m3", Tell::last},
-                                    Rule{"pockets", "pockets", "pockets", Tell::last}};
-inline constexpr std::array velocity_profile{
-    Rule{"mean u", "u", "mean_u_m_s", Tell::last}, Rule{"mean v", "v", "mean_v_m_s", Tell::last},
-    Rule{"mean w", "w", "mean_w_m_s", Tell::last}, Rule{"depth", "depth", "depth_m", Tell::last}};
-}  // namespace rules
-
-/// Columns that a probe does not have in the dimension of the case are left out.
-std::span<const Rule> rules_of(ProbeType type) {
+/// Columns that a probe does not have in the dimension of the case are left out. Means of a wall's pressure are from
+/// its impulse, so that no step between two lines is left out.
+std::vector<Rule> rules_of(ProbeType type) {
   switch (type) {
     case ProbeType::depth:
-      return rules::depth;
+      return {{"depth", "", "connected_m", Tell::mean}, {"highest water", "highest", "highest_m", Tell::largest}};
     case ProbeType::wall_pressure:
     case ProbeType::wall_pressure_mean:
-      return rules::wall_pressure;
+      return {{"pressure", "", "impulse_Pa_s", Tell::rate},
+              {"largest pressure", "largest", "impulse_Pa_s", Tell::largest_rate},
+              {"rise", "risen in", "impulse_Pa_s", Tell::rise},
+              {"impulse", "impulse", "impulse_Pa_s", Tell::last}};
     case ProbeType::pressure:
-      return rules::pressure;
+      return {{"pressure", "", "pressure_Pa", Tell::mean},
+              {"largest pressure", "largest", "pressure_Pa", Tell::largest}};
     case ProbeType::front:
-      return rules::front;
+      return {{"front", "", "front_connected_m", Tell::last}};
     case ProbeType::profile:
-      return rules::profile;
+      return {{"least depth", "depth from", "connected_m", Tell::least_of_last},
+              {"largest depth", "to", "connected_m", Tell::largest_of_last}};
     case ProbeType::velocity:
-      return rules::velocity;
+      return {{"u", "u", "u_m_s", Tell::mean}, {"v", "v", "v_m_s", Tell::mean}, {"w", "w", "w_m_s", Tell::mean}};
     case ProbeType::energy:
-      return rules::energy;
+      return {{"energy", "", "total_J", Tell::last}};
     case ProbeType::volume:
-      return rules::volume;
+      return {{"particles", "", "particles", Tell::last},
+              {"volume in", "in", "volume_in_m3", Tell::last},
+              {"volume out", "out", "volume_out_m3", Tell::last}};
     case ProbeType::discharge:
-      return rules::discharge;
+      return {{"discharge", "", "volume_m3", Tell::rate},
+              {"largest discharge", "largest", "discharge_m3_per_s", Tell::largest}};
     case ProbeType::force:
-      return rules::force;
+      return {{"force x", "x", "force_x", Tell::mean},
+              {"force y", "y", "force_y", Tell::mean},
+              {"force z", "z", "force_z", Tell::mean},
+              {"largest force", "largest", magnitude_of_force, Tell::largest}};
     case ProbeType::pressure_map:
-      return rules::pressure_map;
+      return {{"largest pressure", "largest", "largest_Pa", Tell::largest}};
     case ProbeType::motion:
-      return rules::motion;
+      return {{"displacement x", "x", "displacement_x_m", Tell::range},
+              {"displacement y", "y", "displacement_y_m", Tell::range},
+              {"displacement z", "z", "displacement_z_m", Tell::range},
+              {"angle", "angle", "angle_rad", Tell::range},
+              {"angle about x", "angle about x", "angle_x_rad", Tell::range},
+              {"angle about y", "angle about y", "angle_y_rad", Tell::range},
+              {"angle about z", "angle about z", "angle_z_rad", Tell::range}};
     case ProbeType::run_up:
-      return rules::run_up;
+      return {{"run-up", "", "connected_m", Tell::largest}, {"highest drop", "drops to", "highest_m", Tell::largest}};
     case ProbeType::level_map:
-      return rules::level_map;
+      return {{"level", "", "mean_m", Tell::mean}, {"highest level", "highest", "highest_m", Tell::largest}};
     case ProbeType::pockets:
-      return rules::pockets;
+      return {{"pressure", "", "pressure_Pa", Tell::range},
+              {"volume", "volume", "volume_m3", Tell::last},
+              {"pockets", "pockets", "pockets", Tell::last}};
     case ProbeType::velocity_profile:
-      break;
+      return {{"mean u", "u", "mean_u_m_s", Tell::last},
+              {"mean v", "v", "mean_v_m_s", Tell::last},
+              {"mean w", "w", "mean_w_m_s", Tell::last},
+              {"depth", "depth", "depth_m", Tell::last}};
   }
-  return rules::velocity_profile;
+  return {};
 }
 
 /// Of a unit like "Pa s" or "m^3 per m".
@@ -117,51 +96,35 @@ std::string per_second(std::string unit) {
 
 Quantity quantity_of(const Rule& rule, const std::string& name, const ColumnDigest& column, const TableDigest& table,
                      int dimension) {
-  Quantity quantity{.name = rule.name, .label = rule.label, .unit = unit_of_column(name, dimension), .what = ""};
-  const std::string at_last = fmt::format("at {:.4g} s", table.last_time);
+  const std::string unit = unit_of_column(name, dimension);
+  const auto at = [](double time) { return fmt::format("at {:.4g} s", time); };
+  const auto quantity = [&](double value, const std::string& in, const std::string& what) {
+    return Quantity{.name = rule.name, .label = rule.label, .value = value, .unit = in, .what = what};
+  };
   switch (rule.tell) {
     case Tell::mean:
-      quantity.value = column.mean_of_second_half();
-      quantity.what = second_half;
-      break;
+      return quantity(column.mean_of_second_half(), unit, second_half);
     case Tell::rate:
-      quantity.value = column.rate_in_second_half();
-      quantity.unit = per_second(std::move(quantity.unit));
-      quantity.what = second_half;
-      break;
+      return quantity(column.rate_in_second_half(), per_second(unit), second_half);
     case Tell::largest_rate:
-      quantity.value = column.largest_rate;
-      quantity.unit = per_second(std::move(quantity.unit));
-      quantity.what = fmt::format("at {:.4g} s", column.time_of_largest_rate);
-      break;
+      return quantity(column.largest_rate, per_second(unit), at(column.time_of_largest_rate));
     case Tell::rise:
-      quantity.value = column.rise;
-      quantity.unit = "s";
-      quantity.what = "from a tenth of it";
-      break;
+      return quantity(column.rise, "s", "from a tenth of it");
     case Tell::largest:
-      quantity.value = column.largest;
-      quantity.what = fmt::format("at {:.4g} s", column.time_of_largest);
-      break;
-    case Tell::range:
-      quantity.value = column.least;
-      quantity.to = column.largest;
-      quantity.what = "least and largest";
-      break;
+      return quantity(column.largest, unit, at(column.time_of_largest));
+    case Tell::range: {
+      Quantity range = quantity(column.least, unit, "least and largest");
+      range.to = column.largest;
+      return range;
+    }
     case Tell::last:
-      quantity.value = column.last;
-      quantity.what = at_last;
-      break;
+      return quantity(column.last, unit, at(table.last_time));
     case Tell::least_of_last:
-      quantity.value = column.least_of_last;
-      quantity.what = at_last;
-      break;
+      return quantity(column.least_of_last, unit, at(table.last_time));
     case Tell::largest_of_last:
-      quantity.value = column.largest_of_last;
-      quantity.what = at_last;
       break;
   }
-  return quantity;
+  return quantity(column.largest_of_last, unit, at(table.last_time));
 }
 
 /// Four digits, as one writes them.
