@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/case_text.h"
+#include "base/text.h"
 #include "case/formulation.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
@@ -70,9 +71,7 @@ Json finding_of(std::string_view line, const CaseText& of, std::string_view seve
 }
 
 void add_findings(Json& findings, std::string_view message, const CaseText& of, std::string_view severity) {
-  while (!message.empty()) {
-    const std::string_view line = message.substr(0, message.find('\n'));
-    message.remove_prefix(std::min(message.size(), line.size() + 1));
+  for (const std::string_view line : lines_of(message)) {
     if (!line.empty()) findings.push_back(finding_of(line, of, severity));
   }
 }

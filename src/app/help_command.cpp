@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "base/text.h"
 #include "run/provenance.h"
 
 namespace tailwater {
@@ -64,11 +65,7 @@ std::string roff(const std::string& text) {
 /// Lines of an example or a footer, which keep their breaks.
 std::string roff_lines(const std::string& text) {
   std::string lines = ".nf\n";
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines += roff(text.substr(begin, end - begin)) + "\n";
-    begin = end + 1;
-  }
+  for (const std::string_view line : split(text, '\n')) lines += roff(std::string(line)) + "\n";
   return lines + ".fi\n";
 }
 

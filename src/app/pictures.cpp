@@ -1,44 +1,19 @@
 #include "app/pictures.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <cerrno>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/python_package.h"
+#include "app/temporary_folder.h"
 #include "io/messages.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"
 #include "run/field_output.h"
 
 namespace tailwater {
-namespace {
-
-/// Is there while it lives.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tailwater_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw_io_error("make the folder", name, errno);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace
 
 void add_pictures_option(CLI::App& command, int& pictures) {
   command
@@ -62,6 +37,7 @@ void draw_pictures(const std::filesystem::path& run, int count, const Communicat
 void draw_start(const std::filesystem::path& image, const std::string& title, double spacing,
                 const Boundary<3>& boundary, std::span<const Vec<3>> water, std::span<const Vec<3>> marks) {
   const TemporaryFolder folder;
+  if (folder.path().empty()) throw_io_error("make a folder in", std::filesystem::temp_directory_path(), errno);
   const auto write = [&](const char* name, const ParticleFields<3>& fields) {
     const std::filesystem::path path = folder.path() / name;
     write_vtp(path, 0.0, encode_piece(fields, 0), 0);

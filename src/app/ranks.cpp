@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -18,6 +17,8 @@
 #include <thread>
 
 #include "app/processes.h"
+#include "app/temporary_folder.h"
+#include "base/text.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
 #include "parallel/cores.h"
@@ -53,11 +54,10 @@ bool is_in_batch_job() {
 std::optional<std::string> find_mpirun() {
   if (access(TAILWATER_MPIRUN, X_OK) == 0) return TAILWATER_MPIRUN;
   const char* path = std::getenv("PATH");
-  for (std::string_view places = path == nullptr ? "" : path; !places.empty();) {
-    const std::size_t end = std::min(places.find(':'), places.size());
-    const std::filesystem::path file = std::filesystem::path(places.substr(0, end)) / "mpirun";
+  if (path == nullptr || *path == '\0') return std::nullopt;
+  for (const std::string_view place : split(path, ':')) {
+    const std::filesystem::path file = std::filesystem::path(place) / "mpirun";
     if (access(file.c_str(), X_OK) == 0) return file.string();
-    places.remove_prefix(std::min(end + 1, places.size()));
   }
   return std::nullopt;
 }
@@ -72,37 +72,13 @@ double particles_of_water(const CaseSpec& spec) {
   return estimate_water(spec, boundary, at_start * of_a_particle).mean / of_a_particle;
 }
 
-/// Of its own for each mpirun, and gone with it. Where several share one, as they do by default, one that ends may
-/// remove a folder that another is just about to use.
-class SessionFolder {
- public:
-  SessionFolder() {
-    std::error_code error;
-    path_ = (std::filesystem::temp_directory_path(error) / "tailwater-XXXXXX").string();
-    if (error || mkdtemp(path_.data()) == nullptr) path_.clear();  // that of Open MPI
-  }
-  ~SessionFolder() {
-    std::error_code error;
-    if (!path_.empty()) std::filesystem::remove_all(path_, error);
-  }
-  SessionFolder(const SessionFolder&) = delete;
-  SessionFolder& operator=(const SessionFolder&) = delete;
-
-  /// For mpirun.
-  std::vector<std::string> options() const {
-    if (path_.empty()) return {};
-    return {"--mca", "orte_tmpdir_base", path_};
-  }
-
- private:
-  std::string path_;
-};
-
-std::vector<std::string> mpirun_command(int count, const SessionFolder& session,
+/// `session` is a folder of its own for each mpirun, or of Open MPI if it is empty. Where several share one, as they do
+/// by default, one that ends may remove a folder that another is just about to use.
+std::vector<std::string> mpirun_command(int count, const std::filesystem::path& session,
                                         const std::vector<std::string>& arguments) {
   // Quiet: that a rank ended with an exit code is ours to tell.
   std::vector<std::string> command{find_mpirun().value_or("mpirun"), "--quiet", "-n", std::to_string(count)};
-  std::ranges::move(session.options(), std::back_inserter(command));
+  if (!session.empty()) command.insert(command.end(), {"--mca", "orte_tmpdir_base", session.string()});
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
   // Ranks of two runs at once would be bound to the same cores.
   if (!is_in_batch_job())
@@ -168,8 +144,8 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
     warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
   }
   require_room_for_mpi(count);
-  const SessionFolder session;
-  const std::vector<std::string> command = mpirun_command(count, session, arguments);
+  const TemporaryFolder session;
+  const std::vector<std::string> command = mpirun_command(count, session.path(), arguments);
   RequestSender requests(out);
   const AwaitedSignals signals;
   const auto start = [&] {

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <fstream>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +17,7 @@
 #include "app/ranks.h"
 #include "app/sweep_plan.h"
 #include "app/sweep_table.h"
+#include "base/text.h"
 #include "case/reader.h"
 #include "case/writer.h"
 #include "io/folder_lock.h"
@@ -25,6 +26,7 @@
 #include "io/write_file.h"
 #include "run/progress.h"
 #include "run/resume.h"
+#include "run/run_info.h"
 
 namespace tailwater {
 namespace {
@@ -39,19 +41,11 @@ constexpr std::chrono::duration<double> least_time_for_a_member(1.0);
 /// A member has not ended before its last files are written.
 constexpr double largest_share_at_work = 0.999;
 
-/// The end of a table that has its last line whole.
-constexpr std::streamoff tail_of_a_table = 4096;
-
-/// Of the last whole line of a run's steps [s]; 0 before there is one.
+/// Of a run that has begun, or not [s].
 double time_reached(const fs::path& run) {
-  std::ifstream file(run / "steps.csv");
-  file.seekg(0, std::ios::end);
-  file.seekg(std::max<std::streamoff>(0, file.tellg() - tail_of_a_table));
-  std::string line;
-  std::getline(file, line);  // the names of the columns, or what is left of a line, which can start with any column
-  double time = 0.0;
-  while (std::getline(file, line) && !file.eof()) time = std::strtod(line.c_str(), nullptr);
-  return time;
+  const std::map<std::string, double> step = last_step(run);
+  const auto time = step.find("time_s");
+  return time == step.end() ? 0.0 : time->second;
 }
 
 /// Takes all that was written to a file.
@@ -67,13 +61,10 @@ std::string text_of(int file) {
 /// The lines of a member's standard error without "error: ", one after the other.
 std::string as_message(const std::string& told) {
   constexpr std::string_view error = "error: ";
-  std::vector<std::string> lines;
-  for (std::size_t start = 0; start < told.size();) {
-    const std::size_t end = std::min(told.find('\n', start), told.size());
-    std::string line = told.substr(start, end - start);
-    if (line.starts_with(error)) line.erase(0, error.size());
-    if (!line.empty()) lines.push_back(std::move(line));
-    start = end + 1;
+  std::vector<std::string_view> lines;
+  for (std::string_view line : lines_of(told)) {
+    if (line.starts_with(error)) line.remove_prefix(error.size());
+    if (!line.empty()) lines.push_back(line);
   }
   return fmt::format("{}", fmt::join(lines, "; "));
 }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "case/overrides.h"
 #include "case/reader.h"
 #include "geometry/from_spec.h"
@@ -172,12 +173,9 @@ std::vector<CaseSpec> cases_of_sweep(const std::filesystem::path& case_file, con
     try {
       cases.push_back(read_member(case_file, all));
     } catch (const InputError& error) {
-      const std::string_view message = error.what();
-      for (std::size_t start = 0; start < message.size();) {
-        const std::size_t end = std::min(message.find('\n', start), message.size());
-        const std::string told = told_of_sweep(message.substr(start, end - start), swept, member.folder);
+      for (const std::string_view line : lines_of(error.what())) {
+        const std::string told = told_of_sweep(line, swept, member.folder);
         if (std::find(problems.begin(), problems.end(), told) == problems.end()) problems.push_back(told);
-        start = end + 1;
       }
     }
   }

@@ -18,6 +18,7 @@
 #include "app/commands.h"
 #include "app/processes.h"
 #include "app/sweep_plan.h"
+#include "app/temporary_folder.h"
 #include "app/view_actions.h"
 #include "io/messages.h"
 #include "io/run_folder.h"
@@ -131,38 +132,27 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
   return content;
 }
 
-/// Opens the address in the user's browser. Other users see the words of a command, so the token is in a file that only
-/// this user can read, which sends the browser on; it is gone with this object.
-class Browser {
- public:
-  explicit Browser(const std::string& address) {
-    const char* own = getenv("XDG_RUNTIME_DIR");
-    std::error_code error;  // without a place for a file the user opens the address that is printed
-    const fs::path folder = own != nullptr && *own != '\0' ? fs::path(own) : fs::temp_directory_path(error);
-    std::string name = (folder / "tailwater-view-XXXXXX").string();
-    if (error || mkdtemp(name.data()) == nullptr) return;
-    folder_ = name;
-    try {
-      write_text_file(folder_ / "open.html", fmt::format("<!DOCTYPE html><title>Tailwater</title>"
-                                                         "<meta http-equiv=\"refresh\" content=\"0; url={0}\">"
-                                                         "<a href=\"{0}\">Tailwater</a>\n",
-                                                         address));
-      start_apart(
-          {"xdg-open", (folder_ / "open.html").string()}, folder_, [] { return true; }, std::chrono::seconds(1));
-    } catch (const UserError&) {
-      // There is no browser here; the address is printed.
-    }
-  }
-  ~Browser() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
-  Browser(const Browser&) = delete;
-  Browser& operator=(const Browser&) = delete;
+/// Where a desktop keeps what only its user may read; empty if there is none.
+fs::path runtime_folder() {
+  const char* folder = getenv("XDG_RUNTIME_DIR");
+  return folder == nullptr ? "" : folder;
+}
 
- private:
-  fs::path folder_;
-};
+/// Opens the address in the user's browser. Other users see the words of a command, so the token is in a file of
+/// `folder`, which sends the browser on. Where that cannot be done the user opens the address that is printed.
+void open_in_browser(const std::string& address, const fs::path& folder) {
+  if (folder.empty()) return;
+  try {
+    write_text_file(folder / "open.html", fmt::format("<!DOCTYPE html><title>Tailwater</title>"
+                                                      "<meta http-equiv=\"refresh\" content=\"0; url={0}\">"
+                                                      "<a href=\"{0}\">Tailwater</a>\n",
+                                                      address));
+    start_apart(
+        {"xdg-open", (folder / "open.html").string()}, folder, [] { return true; }, std::chrono::seconds(1));
+  } catch (const UserError&) {
+    // There is no browser here.
+  }
+}
 
 void serve(const ViewContent& content, const std::vector<fs::path>& sweeps, const ViewOptions& options) {
   const AwaitedSignals signals;  // before there are threads, which then leave all signals to `next`
@@ -174,8 +164,8 @@ void serve(const ViewContent& content, const std::vector<fs::path>& sweeps, cons
                   "address. Ctrl-C ends",
                   server.port()));
   std::thread serving([&server] { server.serve(); });
-  std::optional<Browser> browser;
-  if (!options.opens_no_browser) browser.emplace(server.address());
+  std::optional<TemporaryFolder> folder;
+  if (!options.opens_no_browser) open_in_browser(server.address(), folder.emplace(runtime_folder()).path());
   int signal = 0;
   while (signal != SIGINT && signal != SIGTERM && signal != SIGHUP) signal = signals.next();
   server.stop();

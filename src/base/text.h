@@ -1,13 +1,30 @@
-// Text that others have written, before it goes to a terminal or into a file of results.
+// Text that others have written: its parts, and how it goes to a terminal or into a file of results.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 namespace tailwater {
+
+/// The parts of a text between separators: one of a text without them.
+inline std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
+  }
+  return parts;
+}
+
+/// The lines of a text, whether or not the last one has an end.
+inline std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines = split(text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
+}
 
 /// The number of bytes of the letter at the begin of `text`, which is not empty; 0 if they are no UTF-8.
 inline std::size_t size_of_letter(std::string_view text) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "case/expression.h"
 
 namespace tailwater {
@@ -34,11 +35,9 @@ bool is_like_a_number(std::string_view field) {
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(separator, begin), line.size());
-    const std::string_view field = trimmed(line.substr(begin, end - begin));
+  for (const std::string_view part : split(line, separator)) {
+    const std::string_view field = trimmed(part);
     if (separator != ' ' || !field.empty()) fields.push_back(field);
-    begin = end + 1;
   }
   while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
   return fields;

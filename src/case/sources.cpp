@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text.h"
+
 namespace tailwater {
 
 std::string_view CaseSources::place_of(std::string_view line) const {
@@ -21,12 +23,9 @@ std::string_view CaseSources::place_of(std::string_view line) const {
 
 std::string CaseSources::placed(std::string_view message) const {
   std::vector<std::string> lines;
-  for (std::size_t start = 0; start <= message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    const std::string_view line = message.substr(start, end - start);
+  for (const std::string_view line : split(message, '\n')) {
     const std::string_view place = place_of(line);
     lines.push_back(place.empty() ? std::string(line) : fmt::format("{}: {}", place, line));
-    start = end + 1;
   }
   return fmt::format("{}", fmt::join(lines, "\n"));
 }

@@ -111,11 +111,8 @@ void warn(const std::string& line) {
 void tell_error(std::string_view message, std::string_view prefix) {
   std::string text;
   std::set<std::string_view> told;
-  for (std::size_t start = 0; start < message.size();) {
-    const std::size_t end = std::min(message.find('\n', start), message.size());
-    const std::string_view line = message.substr(start, end - start);
+  for (const std::string_view line : lines_of(message)) {
     if (told.insert(line).second) text += shown_as(fmt::format("error: {}{}", prefix, line)) + "\n";
-    start = end + 1;
   }
   if (text.empty()) return;
   show(text);

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/text.h"
 #include "case/reader.h"
 #include "case/writer.h"
 #include "io/messages.h"
@@ -40,10 +41,7 @@ std::vector<std::string> keys_of_case(const CaseSpec& spec) {
   const std::string text = effective_case(spec);
   std::vector<std::string> keys;
   std::string table;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
+  for (const std::string_view line : lines_of(text)) {
     if (line.starts_with('[')) table = line;
     if (line.empty() || line.starts_with('[') || line.starts_with('#')) continue;
     keys.push_back(fmt::format("{} {}", table, line.substr(0, line.find("  # "))));

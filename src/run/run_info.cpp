@@ -62,37 +62,6 @@ std::string air_line(const Json& air) {
   return line;
 }
 
-/// The last whole line of steps.csv by the names of its columns; empty if there is none.
-std::map<std::string, double> last_step(const fs::path& run) {
-  constexpr std::streamoff enough = 4096;
-  std::ifstream file(run / "steps.csv", std::ios::binary);
-  std::string head;
-  if (!std::getline(file, head)) return {};
-  file.seekg(0, std::ios::end);
-  const std::streamoff size = file.tellg();
-  file.seekg(std::max<std::streamoff>(static_cast<std::streamoff>(head.size()), size - enough));
-  const std::string tail(std::istreambuf_iterator<char>(file), {});
-  const std::size_t end = tail.rfind('\n');
-  if (end == tail.npos || end == 0) return {};
-  const std::size_t before = tail.rfind('\n', end - 1);
-  if (before == tail.npos) return {};
-  std::string_view line = std::string_view(tail).substr(before + 1, end - before - 1);
-  std::string_view names = head;
-  const auto take_field = [](std::string_view& rest) {
-    const std::string_view field = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(rest.size(), field.size() + 1));
-    return field;
-  };
-  std::map<std::string, double> values;
-  while (!names.empty()) {
-    const std::string name(take_field(names));
-    const std::string_view field = take_field(line);
-    double value = 0.0;
-    if (std::from_chars(field.data(), field.data() + field.size(), value).ec == std::errc{}) values[name] = value;
-  }
-  return values;
-}
-
 /// Seconds until a run that goes on is done, from how fast it went since it began; nothing if that is not known.
 Json time_left(const fs::path& run, const Json& summary, double time, double end) {
   std::error_code error;
@@ -179,6 +148,28 @@ Json info_from(const fs::path& run, const Json& summary) {
 }
 
 }  // namespace
+
+std::map<std::string, double> last_step(const fs::path& run) {
+  constexpr std::streamoff enough = 4096;
+  std::ifstream file(run / "steps.csv", std::ios::binary);
+  std::string head;
+  if (!std::getline(file, head)) return {};
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(static_cast<std::streamoff>(head.size()), size - enough));
+  const std::string tail(std::istreambuf_iterator<char>(file), {});
+  const std::vector<std::string_view> lines = split(tail, '\n');  // what is after the last end is no whole line
+  if (lines.size() < 3) return {};
+  const std::vector<std::string_view> names = split(head, ',');
+  const std::vector<std::string_view> fields = split(lines[lines.size() - 2], ',');
+  std::map<std::string, double> values;
+  for (std::size_t k = 0; k < std::min(names.size(), fields.size()); ++k) {
+    double value = 0.0;
+    const char* end = fields[k].data() + fields[k].size();
+    if (std::from_chars(fields[k].data(), end, value).ec == std::errc{}) values[std::string(names[k])] = value;
+  }
+  return values;
+}
 
 Json read_summary(const fs::path& run) {
   const fs::path path = run / summary_name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ struct InfoLine {
   std::string label;
   std::string text;
 };
+
+/// The last whole line of a run's steps.csv by the names of its columns; empty if there is none.
+std::map<std::string, double> last_step(const std::filesystem::path& run);
 
 /// The summary that a run has left in its folder. Throws IoError.
 nlohmann::ordered_json read_summary(const std::filesystem::path& run);
