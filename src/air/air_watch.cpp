@@ -43,11 +43,11 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Di
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
   if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
   if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
-    throw InputError(fmt::format(
+    throw InputError(
         "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, wherever they "
         "go, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
         "\"none\"",
-        most_cells_of_map));
+        most_cells_of_map);
   }
   grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing_, domain);
 }
@@ -144,12 +144,12 @@ void AirWatch<Dim>::set_start_pressures(AirState& state) const {
     const int k = space_.pocket_at(x);
     if (k < 0) {
       throw InputError(
-          fmt::format("{}: at {} there is no air at the start that water and walls enclose; give a point in "
-                      "such air, or close the walls around it",
-                      owner, place(x)));
+          "{}: at {} there is no air at the start that water and walls enclose; give a point in such air, or close the "
+          "walls around it",
+          owner, place(x));
     }
     if (const auto [other, is_new] = given.emplace(k, owner); !is_new) {
-      throw InputError(fmt::format("{} is in the same air as {}; remove one of them", owner, other->second));
+      throw InputError("{} is in the same air as {}; remove one of them", owner, other->second);
     }
     AirPocket& pocket = state.pockets[k];
     const double gas = law_.gas(start.overpressure, pocket.volume);

@@ -52,8 +52,8 @@ std::filesystem::path preview_file(const CheckOptions& options) {
     if (!std::filesystem::exists(std::filesystem::symlink_status(file))) continue;
     require_own_regular_file(file);
     if (is_asked_for && !is_preview(file)) {
-      throw InputError(fmt::format("--preview {}: '{}' is a file of yours and no preview; remedy: another name",
-                                   options.preview.string(), file.string()));
+      throw InputError("--preview {}: '{}' is a file of yours and no preview; remedy: another name",
+                       options.preview.string(), file.string());
     }
   }
   return preview;
@@ -86,7 +86,7 @@ void write_previews(const CaseSpec& spec, const CheckOptions& options, const Bou
       draw_start(image, spec.general.title, spec.particles.spacing, boundary, fluid.position, bad_places);
       fmt::print("           {}\n", image.string());
     } catch (const IoError& error) {
-      warn(fmt::format("no picture in perspective: {}", error.what()));
+      warn("no picture in perspective: {}", error.what());
     }
   }
 }
@@ -102,7 +102,7 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, std::str
   } catch (const InputError&) {
     // Nothing can be drawn, for the reason that the message itself gives.
   } catch (const IoError& problem) {
-    warn(fmt::format("no preview: {}", problem.what()));
+    warn("no preview: {}", problem.what());
   }
 }
 
@@ -143,14 +143,13 @@ void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
   std::error_code error;  // no preview yet: nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
-    throw InputError(
-        fmt::format("--preview {} is the case file itself; remedy: another name", options.preview.string()));
+    throw InputError("--preview {} is the case file itself; remedy: another name", options.preview.string());
   }
   if (options.preview.extension() == ".png") {
     throw InputError(
-        fmt::format("--preview {}: the preview is an SVG file, beside which a picture in perspective is "
-                    "written as a PNG file; remedy: a name that ends with .svg",
-                    options.preview.string()));
+        "--preview {}: the preview is an SVG file, beside which a picture in perspective is written as a PNG file; "
+        "remedy: a name that ends with .svg",
+        options.preview.string());
   }
   try {
     with_places(spec, [&] {
@@ -161,7 +160,7 @@ void check_case(const CheckOptions& options) {
       }
     });
   } catch (const SolverError& failure) {
-    throw SolverError(fmt::format("{}: a trial step fails: {}", options.case_file.string(), failure.what()));
+    throw SolverError("{}: a trial step fails: {}", options.case_file.string(), failure.what());
   }
 }
 
@@ -176,17 +175,15 @@ void add_check_command(CLI::App& app, ExitCode&) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command
-      ->add_option(
-          "--preview", options->preview,
-          "Picture to write (default: CASE.preview.svg in this folder); in 3D also one in perspective beside it, "
-          "with the ending .png; of a wrong geometry both mark the places")
+      ->add_option("--preview", options->preview,
+                   "Picture to write (default: CASE.preview.svg in this folder); in 3D also one in perspective beside "
+                   "it, with the ending .png; of a wrong geometry both mark the places")
       ->type_name("FILE");
   command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
   command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
-  CLI::Option* json = command->add_flag(
-      "--json", options->as_json,
-      "Print findings, drawing and size as JSON, for programs, without trial steps; the case \"-\" is read "
-      "from standard input");
+  CLI::Option* json = command->add_flag("--json", options->as_json,
+                                        "Print findings, drawing and size as JSON, for programs, without trial steps; "
+                                        "the case \"-\" is read from standard input");
   command
       ->add_flag("--trial-steps", options->takes_trial_steps,
                  "With --json: take trial steps, and tell the time it takes")

@@ -23,7 +23,7 @@ namespace {
 using std::chrono::milliseconds;
 
 [[noreturn]] void throw_no_start(const std::string& program) {
-  throw IoError(fmt::format("cannot start {}: {}", program, std::generic_category().message(errno)));
+  throw IoError("cannot start {}: {}", program, std::generic_category().message(errno));
 }
 
 /// A pipe whose ends are closed with it.

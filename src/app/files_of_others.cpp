@@ -15,7 +15,7 @@ void require_own_regular_file(const std::filesystem::path& path) {
   struct stat found {};
   const bool is_there = lstat(path.c_str(), &found) == 0;
   const auto refuse = [&](const char* what) {
-    throw InputError(fmt::format("'{}' is {}, and is not replaced; remedy: another name", path.string(), what));
+    throw InputError("'{}' is {}, and is not replaced; remedy: another name", path.string(), what);
   };
   if (is_there && S_ISLNK(found.st_mode)) refuse("a link");
   if (is_there && S_ISDIR(found.st_mode)) refuse("a folder");

@@ -34,8 +34,8 @@ void show_digest(const Json& summary) {
 void show_run(const std::filesystem::path& run, bool as_json) {
   if (is_sweep(run)) {
     if (as_json) {
-      throw InputError(fmt::format("--json: '{}' is a sweep; remedy: read {}, or name the folder of one member",
-                                   run.string(), (run / sweep_table_name).string()));
+      throw InputError("--json: '{}' is a sweep; remedy: read {}, or name the folder of one member", run.string(),
+                       (run / sweep_table_name).string());
     }
     fmt::print("{}", sweep_digest(run, read_sweep_record(run)));
     return;
@@ -48,8 +48,8 @@ void show_run(const std::filesystem::path& run, bool as_json) {
   try {
     show_digest(summary);
   } catch (const Json::exception& error) {
-    throw IoError(fmt::format("'{}' is not the summary of a run of this version ({}); remedy: tailwater info {} --json",
-                              (run / "summary.json").string(), error.what(), run.string()));
+    throw IoError("'{}' is not the summary of a run of this version ({}); remedy: tailwater info {} --json",
+                  (run / "summary.json").string(), error.what(), run.string());
   }
 }
 

@@ -47,9 +47,9 @@ void require_printable(int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     if (is_printable(argv[k])) continue;
     throw InputError(
-        fmt::format("word {} of the command line, \"{}\", has control characters or bytes that are not UTF-8; remedy: "
-                    "write it, or name the file, in letters that can be seen",
-                    k, shortened(printable(argv[k]), 200)));
+        "word {} of the command line, \"{}\", has control characters or bytes that are not UTF-8; remedy: write it, or "
+        "name the file, in letters that can be seen",
+        k, shortened(printable(argv[k]), 200));
   }
 }
 
@@ -64,9 +64,9 @@ class Ranks {
     MPI_Comm_dup(communicator_.handle(), &meeting_);
     if (communicator_.size() == count) return;
     throw InputError(
-        fmt::format("{} processes were started, but MPI knows {} of them as ranks of one program; remedy: "
-                    "start them with the mpirun of the MPI of this program, or srun --mpi=pmix",
-                    count, communicator_.size()));
+        "{} processes were started, but MPI knows {} of them as ranks of one program; remedy: start them with the "
+        "mpirun of the MPI of this program, or srun --mpi=pmix",
+        count, communicator_.size());
   }
   ~Ranks() {
     if (meeting_ != MPI_COMM_SELF) MPI_Comm_free(&meeting_);
@@ -130,9 +130,9 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
     const std::string_view command = argv[1];
     if (!ranks.is_alone() && command != "run" && command != "resume") {
       throw InputError(
-          fmt::format("{} ranks were started, but only `tailwater run` and `resume` use more than one; remedy: "
-                      "tailwater {} without mpirun",
-                      ranks.size(), argv[1]));
+          "{} ranks were started, but only `tailwater run` and `resume` use more than one; remedy: tailwater {} "
+          "without mpirun",
+          ranks.size(), argv[1]);
     }
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return output_failure(errno);

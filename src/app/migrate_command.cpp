@@ -16,13 +16,13 @@ namespace {
 void migrate(const std::filesystem::path& old_file, const std::filesystem::path& new_file) {
   const Migration migration = migrate_case(read_case_file(old_file, largest_effective_case), old_file.string());
   for (const std::string& change : migration.changes) tell(change);
-  if (migration.changes.empty()) tell(fmt::format("{}: is up to date", old_file.string()));
+  if (migration.changes.empty()) tell("{}: is up to date", old_file.string());
   if (new_file.empty()) {
     fmt::print("{}", migration.text);
     return;
   }
   if (std::filesystem::exists(std::filesystem::symlink_status(new_file))) {
-    throw InputError(fmt::format("'{}' exists and is not overwritten; remedy: another name", new_file.string()));
+    throw InputError("'{}' exists and is not overwritten; remedy: another name", new_file.string());
   }
   write_text_file(new_file, migration.text);
   fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n", new_file.string());

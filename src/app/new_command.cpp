@@ -56,7 +56,7 @@ void require_place(const std::filesystem::path& file, bool force) {
   if (!std::filesystem::exists(status)) return;
   require_own_regular_file(file);
   if (force) return;
-  throw InputError(fmt::format("'{}' exists and is not overwritten; remedy: another name, or --force", file.string()));
+  throw InputError("'{}' exists and is not overwritten; remedy: another name, or --force", file.string());
 }
 
 bool holds(const std::filesystem::path& file, std::string_view text) {
@@ -90,13 +90,12 @@ void add_new_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<NewOptions>();
   CLI::App* command = app.add_subcommand("new", "Start a case file from a template");
   command
-      ->add_option(
-          "template", options->kind,
-          "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and a "
-          "discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, ogee, "
-          "sluice-gate, hydraulic-jump and backwater (steady flow in a flume), circulation, run-up, pier (3D, a dam "
-          "breaks against a pier from a mesh file), wave-flume (regular waves, gauges and a damping zone), "
-          "solitary-wave, sloshing (a tank that rolls) or floating-box (a body on two lines)")
+      ->add_option("template", options->kind,
+                   "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and "
+                   "a discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, "
+                   "ogee, sluice-gate, hydraulic-jump and backwater (steady flow in a flume), circulation, run-up, "
+                   "pier (3D, a dam breaks against a pier from a mesh file), wave-flume (regular waves, gauges and a "
+                   "damping zone), solitary-wave, sloshing (a tank that rolls) or floating-box (a body on two lines)")
       ->required()
       ->check(CLI::IsMember(templates_by_name))
       ->type_name("NAME");

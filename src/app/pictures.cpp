@@ -30,7 +30,7 @@ void draw_pictures(const std::filesystem::path& run, int count, const Communicat
   try {
     run_python("tailwater.pictures", {"--count", fmt::format("{}", count), run.string()});
   } catch (const IoError& error) {
-    warn(fmt::format("no pictures: {}; later: tailwater pictures {}", error.what(), run.string()));
+    warn("no pictures: {}; later: tailwater pictures {}", error.what(), run.string());
   }
 }
 

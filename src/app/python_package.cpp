@@ -33,9 +33,9 @@ std::filesystem::path prefix_with(const std::string& module) {
   while (!std::filesystem::exists(above / validation / file) && !std::filesystem::exists(above / package / file)) {
     if (above == above.root_path()) {
       throw IoError(
-          fmt::format("the Python module {} is neither in {} nor in {} above '{}'; remedy: install the program whole "
-                      "(cmake --install), or build it again",
-                      module, validation, package, this_program()));
+          "the Python module {} is neither in {} nor in {} above '{}'; remedy: install the program whole (cmake "
+          "--install), or build it again",
+          module, validation, package, this_program());
     }
     above = above.parent_path();
   }
@@ -62,9 +62,8 @@ std::vector<std::string> python_command(const std::string& module, const std::ve
 }
 
 [[noreturn]] void throw_cannot_start(int error) {
-  throw IoError(
-      fmt::format("cannot start {}: {}; remedy: install python3 with numpy, matplotlib and VTK (scripts/install.sh)",
-                  python, std::generic_category().message(error)));
+  throw IoError("cannot start {}: {}; remedy: install python3 with numpy, matplotlib and VTK (scripts/install.sh)",
+                python, std::generic_category().message(error));
 }
 
 }  // namespace
@@ -103,7 +102,7 @@ void run_python(const std::string& module, const std::vector<std::string>& optio
   if (status == 0) return;
   // The last line says what is wrong, of a traceback too.
   const std::size_t last = told.find_last_not_of(" \n");
-  if (last == std::string::npos) throw IoError(fmt::format("{} ended with status {}", module, status));
+  if (last == std::string::npos) throw IoError("{} ended with status {}", module, status);
   const std::size_t begin = told.rfind('\n', last) + 1;
   const std::string line = told.substr(begin, last + 1 - begin);
   throw IoError(line.starts_with("error: ") ? line.substr(7) : line);

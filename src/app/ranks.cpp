@@ -141,7 +141,7 @@ bool is_root_in_environment() {
 
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
-    warn(fmt::format("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores()));
+    warn("{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(), usable_cores());
   }
   require_room_for_mpi(count);
   const TemporaryFolder session;
@@ -152,8 +152,8 @@ ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, cons
     try {
       return signals.start(command, STDERR_FILENO);
     } catch (const std::system_error& error) {
-      throw InputError(fmt::format("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
-                                   error.code().message()));
+      throw InputError("-n {}: cannot start {}: {}; remedy: install openmpi-bin", count, command[0],
+                       error.code().message());
     }
   };
   const auto [code, was_asked] = wait_for(start(), signals, requests);

@@ -37,9 +37,9 @@ ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std
     if (arguments.ranks.count) require_possible(*arguments.ranks.count);
     if (!arguments.overrides.empty()) {
       throw InputError(
-          fmt::format("--set {}: '{}' is a sweep, whose members have cases of their own; remedy: resume one "
-                      "member, {}/MEMBER, or start another sweep",
-                      arguments.overrides.front(), arguments.run.out.string(), arguments.run.out.string()));
+          "--set {}: '{}' is a sweep, whose members have cases of their own; remedy: resume one member, {}/MEMBER, or "
+          "start another sweep",
+          arguments.overrides.front(), arguments.run.out.string(), arguments.run.out.string());
     }
     return resume_sweep({.out = arguments.run.out,
                          .jobs = arguments.jobs.value_or(1),

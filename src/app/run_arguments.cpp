@@ -80,18 +80,15 @@ void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {
 }
 
 void require_possible(int ranks) {
-  if (ranks < 1)
-    throw InputError(fmt::format("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", ranks));
+  if (ranks < 1) throw InputError("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", ranks);
   if (const int most = most_ranks_here(); ranks > most) {
     throw InputError(
-        fmt::format("-n {}: this machine's cores can share at most {} ranks; remedy: -n {}, or more nodes "
-                    "in a batch job",
-                    ranks, most, usable_cores()));
+        "-n {}: this machine's cores can share at most {} ranks; remedy: -n {}, or more nodes in a batch job", ranks,
+        most, usable_cores());
   }
   const int started = ranks_in_environment();
   if (started > 0 && ranks != started) {
-    throw InputError(
-        fmt::format("-n {}: mpirun (or srun) has started {} rank(s) already; remedy: leave -n out", ranks, started));
+    throw InputError("-n {}: mpirun (or srun) has started {} rank(s) already; remedy: leave -n out", ranks, started);
   }
 }
 
@@ -100,19 +97,19 @@ std::optional<std::chrono::duration<double>> wall_time_of(const std::string& tex
   std::optional<double> seconds = seconds_by_colons(text);
   if (!seconds) seconds = seconds_by_units(text);
   if (!seconds || !(*seconds > 0.0)) {
-    throw InputError(fmt::format(
+    throw InputError(
         "--wall-time {}: not a time above 0; remedy: a number with its unit, as in 3h, 90min, 1h30min or 45s, or "
         "hours:minutes:seconds, as in 12:00:00",
-        text));
+        text);
   }
   return std::chrono::duration<double>(*seconds);
 }
 
 void tell_end(ExitCode code, const std::filesystem::path& run) {
   if (code == ExitCode::done) {
-    tell(fmt::format("done: results in {}", run.string()));
+    tell("done: results in {}", run.string());
   } else {
-    tell(fmt::format("interrupted: results in {}; to go on: tailwater resume {}", run.string(), run.string()));
+    tell("interrupted: results in {}; to go on: tailwater resume {}", run.string(), run.string());
   }
 }
 

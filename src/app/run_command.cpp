@@ -66,7 +66,7 @@ ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::v
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   if (ranks.is_alone()) {
     const int count = arguments.ranks.count ? *arguments.ranks.count : ranks_by_default(spec);
-    if (count > 1 && !arguments.ranks.count) tell(fmt::format("on {} ranks; -n 1 for one", count));
+    if (count > 1 && !arguments.ranks.count) tell("on {} ranks; -n 1 for one", count);
     if (count > 1) return launch_ranks(count, words, arguments.run.out);
   }
   std::optional<LinearSession> session;  // several ranks have one already

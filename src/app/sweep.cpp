@@ -90,7 +90,7 @@ class Sweep {
 
   ExitCode execute() {
     const std::size_t to_do = count([](const Member& member) { return member.is_to_do; });
-    tell(fmt::format("sweep of {} members, {} done already", members_.size(), members_.size() - to_do));
+    tell("sweep of {} members, {} done already", members_.size(), members_.size() - to_do);
     write_table();
     const AwaitedSignals signals;
     while (true) {
@@ -162,7 +162,7 @@ class Sweep {
     member.standard_error = memfd_create("errors", MFD_CLOEXEC);
     member.process = signals.start(std::move(command), member.standard_error);
     news_[m] = {.is_running = true, .exit_code = std::nullopt, .message = ""};
-    tell(fmt::format("begins: {}", plan_.members[m].folder));
+    tell("begins: {}", plan_.members[m].folder);
     write_table();
   }
 
@@ -198,7 +198,7 @@ class Sweep {
       tell_error(fmt::format("{}: {}", member.folder.string(),
                              message.empty() ? fmt::format("ended with exit code {}", *code) : message));
     } else {
-      tell(fmt::format("{}: {}", *code == 0 ? "done" : "interrupted", plan_.members[m].folder));
+      tell("{}: {}", *code == 0 ? "done" : "interrupted", plan_.members[m].folder);
     }
     write_table();
   }
@@ -226,11 +226,11 @@ class Sweep {
     const std::size_t done = count([](const Member& member) { return member_status(member.folder) == "done"; });
     const std::string table = (options_.out / sweep_table_name).string();
     if (done == members_.size()) {
-      tell(fmt::format("done: {} members; table: {}", done, table));
+      tell("done: {} members; table: {}", done, table);
       return ExitCode::done;
     }
-    tell(fmt::format("{} of {} members are done; table: {}; to go on with the others: tailwater resume {}", done,
-                     members_.size(), table, options_.out.string()));
+    tell("{} of {} members are done; table: {}; to go on with the others: tailwater resume {}", done, members_.size(),
+         table, options_.out.string());
     if (is_asked_to_stop_) return ExitCode::interrupted;
     return first_failure_ ? static_cast<ExitCode>(*first_failure_) : ExitCode::interrupted;
   }
@@ -253,40 +253,38 @@ void require_same_sweep(const fs::path& out, const SweepPlan& plan, const std::v
   if (!is_sweep(out)) {
     const bool is_free = !fs::exists(out, error) || (fs::is_directory(out, error) && fs::is_empty(out, error));
     if (is_free) return;
-    throw InputError(fmt::format("--out {}: is there already, and is not the folder of a sweep; remedy: another name",
-                                 out.string()));
+    throw InputError("--out {}: is there already, and is not the folder of a sweep; remedy: another name",
+                     out.string());
   }
   const SweepPlan earlier = read_sweep_record(out);
   if (earlier.keys != plan.keys) {
-    throw InputError(fmt::format("--out {}: has a sweep of {}, and not of {}; remedy: another name", out.string(),
-                                 fmt::join(earlier.keys, " and "), fmt::join(plan.keys, " and ")));
+    throw InputError("--out {}: has a sweep of {}, and not of {}; remedy: another name", out.string(),
+                     fmt::join(earlier.keys, " and "), fmt::join(plan.keys, " and "));
   }
   for (const SweepMember& member : earlier.members) {
     if (std::find(plan.members.begin(), plan.members.end(), member) != plan.members.end()) continue;
     throw InputError(
-        fmt::format("--out {}: the sweep there has the member {}, which this one has not; remedy: add its values, or "
-                    "another name",
-                    out.string(), member.folder));
+        "--out {}: the sweep there has the member {}, which this one has not; remedy: add its values, or another name",
+        out.string(), member.folder);
   }
   for (std::size_t m = 0; m < cases.size(); ++m) {
     const fs::path case_file = out / plan.members[m].folder / effective_case_name;
     if (!fs::exists(case_file, error)) continue;
     const CaseSpec found = read_effective_case(case_file);
     if (found == cases[m]) continue;
-    throw InputError(
-        fmt::format("'{}' is of another case than this one: {}; remedy: tailwater resume {}, or another --out",
-                    case_file.string(), first_difference(cases[m], found), out.string()));
+    throw InputError("'{}' is of another case than this one: {}; remedy: tailwater resume {}, or another --out",
+                     case_file.string(), first_difference(cases[m], found), out.string());
   }
 }
 
 void require_possible_jobs(const SweepOptions& options) {
   const int ranks = options.ranks.value_or(1);
   if (options.jobs < 1) {
-    throw InputError(fmt::format("--jobs {}: at least one member runs at a time; remedy: --jobs 1", options.jobs));
+    throw InputError("--jobs {}: at least one member runs at a time; remedy: --jobs 1", options.jobs);
   }
   if (options.jobs > most_ranks_here() / ranks) {
-    throw InputError(fmt::format("--jobs {}: this machine's cores can share at most {} ranks; remedy: --jobs {}",
-                                 options.jobs, most_ranks_here(), std::max(1, usable_cores() / ranks)));
+    throw InputError("--jobs {}: this machine's cores can share at most {} ranks; remedy: --jobs {}", options.jobs,
+                     most_ranks_here(), std::max(1, usable_cores() / ranks));
   }
   if (ranks_in_environment() > 0) {
     throw InputError("a sweep starts its members itself; remedy: tailwater without mpirun, and -n for each member");
@@ -308,7 +306,7 @@ ExitCode run_sweep(const fs::path& case_file, const std::vector<std::string>& ov
   for (const std::string& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
     if (std::find(plan.keys.begin(), plan.keys.end(), key) == plan.keys.end()) continue;
-    throw InputError(fmt::format("--set {}: the key is swept; remedy: leave --set {} out", text, key));
+    throw InputError("--set {}: the key is swept; remedy: leave --set {} out", text, key);
   }
   const std::vector<CaseSpec> cases = cases_of_sweep(case_file, overrides, plan);
   require_same_sweep(options.out, plan, cases);
@@ -335,9 +333,8 @@ ExitCode resume_sweep(const SweepOptions& options) {
     std::error_code error;
     if (!fs::exists(case_file, error)) {
       throw InputError(
-          fmt::format("the sweep in '{}' has no {}; remedy: give the command again that began it, which makes what is "
-                      "missing",
-                      options.out.string(), (fs::path(member.folder) / effective_case_name).string()));
+          "the sweep in '{}' has no {}; remedy: give the command again that began it, which makes what is missing",
+          options.out.string(), (fs::path(member.folder) / effective_case_name).string());
     }
     cases.push_back(read_effective_case(case_file));
   }

@@ -69,14 +69,14 @@ std::vector<std::string> split_values(std::string_view text) {
 SweepKey parse_sweep_key(const std::string& option) {
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError(fmt::format("--sweep {}: a key or its values are missing; {}", option, sweep_usage));
+    throw InputError("--sweep {}: a key or its values are missing; {}", option, sweep_usage);
   }
   SweepKey key{std::string(without_spaces(option.substr(0, equals))), split_values(option.substr(equals + 1))};
   std::set<std::string> seen;
   for (const std::string& value : key.values) {
-    if (value.empty()) throw InputError(fmt::format("--sweep {}: a value is missing; {}", option, sweep_usage));
+    if (value.empty()) throw InputError("--sweep {}: a value is missing; {}", option, sweep_usage);
     if (!seen.insert(value).second) {
-      throw InputError(fmt::format("--sweep {}: the value {} is there twice; remedy: each value once", option, value));
+      throw InputError("--sweep {}: the value {} is there twice; remedy: each value once", option, value);
     }
   }
   return key;
@@ -132,13 +132,11 @@ SweepPlan sweep_plan(const std::vector<std::string>& options) {
     SweepKey key = parse_sweep_key(option);
     for (const SweepKey& other : keys) {
       if (other.key != key.key) continue;
-      throw InputError(
-          fmt::format("--sweep {}: the key is swept twice; remedy: all its values in one --sweep", option));
+      throw InputError("--sweep {}: the key is swept twice; remedy: all its values in one --sweep", option);
     }
     count *= key.values.size();
     if (count > most_members) {
-      throw InputError(
-          fmt::format("--sweep {}: makes more than {} members; remedy: fewer values", option, most_members));
+      throw InputError("--sweep {}: makes more than {} members; remedy: fewer values", option, most_members);
     }
     keys.push_back(std::move(key));
   }
@@ -179,7 +177,7 @@ std::vector<CaseSpec> cases_of_sweep(const std::filesystem::path& case_file, con
       }
     }
   }
-  if (!problems.empty()) throw InputError(fmt::format("{}", fmt::join(problems, "\n")));
+  if (!problems.empty()) throw InputError("{}", fmt::join(problems, "\n"));
   return cases;
 }
 
@@ -191,23 +189,23 @@ bool is_sweep(const std::filesystem::path& folder) {
 SweepPlan read_sweep_record(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / sweep_record_name;
   std::ifstream file(path);
-  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
+  if (!file) throw IoError("cannot read '{}'", path.string());
   try {
     const nlohmann::json record = nlohmann::json::parse(file);
     if (record.at("format") != sweep_record_format) {
-      throw IoError(fmt::format("'{}' has format {}, and this program reads format {}; remedy: use {}", path.string(),
-                                record.at("format").dump(), sweep_record_format, record.value("program", "another")));
+      throw IoError("'{}' has format {}, and this program reads format {}; remedy: use {}", path.string(),
+                    record.at("format").dump(), sweep_record_format, record.value("program", "another"));
     }
     SweepPlan plan;
     record.at("keys").get_to(plan.keys);
     for (const nlohmann::json& member : record.at("members")) {
       plan.members.push_back({member.at("folder"), member.at("values")});
       if (plan.members.back().values.size() == plan.keys.size()) continue;
-      throw IoError(fmt::format("'{}': a member has not as many values as there are keys", path.string()));
+      throw IoError("'{}': a member has not as many values as there are keys", path.string());
     }
     return plan;
   } catch (const nlohmann::json::exception& error) {
-    throw IoError(fmt::format("'{}' is not the record of a sweep: {}", path.string(), error.what()));
+    throw IoError("'{}' is not the record of a sweep: {}", path.string(), error.what());
   }
 }
 

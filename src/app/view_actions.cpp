@@ -59,7 +59,7 @@ void require_plain_name(const std::string& name) {
   const bool is_plain = !name.empty() && name.find('/') == name.npos && name.front() != '.' && name.front() != '-' &&
                         std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 32; });
   if (is_plain) return;
-  throw InputError(fmt::format("\"{}\" is no name for a folder beside the case; remedy: a name without '/'", name));
+  throw InputError("\"{}\" is no name for a folder beside the case; remedy: a name without '/'", name);
 }
 
 /// Whether a file has been written since.
@@ -125,13 +125,13 @@ std::function<Json(const std::string&)> checking(const fs::path& folder, bool ta
 fs::path start_case(const fs::path& folder, const std::optional<fs::path>& case_file, const std::string& text,
                     const std::string& out, int ranks) {
   require_plain_name(out);
-  if (ranks < 1 || ranks > usable_cores()) throw InputError(fmt::format("{} ranks: 1 to {}", ranks, usable_cores()));
+  if (ranks < 1 || ranks > usable_cores()) throw InputError("{} ranks: 1 to {}", ranks, usable_cores());
   const fs::path run = folder / out;
   const fs::path saved = case_file ? *case_file : folder / (out + ".toml");
   std::error_code error;
-  if (fs::exists(run, error)) throw InputError(fmt::format("'{}' is there already; remedy: another name", out));
+  if (fs::exists(run, error)) throw InputError("'{}' is there already; remedy: another name", out);
   if (!case_file && fs::exists(saved, error)) {
-    throw InputError(fmt::format("'{}' is there already; remedy: another name", saved.string()));
+    throw InputError("'{}' is there already; remedy: another name", saved.string());
   }
   write_text_file(saved, text);
   start_apart({this_program(), "run", saved.string(), "--out", run.string(), "-n", std::to_string(ranks), "--quiet"},

@@ -67,7 +67,7 @@ void add_report(const fs::path& folder, ViewContent& content) {
       if (compared.at("shown").is_string()) names.insert(compared.at("shown"));
     }
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("'{}' is not a report of tailwater validate", (folder / report_name).string()));
+    throw InputError("'{}' is not a report of tailwater validate", (folder / report_name).string());
   }
   for (const std::string& name : names) {
     const fs::path run = folder / "runs" / fs::path(name).filename();
@@ -88,7 +88,7 @@ void add_study(const fs::path& folder, ViewContent& content) {
       if (!goes_up(name) && is_run(folder / name)) content.runs.push_back({name, fs::absolute(folder / name)});
     }
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("'{}' is not the table of tailwater study", (folder / study_name).string()));
+    throw InputError("'{}' is not the table of tailwater study", (folder / study_name).string());
   }
 }
 
@@ -116,17 +116,16 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
       } else {
-        throw InputError(fmt::format(
-            "'{}' is not the folder of a run, of a sweep, of a report or of a study: it has none of {}, {}, {} "
-            "and {}",
-            path.string(), effective_case_name, sweep_record_name, report_name, study_name));
+        throw InputError(
+            "'{}' is not the folder of a run, of a sweep, of a report or of a study: it has none of {}, {}, {} and {}",
+            path.string(), effective_case_name, sweep_record_name, report_name, study_name);
       }
     } else if (fs::is_regular_file(path, error) && path.extension() == ".toml") {
       if (paths.size() > 1) throw InputError("a case is shown alone; remedy: name one case, or runs only");
       content.mode = "case";
       content.case_file = fs::absolute(path);
     } else {
-      throw InputError(fmt::format("'{}' is neither the folder of a run nor a case file (.toml)", path.string()));
+      throw InputError("'{}' is neither the folder of a run nor a case file (.toml)", path.string());
     }
   }
   return content;
@@ -143,10 +142,10 @@ fs::path runtime_folder() {
 void open_in_browser(const std::string& address, const fs::path& folder) {
   if (folder.empty()) return;
   try {
-    write_text_file(folder / "open.html", fmt::format("<!DOCTYPE html><title>Tailwater</title>"
-                                                      "<meta http-equiv=\"refresh\" content=\"0; url={0}\">"
-                                                      "<a href=\"{0}\">Tailwater</a>\n",
-                                                      address));
+    write_text_file(folder / "open.html",
+                    fmt::format("<!DOCTYPE html><title>Tailwater</title><meta http-equiv=\"refresh\" content=\"0; "
+                                "url={0}\"><a href=\"{0}\">Tailwater</a>\n",
+                                address));
     start_apart(
         {"xdg-open", (folder / "open.html").string()}, folder, [] { return true; }, std::chrono::seconds(1));
   } catch (const UserError&) {
@@ -160,9 +159,9 @@ void serve(const ViewContent& content, const std::vector<fs::path>& sweeps, cons
   fmt::print("{}\n", server.address());
   std::fflush(stdout);
   tell(
-      fmt::format("open this address in a browser; from another machine: ssh -L {0}:127.0.0.1:{0} ..., then the same "
-                  "address. Ctrl-C ends",
-                  server.port()));
+      "open this address in a browser; from another machine: ssh -L {0}:127.0.0.1:{0} ..., then the same address. "
+      "Ctrl-C ends",
+      server.port());
   std::thread serving([&server] { server.serve(); });
   std::optional<TemporaryFolder> folder;
   if (!options.opens_no_browser) open_in_browser(server.address(), folder.emplace(runtime_folder()).path());
@@ -196,10 +195,9 @@ void add_view_command(CLI::App& app, ExitCode&) {
       ->type_name("PORT");
   command->add_flag("--no-browser", options->opens_no_browser, "Print the address only");
   command
-      ->add_option(
-          "--export", options->export_file,
-          "Write one HTML file with what the page shows, which any browser opens without this program: some 200 "
-          "frames, places to a 32nd of dx, colours in 128 steps, 7 digits")
+      ->add_option("--export", options->export_file,
+                   "Write one HTML file with what the page shows, which any browser opens without this program: some "
+                   "200 frames, places to a 32nd of dx, colours in 128 steps, 7 digits")
       ->type_name("FILE");
   command->footer(
       "Examples: tailwater view my_run\n"

@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace tailwater {
 
@@ -24,22 +27,21 @@ class UserError : public std::runtime_error {
   ExitCode code_;
 };
 
+/// One with its exit code, from a message or from what fmt::format makes one of.
+template <ExitCode exit_code>
+class ErrorWith : public UserError {
+ public:
+  explicit ErrorWith(const std::string& message) : UserError(exit_code, message) {}
+  template <class First, class... Rest>
+  explicit ErrorWith(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest)
+      : UserError(exit_code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+};
+
 /// The case file, the command line or the geometry is wrong. The message names the place, the value and the remedy.
-class InputError : public UserError {
- public:
-  explicit InputError(const std::string& message) : UserError(ExitCode::bad_input, message) {}
-};
-
+using InputError = ErrorWith<ExitCode::bad_input>;
 /// A linear solve did not converge, or a step produced a value that is not finite.
-class SolverError : public UserError {
- public:
-  explicit SolverError(const std::string& message) : UserError(ExitCode::solver_failed, message) {}
-};
-
+using SolverError = ErrorWith<ExitCode::solver_failed>;
 /// A file or folder cannot be read or written.
-class IoError : public UserError {
- public:
-  explicit IoError(const std::string& message) : UserError(ExitCode::io_failed, message) {}
-};
+using IoError = ErrorWith<ExitCode::io_failed>;
 
 }  // namespace tailwater

@@ -223,9 +223,9 @@ SolveReport BodyCoupling<Dim>::solve(double tolerance) {
 template <int Dim>
 void BodyCoupling<Dim>::fail(int passes) const {
   throw SolverError(
-      fmt::format("the motion of body '{}' and the pressure of the water do not agree after {} passes; remedy: a finer "
-                  "spacing, a smaller scheme.courant, or softer moorings",
-                  flow_.setup.bodies.front().name, passes));
+      "the motion of body '{}' and the pressure of the water do not agree after {} passes; remedy: a finer spacing, a "
+      "smaller scheme.courant, or softer moorings",
+      flow_.setup.bodies.front().name, passes);
 }
 
 template <int Dim>

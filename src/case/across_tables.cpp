@@ -22,11 +22,10 @@ void check_end_of_series(const TimeSeries& series, double start, double end, std
                          const toml::node* node, Problems& problems) {
   const double last = series.empty() ? end : start + series.time.back();
   if (node == nullptr || last >= end) return;
-  problems.add(
-      &node->source(),
-      fmt::format("{} = {}: {}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines "
-                  "(the last values again, if it then rests), or end the run before",
-                  key, value_text(*node), series.file, series.line.back(), last, end));
+  problems.add(&node->source(),
+               fmt::format("{} = {}: {}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add "
+                           "lines (the last values again, if it then rests), or end the run before",
+                           key, value_text(*node), series.file, series.line.back(), last, end));
 }
 
 void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
@@ -70,11 +69,10 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;
-    problems.add(
-        &node->source(),
-        fmt::format("fluid[{0}].level = {1}: is a {2}, but physics.gravity does not point down along {2}; turn "
-                    "the case so that it does, or draw the water as a box or a {3}",
-                    k, value_text(*node), dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
+    problems.add(&node->source(),
+                 fmt::format("fluid[{0}].level = {1}: is a {2}, but physics.gravity does not point down along {2}; "
+                             "turn the case so that it does, or draw the water as a box or a {3}",
+                             k, value_text(*node), dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
   }
 }
 
@@ -139,11 +137,10 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
   const std::string_view why_not = traits_of(spec).no_floating;
   if (!spec.bodies.empty() && !why_not.empty()) {
-    problems.add(
-        &root["body"][0].node()->source(),
-        fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": {}; "
-                    "choose these, or give the walls a motion",
-                    name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
+    problems.add(&root["body"][0].node()->source(),
+                 fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": "
+                             "{}; choose these, or give the walls a motion",
+                             name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
   }
 }
 
@@ -151,11 +148,10 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
 void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const auto check_none = [&](std::string_view table, const auto& tables) {
     if (tables.empty()) return;
-    problems.add(
-        &root[table][0].node()->source(),
-        fmt::format("{}[0]: enclosed air is not computed in this case; give pockets = \"{}\" or \"{}\" in [air], or "
-                    "remove the table",
-                    table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
+    problems.add(&root[table][0].node()->source(),
+                 fmt::format("{}[0]: enclosed air is not computed in this case; give pockets = \"{}\" or \"{}\" in "
+                             "[air], or remove the table",
+                             table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
   };
   check_none("pocket", spec.pockets);
   check_none("vent", spec.vents);
@@ -167,10 +163,9 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
   for (std::size_t k = 0; k < spec.pockets.size(); ++k) {
     const toml::node* node = root["pocket"][k]["overpressure"].node();
     if (node == nullptr || spec.pockets[k].overpressure > -spec.air.pressure) continue;
-    problems.add(&node->source(),
-                 fmt::format("pocket[{}].overpressure = {}: leaves no pressure of the atmosphere's {:.9g} Pa "
-                             "(air.pressure); give more than {:.9g} Pa",
-                             k, value_text(*node), spec.air.pressure, -spec.air.pressure));
+    problems.add(&node->source(), fmt::format("pocket[{}].overpressure = {}: leaves no pressure of the atmosphere's "
+                                              "{:.9g} Pa (air.pressure); give more than {:.9g} Pa",
+                                              k, value_text(*node), spec.air.pressure, -spec.air.pressure));
   }
   const toml::node* node = root["air"]["pockets"].node();
   if (spec.air.pockets == AirPockets::none || node == nullptr) return;

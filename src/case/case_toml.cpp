@@ -18,18 +18,18 @@ std::string read_case_file(const std::filesystem::path& path, std::uintmax_t lar
   std::error_code error;  // what does not exist is told below
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) {
-    throw IoError(fmt::format("{}: is a folder; give the case file in it", path.string()));
+    throw IoError("{}: is a folder; give the case file in it", path.string());
   }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw IoError(fmt::format("{}: is a device or a pipe; give a case file", path.string()));
+    throw IoError("{}: is a device or a pipe; give a case file", path.string());
   }
   if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
-    throw InputError(fmt::format("{}: has {} bytes; a case file has at most {}", path.string(), size, largest));
+    throw InputError("{}: has {} bytes; a case file has at most {}", path.string(), size, largest);
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw IoError(fmt::format("{}: cannot read the case file ({}); check the path, or start one with `tailwater new`",
-                              path.string(), std::generic_category().message(errno)));
+    throw IoError("{}: cannot read the case file ({}); check the path, or start one with `tailwater new`",
+                  path.string(), std::generic_category().message(errno));
   }
   std::ostringstream text;
   text << file.rdbuf();
@@ -38,10 +38,8 @@ std::string read_case_file(const std::filesystem::path& path, std::uintmax_t lar
 
 toml::table parse_case(std::string_view text, const std::string& file) {
   if (const auto line = line_of_deep_key(text)) {
-    throw InputError(
-        fmt::format("{}:{}: a key has too many dots; keys are written as in fluid[0].max: a table and a "
-                    "name in it",
-                    file, *line));
+    throw InputError("{}:{}: a key has too many dots; keys are written as in fluid[0].max: a table and a name in it",
+                     file, *line);
   }
   try {
     return toml::parse(text, file);
@@ -50,9 +48,8 @@ toml::table parse_case(std::string_view text, const std::string& file) {
     std::string description(error.description());  // it quotes letters as they are, ends of lines too
     std::ranges::replace_if(
         description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
-    throw InputError(
-        fmt::format("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
-                    where.line, where.column, description));
+    throw InputError("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
+                     where.line, where.column, description);
   }
 }
 

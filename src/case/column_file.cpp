@@ -83,17 +83,16 @@ std::string_view ColumnFile::next_line(std::string_view text) {
   return line.starts_with('#') ? std::string_view() : line;
 }
 
-void ColumnFile::wrong(const std::string& message) const {
-  throw InputError(fmt::format("{}:{}: {}", path_, line_, message));
-}
+void ColumnFile::wrong(const std::string& message) const { throw InputError("{}:{}: {}", path_, line_, message); }
 
 std::vector<std::string_view> ColumnFile::numbers_of(std::string_view line) const {
   std::vector<std::string_view> fields = fields_of(line, separator_);
   if (fields.size() > width_) {
-    wrong(fmt::format("has {} columns, and the first line has {}; {}", fields.size(), width_,
-                      separator_ == ',' ? "if the comma is that of decimals, write them with a point; otherwise name "
-                                          "all columns in the first line"
-                                        : "name all columns in the first line"));
+    wrong(fmt::format(
+        "has {} columns, and the first line has {}; {}", fields.size(), width_,
+        separator_ == ','
+            ? "if the comma is that of decimals, write them with a point; otherwise name all columns in the first line"
+            : "name all columns in the first line"));
   }
   return fields;
 }

@@ -88,10 +88,11 @@ void check(const BodyTable& body, TableReader& reader) {
   if (reader.is_wrong("inertia") || reader.is_wrong("free")) return;
   if (body.inertia.empty()) {
     if (turns) {
-      reader.missing("inertia",
-                     fmt::format("a body that is free to turn needs its moment{} of inertia; give {}, or leave the "
-                                 "rotation out of `free`",
-                                 is_flat ? "" : "s", is_flat ? "[I]" : "[Ixx, Iyy, Izz]"));
+      reader.missing(
+          "inertia",
+          fmt::format(
+              "a body that is free to turn needs its moment{} of inertia; give {}, or leave the rotation out of `free`",
+              is_flat ? "" : "s", is_flat ? "[I]" : "[Ixx, Iyy, Izz]"));
     }
   } else if (body.inertia.size() != needed ||
              std::ranges::any_of(body.inertia, [](double moment) { return moment <= 0.0; })) {

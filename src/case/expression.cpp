@@ -71,8 +71,7 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
   const bool is_out_of_place = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN || error.GetCode() == mu::ecUNEXPECTED_VAL;
   if (is_out_of_place && is_name(token) && follows_number(text, position)) {
     return ExpressionError(
-        fmt::format("\"{}\" at position {} follows a number; write numbers in SI without a unit, and "
-                    "products with *",
+        fmt::format("\"{}\" at position {} follows a number; write numbers in SI without a unit, and products with *",
                     token, position + 1));
   }
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && is_name(token)) {

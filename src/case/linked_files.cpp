@@ -25,20 +25,19 @@ std::ifstream open_file(const std::filesystem::path& path, std::uintmax_t larges
   std::error_code error;  // what does not exist is told below
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) {
-    throw IoError(fmt::format("{}: is a folder; give a file in it", path.string()));
+    throw IoError("{}: is a folder; give a file in it", path.string());
   }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw IoError(fmt::format("{}: is a device or a pipe; give a file", path.string()));
+    throw IoError("{}: is a device or a pipe; give a file", path.string());
   }
   if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
-    throw InputError(
-        fmt::format("{}: has {} bytes; such a file has at most {}: give fewer points, samples or triangles",
-                    path.string(), size, largest));
+    throw InputError("{}: has {} bytes; such a file has at most {}: give fewer points, samples or triangles",
+                     path.string(), size, largest);
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw IoError(fmt::format("{}: cannot read it ({}); check the name, which is relative to the case file",
-                              path.string(), std::generic_category().message(errno)));
+    throw IoError("{}: cannot read it ({}); check the name, which is relative to the case file", path.string(),
+                  std::generic_category().message(errno));
   }
   return file;
 }

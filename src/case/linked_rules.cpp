@@ -33,9 +33,9 @@ void keep_linked(std::string& file, std::string& checksum, std::string_view chec
   const std::string found = checksum_of_file(path);
   if (!checksum.empty() && checksum != found) {
     throw InputError(
-        fmt::format("{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case "
-                    "was made for, or start a new run without {}",
-                    path.string(), found, checksum, checksum_key));
+        "{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case was made for, "
+        "or start a new run without {}",
+        path.string(), found, checksum, checksum_key);
   }
   file = path.string();
   checksum = found;
@@ -44,8 +44,8 @@ void keep_linked(std::string& file, std::string& checksum, std::string_view chec
 /// A run begins at t = 0. That the series lasts to its end is checked when the end has been read.
 void require_start(const TimeSeries& series) {
   if (series.time.front() <= 0.0) return;
-  throw InputError(fmt::format("{}:{}: begins at t = {:.9g} s, but the motion begins at 0; add a line for t = 0",
-                               series.file, series.line.front(), series.time.front()));
+  throw InputError("{}:{}: begins at t = {:.9g} s, but the motion begins at 0; add a line for t = 0", series.file,
+                   series.line.front(), series.time.front());
 }
 
 /// A series that is too short for the run is found by the room checks, when the end of the run is known.
@@ -92,8 +92,8 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
       wall.points = read_points_file(reader.linked(wall.points_file));
       const std::size_t least = least_corners(wall.shape, reader.dimension());
       if (wall.points.size() < least) {
-        throw InputError(fmt::format("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
-                                     wall.points.size(), least));
+        throw InputError("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
+                         wall.points.size(), least);
       }
       wall.points_file.clear();
     });
@@ -109,7 +109,7 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
     wall.series = read_time_series(wall.motion, columns);
     require_start(wall.series);
     if (reader.dimension() == 2 && !wall.series.columns[2].empty()) {
-      throw InputError(fmt::format("{} has a column z, but case.dimension = 2; remove it", wall.motion));
+      throw InputError("{} has a column z, but case.dimension = 2; remove it", wall.motion);
     }
   });
   if (reader.dimension() == 3 && !reader.is_wrong("motion") && !wall.series.columns[3].empty()) {

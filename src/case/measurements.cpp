@@ -58,10 +58,9 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   }
   const std::vector<SeriesColumn> columns = columns_of(*probe, spec.general.dimension);
   if (columns.empty()) {
-    reporter.wrong("probe",
-                   fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another type, as "
-                               "\"depth\" or \"velocity\"",
-                               name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
+    reporter.wrong("probe", fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another "
+                                        "type, as \"depth\" or \"velocity\"",
+                                        name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
     return;
   }
   if (measurement.column.empty()) measurement.column = columns.front().name;

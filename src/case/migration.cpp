@@ -76,8 +76,8 @@ class Migrator {
   Migration result() {
     const auto format = root_["case"]["format"].value<std::int64_t>();
     if (format && *format > case_format) {
-      throw InputError(fmt::format("{}: its format is {}, and this program knows formats up to {}; use a newer version",
-                                   file_, *format, case_format));
+      throw InputError("{}: its format is {}, and this program knows formats up to {}; use a newer version", file_,
+                       *format, case_format);
     }
     for (const RemovedKey& key : removed_keys()) {
       if (const std::optional<Entry> entry = find(key)) change(*entry);
@@ -107,9 +107,9 @@ class Migrator {
       const std::size_t first = name.source().begin.line;
       if (table->is_inline()) {
         throw InputError(
-            fmt::format("{}:{}: {}.{} stands in braces; write the keys of this table on lines below [{}], "
-                        "and migrate the file then",
-                        file_, first, key.table, key.key, key.table));
+            "{}:{}: {}.{} stands in braces; write the keys of this table on lines below [{}], and migrate the file "
+            "then",
+            file_, first, key.table, key.key, key.table);
       }
       return Entry{key, value, first, value.source().end.line};
     }

@@ -54,8 +54,8 @@ class PointsFile : ColumnFile {
       }
       if (fields.size() > 2) {
         wrong(
-            fmt::format("has {} columns and no line that names them; begin the file with such a line, as in \"x [m], "
-                        "z [m]\", or give two columns",
+            fmt::format("has {} columns and no line that names them; begin the file with such a line, as in \"x [m], z "
+                        "[m]\", or give two columns",
                         fields.size()));
       }
     }

@@ -11,8 +11,8 @@ namespace {
 constexpr std::string_view part =
     "was removed: it is a part of the formulation; scheme.name and scheme.formulation choose among the four there are";
 constexpr std::string_view pulled =
-    "was removed: a weight m over a pulley lifts a gate of mass M with motion = \"acceleration\" and "
-    "acceleration = \"g*(m - M)/(m + M)\"";
+    "was removed: a weight m over a pulley lifts a gate of mass M with motion = \"acceleration\" and acceleration = "
+    "\"g*(m - M)/(m + M)\"";
 constexpr std::string_view in_study = "was moved to the table [study], under the same name";
 
 /// Keys of tables of which a case may have several. What has become of them cannot be written by a rule.

@@ -192,10 +192,9 @@ class SeriesFile : ColumnFile {
     }
     const auto known = std::ranges::find(wanted_, heading.name, &SeriesColumn::name);
     if (known == wanted_.end()) {
-      wrong(
-          fmt::format("has a column \"{}\", which is none of those that count here, \"{}\"; correct its name, or "
-                      "remove the column",
-                      field, example()));
+      wrong(fmt::format(
+          "has a column \"{}\", which is none of those that count here, \"{}\"; correct its name, or remove the column",
+          field, example()));
     }
     return value_column(static_cast<std::size_t>(known - wanted_.begin()), field);
   }

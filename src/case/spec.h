@@ -181,8 +181,8 @@ struct VentTable {
     v.number("area", self.area, "m^2", Range::above(0.0), "Area of the opening; in 2D m^2 per metre of width",
              Presence::required);
     v.number("loss", self.loss, "", Range::above(0.0),
-             "Loss coefficient zeta: the pressure difference over that of the air's mean velocity in the opening, "
-             "rho u^2/2 (2.7: a sharp-edged hole; 1.5: a short pipe)");
+             "Loss coefficient zeta: the pressure difference over that of the air's mean velocity in the opening, rho "
+             "u^2/2 (2.7: a sharp-edged hole; 1.5: a short pipe)");
   }
 };
 
@@ -294,11 +294,10 @@ struct WallTable : PlacedFile {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: wall1, wall2, ...)");
-    v.choice(
-        "shape", self.shape,
-        "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
-        "from a file (3D); plate: a wall without thickness that has water on both sides, an open chain of segments "
-        "(2D), a rectangle or the open mesh of a file (3D)");
+    v.choice("shape", self.shape,
+             "polyline: open chain of segments (2D); polygon: closed chain (2D); box: faces of a box; mesh: triangles "
+             "from a file (3D); plate: a wall without thickness that has water on both sides, an open chain of "
+             "segments (2D), a rectangle or the open mesh of a file (3D)");
     v.points("points", self.points, "m", "Corners of a polyline, polygon or plate, in order");
     v.text("points_file", self.points_file,
            "Instead of points: CSV file of them, relative to the case file (docs/theory/geometry.md); a run keeps the "
@@ -359,27 +358,24 @@ struct GateTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by probes (default: gate1, gate2, ...)");
-    v.coordinates(
-        "from", self.from, "m",
-        "Foot of the gate's face on the water's side: one end of an axis-parallel segment (2D), a corner of a "
-        "flat axis-parallel rectangle (3D)",
-        Presence::required);
+    v.coordinates("from", self.from, "m",
+                  "Foot of the gate's face on the water's side: one end of an axis-parallel segment (2D), a corner of "
+                  "a flat axis-parallel rectangle (3D)",
+                  Presence::required);
     v.coordinates("to", self.to, "m", "Top of that face, above the water: the other end (2D), the opposite corner (3D)",
                   Presence::required);
     v.choice("side", self.side, "Side of that face on which the gate's thickness lies: away from the deep water");
     v.number("thickness", self.thickness, "m", Range::at_least(0.0),
              "Thickness of the gate; 0: none, as a plate (4 dx with a published formulation)");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
-    v.choice(
-        "motion", self.motion,
-        "How it moves up, against gravity: at a constant speed, with a constant acceleration, or as a file says; its "
-        "seal has no friction");
+    v.choice("motion", self.motion,
+             "How it moves up, against gravity: at a constant speed, with a constant acceleration, or as a file says; "
+             "its seal has no friction");
     v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
     v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
     v.text("file", self.file,
            "CSV file of the gate's displacement over the time since `start`, relative to the case file, with a line "
-           "that names "
-           "the columns, as in \"t [s], displacement [mm]\"");
+           "that names the columns, as in \"t [s], displacement [mm]\"");
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);
@@ -433,9 +429,9 @@ struct WaveMakerTable {
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the motion begins");
     v.number("ramp", self.ramp, "s", Range::at_least(0.0),
              "Time in which regular and irregular waves grow to their full height (default: two periods)");
-    v.choice("absorption", self.absorption,
-             "active: the plate gives way to waves that come, as the elevation in front of it says "
-             "(docs/theory/waves.md)");
+    v.choice(
+        "absorption", self.absorption,
+        "active: the plate gives way to waves that come, as the elevation in front of it says (docs/theory/waves.md)");
   }
 };
 
@@ -524,10 +520,10 @@ struct DampingTable {
 /// Keys that the open ends of both kinds have, and a discharge probe in part.
 template <class Self, class Visitor>
 void describe_opening(Self& self, Visitor& v) {
-  v.coordinates("from", self.from, "m",
-                "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
-                "rectangle (3D)",
-                Presence::required);
+  v.coordinates(
+      "from", self.from, "m",
+      "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel rectangle (3D)",
+      Presence::required);
   v.coordinates("to", self.to, "m",
                 "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)",
                 Presence::required);
@@ -637,10 +633,9 @@ struct SchemeTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.choice(
-        "name", self.name,
-        "Published scheme: projection of the velocity (Farzin et al. 2014), or two steps with the density at predicted "
-        "positions (Farmani et al. 2020)");
+    v.choice("name", self.name,
+             "Published scheme: projection of the velocity (Farzin et al. 2014), or two steps with the density at "
+             "predicted positions (Farmani et al. 2020)");
     v.choice("formulation", self.formulation,
              "robust: recommended (docs/theory/schemes.md); published: the paper's own operators, walls and surface");
     v.choice("integrator", self.integrator,
@@ -679,20 +674,17 @@ struct StudyTable {
              "open ends");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
              "c_a of the papers' artificial viscosity, nu_a = c_a |u| dx (F3)");
-    v.number(
-        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
-        "Viscosity that acts only on differences between neighbours that a linear velocity field does not explain, as "
-        "a multiple of dx times the speed of the time-step rule");
+    v.number("noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+             "Viscosity that acts only on differences between neighbours that a linear velocity field does not "
+             "explain, as a multiple of dx times the speed of the time-step rule");
     v.number("shifting", self.shifting, "", Range::at_least(0.0),
              "Strength of the particle shifting along the concentration gradient; 0: none");
-    v.number(
-        "density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
-        "Fraction of the density error that the source of the pressure equation corrects while water at the speed of "
-        "the time-step rule goes dx");
-    v.number(
-        "energy_slack", self.energy_slack, "", Range::above(0.0),
-        "The density source expands water less and less as the energy rises by more than the walls' work, and not at "
-        "all when the rise reaches this fraction of m g L/2 plus the kinetic energy");
+    v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),
+             "Fraction of the density error that the source of the pressure equation corrects while water at the speed "
+             "of the time-step rule goes dx");
+    v.number("energy_slack", self.energy_slack, "", Range::above(0.0),
+             "The density source expands water less and less as the energy rises by more than the walls' work, and not "
+             "at all when the rise reaches this fraction of m g L/2 plus the kinetic energy");
     v.choice("divergence_free", self.divergence_free,
              "Where the projection makes the velocity divergence-free: midway along the displacement, which is second "
              "order in time, or at the start of the step as published (F18)");
@@ -747,8 +739,8 @@ struct LimitsTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
-             "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of "
-             "m g L/2 plus the kinetic energy, and by more than lifts the water's surface by dx/10; 0: never");
+             "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of m "
+             "g L/2 plus the kinetic energy, and by more than lifts the water's surface by dx/10; 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "
@@ -769,15 +761,13 @@ struct OutputTable {
   static void describe(Self& self, Visitor& v) {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between field files; 0: a hundredth of the end time");
-    v.number(
-        "view_interval", self.view_interval, "s", Range::at_least(0.0),
-        "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time, and at least "
-        "six steps");
+    v.number("view_interval", self.view_interval, "s", Range::at_least(0.0),
+             "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time, and at "
+             "least six steps");
     v.texts("fields", self.fields, field_names, "Fields to write");
-    v.number(
-        "checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
-        "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or is "
-        "asked for one");
+    v.number("checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
+             "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or "
+             "is asked for one");
   }
 };
 
@@ -805,14 +795,12 @@ struct ProbeTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name of the CSV file, probes/NAME.csv", Presence::required);
     v.choice("type", self.type, "What is measured", Presence::required);
-    v.coordinates(
-        "at", self.at, "m",
-        "Position of a depth or velocity-profile probe (its height is ignored) or of a wall-pressure, pressure or "
-        "velocity probe");
-    v.coordinates(
-        "from", self.from, "m",
-        "Start of a stretch of wall, of a profile, of a level map (its height is ignored) or of a section; of "
-        "what overtops a crest: the crest");
+    v.coordinates("at", self.at, "m",
+                  "Position of a depth or velocity-profile probe (its height is ignored) or of a wall-pressure, "
+                  "pressure or velocity probe");
+    v.coordinates("from", self.from, "m",
+                  "Start of a stretch of wall, of a profile, of a level map (its height is ignored) or of a section; "
+                  "of what overtops a crest: the crest");
     v.coordinates("to", self.to, "m",
                   "End of a stretch of wall or of a profile; of a level map or a section: that of a segment (2D), or "
                   "the opposite corner of a flat axis-parallel rectangle (3D)");
@@ -826,9 +814,9 @@ struct ProbeTable {
     v.coordinates("moment_about", self.moment_about, "m",
                   "Point, which does not move, that the moment is taken about (default: no moment is written)");
     v.text("body", self.body, "Name of the body whose motion is written");
-    v.number("diameter", self.diameter, "m", Range::at_least(0.0),
-             "Diameter of the round sensor in the wall, over which the pressure is averaged (2D: its length); 0: a "
-             "point");
+    v.number(
+        "diameter", self.diameter, "m", Range::at_least(0.0),
+        "Diameter of the round sensor in the wall, over which the pressure is averaged (2D: its length); 0: a point");
     v.number("width", self.width, "m", Range::at_least(0.0),
              "Width of the rectangle in the wall, half on each side of the stretch (3D); 0: a line");
     v.number("step", self.step, "m", Range::at_least(0.0),
@@ -857,12 +845,11 @@ struct MeasurementTable {
     v.text("probe", self.probe, "Name of the probe whose table it is compared with", Presence::required);
     v.text("column", self.column,
            "Column of that table, without its unit, as in \"highest\" (default: the first that the probe has)");
-    v.text(
-        "file", self.file,
-        "CSV file of the measured values over time, relative to the case file, with a line that names the columns, "
-        "as in \"t [s], depth [mm]\"; of several columns the one that is named as the probe, as `column` or \"value\" "
-        "counts (docs/theory/probes.md)",
-        Presence::required);
+    v.text("file", self.file,
+           "CSV file of the measured values over time, relative to the case file, with a line that names the columns, "
+           "as in \"t [s], depth [mm]\"; of several columns the one that is named as the probe, as `column` or "
+           "\"value\" counts (docs/theory/probes.md)",
+           Presence::required);
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);

@@ -56,8 +56,8 @@ void check(const PhysicsTable& physics, TableReader& reader) {
   const toml::node* node = reader.given("channel_width");
   if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {
     reader.wrong("channel_width", *node,
-                 "replaces the side walls that are missing in two dimensions, but case.dimension = 3; "
-                 "remove it and give the side walls as [[wall]] tables");
+                 "replaces the side walls that are missing in two dimensions, but case.dimension = 3; remove it and "
+                 "give the side walls as [[wall]] tables");
   }
 }
 

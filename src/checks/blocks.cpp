@@ -10,10 +10,10 @@ template <int Dim>
 void check_polygon(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
   const double area = std::abs(signed_area(block.points));
   if (particles > 0.0 && area >= 0.5 * dx * dx) return;
-  findings.push_back(Finding::error(
-      "{} at {} holds no particle: its area is {:.3g} m^2 and the spacing is {:.6g} m; use a smaller spacing, or "
-      "correct the block's points",
-      label, place(to_vec<Dim>(block.points[0], label, "points[0]")), area, dx));
+  findings.push_back(
+      Finding::error("{} at {} holds no particle: its area is {:.3g} m^2 and the spacing is {:.6g} m; use a smaller "
+                     "spacing, or correct the block's points",
+                     label, place(to_vec<Dim>(block.points[0], label, "points[0]")), area, dx));
 }
 
 template <int Dim>
@@ -23,20 +23,20 @@ void check_box(const FluidTable& block, const std::string& label, double particl
   int smallest = 0;
   extent.minCoeff(&smallest);
   if (particles == 0.0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
-    findings.push_back(Finding::error(
-        "{} at {} is {:.6g} m long in {}, so it holds no particle of spacing {:.6g} m: use a spacing of at most "
-        "{:.6g} m, or a larger block",
-        label, place(low), extent[smallest], "xyz"[smallest], dx, extent[smallest]));
+    findings.push_back(
+        Finding::error("{} at {} is {:.6g} m long in {}, so it holds no particle of spacing {:.6g} m: use a spacing of "
+                       "at most {:.6g} m, or a larger block",
+                       label, place(low), extent[smallest], "xyz"[smallest], dx, extent[smallest]));
   }
 }
 
 template <int Dim>
 void check_mesh(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
   if (particles > 0.0) return;
-  findings.push_back(Finding::error(
-      "{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in walls and "
-      "bodies; use a smaller spacing, or move it (translate)",
-      label, dx, block.file));
+  findings.push_back(
+      Finding::error("{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in "
+                     "walls and bodies; use a smaller spacing, or move it (translate)",
+                     label, dx, block.file));
 }
 
 template <int Dim>
@@ -44,8 +44,7 @@ void check_fill(const FluidTable& block, const std::string& label, double partic
   if (particles > 0.0) return;
   findings.push_back(
       Finding::error("{} holds no particle of spacing {:.6g} m between the walls around its seed {}: use a smaller "
-                     "spacing, or move the "
-                     "seed",
+                     "spacing, or move the seed",
                      label, dx, place(to_vec<Dim>(block.seed, label, "seed"))));
 }
 

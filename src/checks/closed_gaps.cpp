@@ -216,8 +216,8 @@ Finding told(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx) {
   const double good_spacing = gap.width / rows_of_good_gap;
   if (gap.width <= closed * dx) {
     return Finding::warning(
-        "the gap of {:.3g} m between {} and {} at {} counts as closed, because it is narrower than half a spacing: "
-        "let them touch if that is meant; for water that passes use a spacing of at most {:.3g} m",
+        "the gap of {:.3g} m between {} and {} at {} counts as closed, because it is narrower than half a spacing: let "
+        "them touch if that is meant; for water that passes use a spacing of at most {:.3g} m",
         gap.width, a, b, place(gap.where), good_spacing);
   }
   return Finding::warning(

@@ -53,10 +53,10 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
         const bool is_end =
             (corner - points.front()).norm() <= tolerance || (corner - points.back()).norm() <= tolerance;
         if (is_end || up.dot(corner) < *rim) continue;
-        return {Finding::error(
-            "{} has a crest at {}, {:.6g} m higher than the higher of its ends: water would run over the ends before "
-            "it passes the crest; raise the ends, or lower the crest",
-            label, place(corner), up.dot(corner) - *rim)};
+        return {
+            Finding::error("{} has a crest at {}, {:.6g} m higher than the higher of its ends: water would run over "
+                           "the ends before it passes the crest; raise the ends, or lower the crest",
+                           label, place(corner), up.dot(corner) - *rim)};
       }
     }
   }

@@ -118,8 +118,8 @@ class EndFlowCheck {
     } else if (critical > end_.height) {
       error(
           "{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of {:.4g} "
-          "m, and the opening is {:.4g} m high: make it higher, or let less enter ({}); a supercritical flow needs "
-          "its level too",
+          "m, and the opening is {:.4g} m high: make it higher, or let less enter ({}); a supercritical flow needs its "
+          "level too",
           label_, time, critical, end_.height, unit_hint);
     }
   }
@@ -131,16 +131,15 @@ class EndFlowCheck {
     if (critical == 0.0 || critical >= dx_) return;
     findings_.push_back(
         Finding::warning("{}: the flow is critical at a depth of {:.3g} m at most, less than the spacing of {:.3g} m: "
-                         "where nothing dams "
-                         "it, it enters one spacing deep and slower; use a smaller spacing",
+                         "where nothing dams it, it enters one spacing deep and slower; use a smaller spacing",
                          label_, critical, dx_));
   }
 
   void look_at_level(double time, double level) {
     if (level < end_.floor) {
       error(
-          "{}: level = {:.6g} m at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are "
-          "heights above the origin, not depths; give one above the bed there",
+          "{}: level = {:.6g} m at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights "
+          "above the origin, not depths; give one above the bed there",
           label_, level, time, end_.floor);
     } else if (level > end_.floor + end_.height) {
       error(

@@ -157,16 +157,15 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
           "it with two faces at least {} spacings apart",
           wall, contact.behind, block, contact.deepest, place(contact.deepest_at), dummy_layers(spec) + 1));
     } else if (contact.behind > 0) {
-      findings.push_back(Finding::error(
-          "{} lies behind {}: {} particles, up to {:.6g} m deep at {}; give the wall the other fluid_side, or move the "
-          "block",
-          block, wall, contact.behind, contact.deepest, place(contact.deepest_at)));
+      findings.push_back(
+          Finding::error("{} lies behind {}: {} particles, up to {:.6g} m deep at {}; give the wall the other "
+                         "fluid_side, or move the block",
+                         block, wall, contact.behind, contact.deepest, place(contact.deepest_at)));
     }
     if (contact.too_near > 0) {
       findings.push_back(
           Finding::error("{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} m at {}; put "
-                         "the block's edge "
-                         "on the wall or a whole number of spacings ({:.6g} m) from it",
+                         "the block's edge on the wall or a whole number of spacings ({:.6g} m) from it",
                          block, wall, contact.too_near, least, contact.nearest, place(contact.nearest_at), dx));
     }
   }
@@ -175,12 +174,11 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
     const int wall = boundary.faces[key.first].wall;
     const bool is_gap = approach.distance > gap_from && approach.distance < gap_to;
     if (!is_gap || !reported.insert({wall, key.second}).second) continue;
-    findings.push_back(
-        Finding::warning("there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, "
-                         "at {}, instead of "
-                         "{:.2f}; put the block's edge on the wall, or at least two spacings away from it",
-                         fluid_label(spec, key.second), wall_label(boundary, wall), approach.distance / dx,
-                         place(approach.at), regular));
+    findings.push_back(Finding::warning(
+        "there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, at {}, instead "
+        "of {:.2f}; put the block's edge on the wall, or at least two spacings away from it",
+        fluid_label(spec, key.second), wall_label(boundary, wall), approach.distance / dx, place(approach.at),
+        regular));
   }
   return findings;
 }

@@ -21,10 +21,10 @@ Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached)
     const int wall = boundary.faces[f].wall;
     const std::optional<Vec<Dim>>& place_behind = reached.behind[f];
     if (!place_behind || boundary.walls[wall].is_plate || !reported.insert(wall).second) continue;
-    findings.push_back(Finding::error(
-        "the water can reach the back of {}, at {}, where nothing would hold it: draw a wall that has water on both "
-        "sides with shape = \"plate\", or with two faces",
-        wall_label(boundary, wall), place(*place_behind)));
+    findings.push_back(
+        Finding::error("the water can reach the back of {}, at {}, where nothing would hold it: draw a wall that has "
+                       "water on both sides with shape = \"plate\", or with two faces",
+                       wall_label(boundary, wall), place(*place_behind)));
   }
   return findings;
 }

@@ -23,17 +23,15 @@ Findings check_size(const CaseSpec& spec, const std::string& label, const MeshSu
   const double dx = spec.particles.spacing;
   const double length = (surface.high() - surface.low()).maxCoeff();
   if (length < dx) {
-    return {
-        Finding::error("{} is {:.3g} m long, less than a spacing of {:.6g} m: correct its scale, or use a smaller "
-                       "spacing",
-                       label, length, dx)};
+    return {Finding::error(
+        "{} is {:.3g} m long, less than a spacing of {:.6g} m: correct its scale, or use a smaller spacing", label,
+        length, dx)};
   }
   const double water_length = water.isEmpty() ? 0.0 : water.sizes().maxCoeff() + dx;
   if (water_length == 0.0 || length <= largest_share_of_water * water_length) return {};
   return {
       Finding::error("{} is {:.6g} m long and the water {:.6g} m: if its file is in millimetres, give scale = 0.001; "
-                     "else cut off what "
-                     "the water does not reach",
+                     "else cut off what the water does not reach",
                      label, length, water_length)};
 }
 
@@ -56,11 +54,11 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   if (boundary.walls[wall].moves() || others.isEmpty()) return {};
   const std::string label = wall_label(boundary, wall);
   if (!own.intersects(others)) {
-    return {Finding::warning(
-        "{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it stands beside them: "
-        "correct translate, or scale = {:g} (0.001 for a file in millimetres)",
-        label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max()),
-        table.scale)};
+    return {
+        Finding::warning("{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it "
+                         "stands beside them: correct translate, or scale = {:g} (0.001 for a file in millimetres)",
+                         label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()),
+                         place<3>(others.max()), table.scale)};
   }
   if (table.fluid_side != FluidSide::outside) return {};
   const double length = own.sizes().maxCoeff();
@@ -106,8 +104,7 @@ Findings check_self_crossing(const MeshSurface& surface, const std::string& labe
       if (!where) return;
       found = Finding::error(
           "{} crosses itself at {}, where triangles {} and {} pass through each other: unite the bodies of the file "
-          "where "
-          "they overlap, or correct the triangles",
+          "where they overlap, or correct the triangles",
           label, place(*where), one + 1, other + 1);
     });
     if (found) return {*found};
@@ -135,8 +132,7 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
     if (-face.normal.dot(other.normal) < least_facing_of_plate) continue;
     return {Finding::error(
         "{} is only {:.3g} m thick at {}, with the water on its other side: the water on one side would feel that on "
-        "the "
-        "other, because {} layers of wall particles need {:.6g} m; make it thicker, or the spacing smaller",
+        "the other, because {} layers of wall particles need {:.6g} m; make it thicker, or the spacing smaller",
         label, -other.height(middle), place(middle), dummy_layers(spec), needed)};
   }
   return {};

@@ -63,18 +63,17 @@ class FileWalk {
       }
     }
     if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_displacement)) return {};
-    return {Finding::warning(
-        "{} moves {:.3g} m beyond what lines {} and {} of {} say, because its speed changes more suddenly than these "
-        "lines can tell; give more lines there",
-        label_, worst, series_.line[worst_at], series_.line[worst_at + 1], series_.file)};
+    return {
+        Finding::warning("{} moves {:.3g} m beyond what lines {} and {} of {} say, because its speed changes more "
+                         "suddenly than these lines can tell; give more lines there",
+                         label_, worst, series_.line[worst_at], series_.line[worst_at + 1], series_.file)};
   }
 
  private:
   Finding jump(std::size_t k, double displacement, double duration, double fastest) const {
     return Finding::error(
         "{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g} m/s, which is more than "
-        "{:.0f} "
-        "times as fast as the water falls ({:.3g} m/s); correct the lines, or the units in the file's header",
+        "{:.0f} times as fast as the water falls ({:.3g} m/s); correct the lines, or the units in the file's header",
         label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration, displacement / duration,
         fastest_over_water, fastest / fastest_over_water);
   }

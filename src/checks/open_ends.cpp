@@ -70,11 +70,11 @@ template <int Dim>
 void check_direction(const CaseSpec& spec, const Opening<Dim>& end, Findings& findings) {
   for (int axis = 0; axis < Dim; ++axis) {
     if (periodic_range(spec.domain, axis).empty() || std::abs(end.normal[axis]) <= corner_tolerance) continue;
-    findings.push_back(Finding::error(
-        "{} at {} lets water {} in {}, but periodic_{} brings water back in that direction: remove the open end or "
-        "periodic_{}",
-        end.label(), place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis], "xyz"[axis],
-        "xyz"[axis]));
+    findings.push_back(
+        Finding::error("{} at {} lets water {} in {}, but periodic_{} brings water back in that direction: remove the "
+                       "open end or periodic_{}",
+                       end.label(), place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis],
+                       "xyz"[axis], "xyz"[axis]));
   }
 }
 
@@ -104,10 +104,10 @@ void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Op
   for (const Vec<Dim>& x : places_before(end, depth, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
     if (wall.face < 0) continue;
-    findings.push_back(Finding::error(
-        "{} overlaps {} at {}: no wall may stand in it, nor in the last {:.6g} m before it; leave that piece of wall "
-        "out (of a box: open = [...]), or move the open end",
-        end.label(), wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), depth));
+    findings.push_back(
+        Finding::error("{} overlaps {} at {}: no wall may stand in it, nor in the last {:.6g} m before it; leave that "
+                       "piece of wall out (of a box: open = [...]), or move the open end",
+                       end.label(), wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), depth));
     return;
   }
 }
@@ -149,10 +149,10 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
   const std::int64_t beyond = fluid.ranks.sum(own);
   if (beyond == 0) return true;
   first = gather_on_all(fluid.ranks, first);
-  findings.push_back(Finding::error(
-      "{} cuts through {}: {} particles lie beyond it at the start, the first at {}; end the block there, move "
-      "the open end, or give it the opposite direction",
-      end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)));
+  findings.push_back(
+      Finding::error("{} cuts through {}: {} particles lie beyond it at the start, the first at {}; end the block "
+                     "there, move the open end, or give it the opposite direction",
+                     end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)));
   return false;
 }
 
@@ -166,10 +166,10 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
         rim, [&](const Vec<Dim>& x) { return boundary.nearest(x + distance * end.normal, 0.5 * dx).face >= 0; });
   };
   if (has_walls(-2.0 * dx) || !has_walls(2.0 * dx)) return;
-  findings.push_back(Finding::error(
-      "{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}; give "
-      "the opposite direction",
-      end.label(), place(end.corner), place(end.direction())));
+  findings.push_back(
+      Finding::error("{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}; "
+                     "give the opposite direction",
+                     end.label(), place(end.corner), place(end.direction())));
 }
 
 }  // namespace

@@ -237,10 +237,10 @@ class PathWalk {
       if (!enclosed->walls[f] || !drawn_.walls[wall].moves()) continue;
       Vec<Dim> middle = Vec<Dim>::Zero();
       for (const Vec<Dim>& corner : faces_[f].corners) middle += corner / Dim;
-      findings_.push_back(Finding::error(
-          "{} crushes the water at t = {:.6g} s, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} m^{} of water "
-          "that cannot get out; end its path before, or leave the water a way out",
-          label(wall), time, place(middle), enclosed->volume, Dim, room_->water(), Dim));
+      findings_.push_back(
+          Finding::error("{} crushes the water at t = {:.6g} s, when it is at {}: the walls leave {:.3g} m^{} to "
+                         "{:.3g} m^{} of water that cannot get out; end its path before, or leave the water a way out",
+                         label(wall), time, place(middle), enclosed->volume, Dim, room_->water(), Dim));
       return;
     }
   }

@@ -73,10 +73,10 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
   const auto is_late = [&](double time) { return time > spec.time.end; };
   const auto late = std::ranges::count_if(probe.times, is_late);
   if (late == 0) return;
-  findings.push_back(Finding::warning(
-      "probe '{}': {} of its {} times are after time.end = {:.6g} s, the last at {:.6g} s, and are not taken: end the "
-      "run later, or leave them out",
-      probe.name, late, probe.times.size(), spec.time.end, *std::ranges::max_element(probe.times)));
+  findings.push_back(
+      Finding::warning("probe '{}': {} of its {} times are after time.end = {:.6g} s, the last at {:.6g} s, and are "
+                       "not taken: end the run later, or leave them out",
+                       probe.name, late, probe.times.size(), spec.time.end, *std::ranges::max_element(probe.times)));
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
     check_times(spec, probe, findings);
     const Eigen::AlignedBox<double, Dim> where = box_of_probe<Dim>(probe);
     if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
-    findings.push_back(Finding::error(
-        "probe '{}' at {} is outside of the case, whose walls and water lie between {} and {}: no water comes there; "
-        "move it",
-        probe.name, place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())));
+    findings.push_back(
+        Finding::error("probe '{}' at {} is outside of the case, whose walls and water lie between {} and {}: no water "
+                       "comes there; move it",
+                       probe.name, place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())));
   }
   return findings;
 }

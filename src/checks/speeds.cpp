@@ -18,10 +18,10 @@ void check_speed_of_end(const ChannelEnd<Dim>& end, double last, double spacing,
     const double time = last * k / looks_at_end;
     const double speed = end.largest_speed(time, spacing);
     if (std::abs(speed) <= largest_speed_of_case) continue;
-    findings.push_back(Finding::error(
-        "{}: at t = {:.6g} s water would enter at {:.4g} m/s, but it is treated as incompressible, which limits it to "
-        "{:g} m/s: check the units, or make the opening larger",
-        end.opening.label(), time, speed, largest_speed_of_case));
+    findings.push_back(
+        Finding::error("{}: at t = {:.6g} s water would enter at {:.4g} m/s, but it is treated as incompressible, "
+                       "which limits it to {:g} m/s: check the units, or make the opening larger",
+                       end.opening.label(), time, speed, largest_speed_of_case));
     return;
   }
 }
@@ -34,10 +34,10 @@ Findings check_speeds(const CaseSpec& spec) {
   for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
     const double speed = body.drawn.linear_velocity().norm();
     if (speed <= largest_speed_of_case) continue;
-    findings.push_back(Finding::error(
-        "body '{}': its velocity is {:.4g} m/s, but water is treated as incompressible, which limits bodies to {:g} "
-        "m/s: correct it",
-        body.name, speed, largest_speed_of_case));
+    findings.push_back(
+        Finding::error("body '{}': its velocity is {:.4g} m/s, but water is treated as incompressible, which limits "
+                       "bodies to {:g} m/s: correct it",
+                       body.name, speed, largest_speed_of_case));
   }
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, spec.particles.spacing, findings);

@@ -22,8 +22,7 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
             face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
         return {
             Finding::error("{} is {:.3g} m from {} at {}, and the formulation puts particles on both: draw it {:.6g} m "
-                           "away, or choose "
-                           "scheme.formulation = \"robust\"",
+                           "away, or choose scheme.formulation = \"robust\"",
                            wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner), dx)};
       }
     }

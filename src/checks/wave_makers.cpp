@@ -37,8 +37,7 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
     findings.push_back(
         Finding::error("wave_maker '{}': depth = {:.4g} m, but the water in front of it is {:.4g} m deep at the start: "
-                       "its waves would "
-                       "not have the height that is asked for; correct depth or the water",
+                       "its waves would not have the height that is asked for; correct depth or the water",
                        maker.name, maker.depth, *depth));
   }
   return findings;

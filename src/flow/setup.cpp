@@ -89,10 +89,10 @@ void require_wide_channel(const ViscosityLaw& law, const TimeStepRule& rule) {
   const double step = rule.largest(0.0, 0.0);
   const double least = std::sqrt(12.0 * law.molecular * step);  // 12 nu/b^2 dt = 1
   if (law.channel_width >= least) return;
-  throw InputError(fmt::format(
+  throw InputError(
       "physics.channel_width = {:.6g} m: between side walls so near to each other water comes to rest within a time "
       "step of {:.3g} s: give at least {:.3g} m, or 0 for none",
-      law.channel_width, step, least));
+      law.channel_width, step, least);
 }
 
 template <int Dim>

@@ -29,8 +29,8 @@ inline std::string fluid_label(const CaseSpec& spec, std::size_t block) {
 template <int Dim>
 Vec<Dim> to_vec(const Coordinates& point, std::string_view owner, std::string_view key) {
   if (point.size() != Dim) {
-    throw InputError(fmt::format("{}: {} has {} numbers but the case has {} dimensions: give one number per dimension",
-                                 owner, key, point.size(), Dim));
+    throw InputError("{}: {} has {} numbers but the case has {} dimensions: give one number per dimension", owner, key,
+                     point.size(), Dim);
   }
   return Eigen::Map<const Vec<Dim>>(point.data());
 }

@@ -68,38 +68,34 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   }
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
-    throw InputError(
-        fmt::format("{} has {} points: a {} needs at least {}", owner, points.size(), name_of(table.shape), least));
+    throw InputError("{} has {} points: a {} needs at least {}", owner, points.size(), name_of(table.shape), least);
   }
   const std::size_t face_count = closed ? points.size() : points.size() - 1;
   for (std::size_t k = 0; k < face_count; ++k) {
     const std::size_t next = (k + 1) % points.size();
     if ((points[next] - points[k]).norm() <= corner_tolerance * spacing) {
       const double length = (points[next] - points[k]).norm();
-      throw InputError(
-          length == 0.0
-              ? fmt::format("{}: points[{}] and points[{}] are both at {}, so the piece between them has no length: "
-                            "remove one of them",
-                            owner, k, next, place(points[k]))
-              : fmt::format("{}: points[{}] and points[{}] are {:.3g} m apart, which is nothing beside a spacing of "
-                            "{:.6g} m: use a smaller spacing, or remove one of the points",
-                            owner, k, next, length, spacing));
+      throw InputError(length == 0.0
+                           ? fmt::format("{}: points[{}] and points[{}] are both at {}, so the piece between them has "
+                                         "no length: remove one of them",
+                                         owner, k, next, place(points[k]))
+                           : fmt::format("{}: points[{}] and points[{}] are {:.3g} m apart, which is nothing beside a "
+                                         "spacing of {:.6g} m: use a smaller spacing, or remove one of the points",
+                                         owner, k, next, length, spacing));
     }
   }
 
   bool fluid_is_left = table.fluid_side == FluidSide::left;
   if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside) {
     if (!closed) {
-      throw InputError(fmt::format(
-          "{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as seen when walking along its "
-          "points",
-          owner, name_of(table.fluid_side)));
+      throw InputError(
+          "{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as seen when walking along its points",
+          owner, name_of(table.fluid_side));
     }
     const double area = signed_area(points);
     if (std::abs(area) <= corner_tolerance * spacing * spacing) {
-      throw InputError(
-          fmt::format("{}: the polygon through {} encloses no area, so it has no inside: move its points apart", owner,
-                      place(points[0])));
+      throw InputError("{}: the polygon through {} encloses no area, so it has no inside: move its points apart", owner,
+                       place(points[0]));
     }
     fluid_is_left = (area > 0.0) == (table.fluid_side == FluidSide::inside);
   }
@@ -143,15 +139,15 @@ void append_box(const WallTable& table, int wall, const std::string& owner, doub
   const std::array<Vec<Dim>, 2> ends{to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")};
   for (int axis = 0; axis < Dim; ++axis) {
     if (ends[1][axis] - ends[0][axis] <= corner_tolerance * spacing) {
-      throw InputError(fmt::format("{} has no extent in {}: max = {} must lie above min = {}", owner, "xyz"[axis],
-                                   ends[1][axis], ends[0][axis]));
+      throw InputError("{} has no extent in {}: max = {} must lie above min = {}", owner, "xyz"[axis], ends[1][axis],
+                       ends[0][axis]);
     }
   }
   const auto names_end = all_names.begin() + 2 * Dim;
   for (const std::string& name : table.open) {
     if (std::find(all_names.begin(), names_end, name) == names_end) {
-      throw InputError(fmt::format("{}: open = \"{}\" is not a face of a {}D box: use \"{}\"", owner, name, Dim,
-                                   fmt::join(all_names.begin(), names_end, "\", \"")));
+      throw InputError("{}: open = \"{}\" is not a face of a {}D box: use \"{}\"", owner, name, Dim,
+                       fmt::join(all_names.begin(), names_end, "\", \""));
     }
   }
   const bool fluid_is_inside = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::left;
@@ -162,8 +158,8 @@ void append_box(const WallTable& table, int wall, const std::string& owner, doub
     }
   }
   if (faces.size() == before) {
-    throw InputError(fmt::format("{}, the box from {} to {}, has no face left: shorten its list of open faces", owner,
-                                 place(ends[0]), place(ends[1])));
+    throw InputError("{}, the box from {} to {}, has no face left: shorten its list of open faces", owner,
+                     place(ends[0]), place(ends[1]));
   }
 }
 
@@ -197,9 +193,9 @@ void append_plate(const WallTable& table, int wall, const std::string& owner, do
         std::abs((corners[1] - corners[0]).normalized().dot(corners[3] - corners[0])) <= tolerance;
     if (!is_rectangle) {
       throw InputError(
-          fmt::format("{}: its {} points are not the corners of a rectangle, as a plate in 3D needs: give "
-                      "four, in the order in which one walks around it, with right angles",
-                      owner, corners.size()));
+          "{}: its {} points are not the corners of a rectangle, as a plate in 3D needs: give four, in the order in "
+          "which one walks around it, with right angles",
+          owner, corners.size());
     }
     const Vec<3> normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
     for (const WallFace<3>& face : rectangle_faces(corners, normal, wall)) boundary.faces.push_back(face);
@@ -217,9 +213,9 @@ void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, co
   for (std::size_t f = first_face; f < boundary.faces.size(); ++f) box.extend(boundary.faces[f].box());
   if (box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate) return;
   throw InputError(
-      fmt::format("{}: reaches over {:.3g} m, which is {:.3g} times particles.spacing: use a larger spacing, "
-                  "or a smaller plate, drawn in metres",
-                  owner, box.sizes().maxCoeff(), box.sizes().maxCoeff() / spacing));
+      "{}: reaches over {:.3g} m, which is {:.3g} times particles.spacing: use a larger spacing, or a smaller plate, "
+      "drawn in metres",
+      owner, box.sizes().maxCoeff(), box.sizes().maxCoeff() / spacing);
 }
 
 /// The meshes of the blocks of water.
@@ -259,17 +255,16 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     } else if (table.shape == WallShape::mesh) {
       append_mesh(spec, table, wall, owner, boundary);
     } else {
-      throw InputError(fmt::format("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\" or \"mesh\"", owner,
-                                   name_of(table.shape)));
+      throw InputError("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\" or \"mesh\"", owner,
+                       name_of(table.shape));
     }
     const double reach = dummy_layers(spec) * spec.particles.spacing;
     if (table.shape == WallShape::plate) require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
     if (compared > most_faces) {
-      throw InputError(
-          fmt::format("{}: with it the walls have {} pieces{}, and a case has at most {}: draw them coarser", owner,
-                      compared, boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces));
+      throw InputError("{}: with it the walls have {} pieces{}, and a case has at most {}: draw them coarser", owner,
+                       compared, boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces);
     }
   }
   boundary.hang_screens(0.5 * spec.particles.spacing, dummy_layers(spec) * spec.particles.spacing);

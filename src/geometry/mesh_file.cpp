@@ -129,8 +129,8 @@ TriangleMesh read_stl(Source& source) {
   if (!looks_like_text) {
     if (source.size() < header + 4 || source.size() < binary_size) {
       source.refuse(
-          "has {} bytes, and an STL file of {} triangles has {}: it is cut off or of another kind; export the "
-          "mesh again",
+          "has {} bytes, and an STL file of {} triangles has {}: it is cut off or of another kind; export the mesh "
+          "again",
           source.size(), count, binary_size);
     }
     for (std::size_t k = 0; k < header + 4; k += 4) source.binary<std::uint32_t>();

@@ -246,8 +246,8 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
   if (is_body && !sound.rim.empty()) {
     sound.refuse(
         "is not watertight, and fluid_side = \"{}\" needs a closed mesh: {}; close the mesh, or give the side of an "
-        "open one (\"above\", \"below\", \"front\" or \"back\"), or draw a sheet with water on both sides with "
-        "shape = \"plate\"",
+        "open one (\"above\", \"below\", \"front\" or \"back\"), or draw a sheet with water on both sides with shape = "
+        "\"plate\"",
         name_of(table.fluid_side), sound.rim_text());
   }
   if (!is_body && sound.rim.empty()) {

@@ -22,9 +22,9 @@ std::array<Vec<3>, 2> edges_between(const Vec<3>& from, const Vec<3>& to, double
   }
   if (edges.size() != 2) {
     throw InputError(
-        fmt::format("{}: from {} to {} is not a flat rectangle: in 3D give two opposite corners that have exactly one "
-                    "coordinate in common",
-                    owner, place(from), place(to)));
+        "{}: from {} to {} is not a flat rectangle: in 3D give two opposite corners that have exactly one coordinate "
+        "in common",
+        owner, place(from), place(to));
   }
   return {edges[0], edges[1]};
 }
@@ -73,8 +73,7 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Coordinates&
   const Vec<Dim> to = to_vec<Dim>(to_key, owner, "to");
   const double tolerance = corner_tolerance * spacing;
   if ((to - from).norm() <= tolerance) {
-    throw InputError(
-        fmt::format("{} has no extent: from and to are both at {}; give its two ends", owner, place(from)));
+    throw InputError("{} has no extent: from and to are both at {}; give its two ends", owner, place(from));
   }
   opening.corner = from;
   opening.edges = edges_between(from, to, tolerance, owner);
@@ -82,10 +81,10 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Coordinates&
   opening.normal = across(opening.edges);
   const double sine = opening.normal.dot(direction);
   if (std::abs(sine) < least_sine) {
-    throw InputError(fmt::format(
-        "{} from {} to {} lies along its direction {}, so it has no outside: give the direction in "
-        "which the water goes, such as {} or {}",
-        owner, place(from), place(to), place(direction), place(opening.normal), place(Vec<Dim>(-opening.normal))));
+    throw InputError(
+        "{} from {} to {} lies along its direction {}, so it has no outside: give the direction in which the water "
+        "goes, such as {} or {}",
+        owner, place(from), place(to), place(direction), place(opening.normal), place(Vec<Dim>(-opening.normal)));
   }
   if (sine < 0.0) opening.normal = -opening.normal;
   return opening;

@@ -30,8 +30,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
 void CsvWriter::go_on(const std::string& first_line, std::int64_t kept) {
   std::string found(first_line.size(), '\0');
   if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != first_line) {
-    throw IoError(
-        fmt::format("cannot go on with '{}': it does not begin with the columns of this run", path_.string()));
+    throw IoError("cannot go on with '{}': it does not begin with the columns of this run", path_.string());
   }
   cut_file(path_, kept);
   if (std::fseek(file_.get(), 0, SEEK_END) != 0) throw_io_error("write", path_, errno);
@@ -61,7 +60,7 @@ void CsvWriter::require_in_place() const {
   if (fstat(fileno(file_.get()), &written) != 0) throw_io_error("write", path_, errno);
   if (stat(path_.c_str(), &found) != 0) throw_io_error("write", path_, errno);
   if (written.st_dev != found.st_dev || written.st_ino != found.st_ino) {
-    throw IoError(fmt::format("cannot write '{}': another file has taken its place", path_.string()));
+    throw IoError("cannot write '{}': another file has taken its place", path_.string());
   }
 }
 
@@ -70,8 +69,8 @@ void cut_file(const std::filesystem::path& path, std::int64_t kept) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) throw_io_error("read", path, errno);
   if (found.st_size < kept) {
-    throw IoError(fmt::format("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint", path.string(),
-                              found.st_size, kept));
+    throw IoError("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint", path.string(), found.st_size,
+                  kept);
   }
   if (truncate(path.c_str(), kept) != 0) throw_io_error("write", path, errno);
 }

@@ -47,9 +47,9 @@ bool take_lock(int file) {
   const ssize_t size = pread(file, text.data(), text.size() - 1, 0);
   close(file);
   throw InputError(
-      fmt::format("the run that writes into '{0}' is still going ({1}): name another folder, or end that run first "
-                  "(touch {0}/STOP)",
-                  folder.string(), size > 0 ? text.data() : "its process is unknown"));
+      "the run that writes into '{0}' is still going ({1}): name another folder, or end that run first (touch "
+      "{0}/STOP)",
+      folder.string(), size > 0 ? text.data() : "its process is unknown");
 }
 
 /// The lock file of a folder; -1 if there is none.
@@ -77,8 +77,8 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_file_name) 
     if (file_ < 0) throw_io_error("write", path_, errno);
     if (take_lock(file_)) continue;
     if (errno == EWOULDBLOCK) throw_busy(std::exchange(file_, -1), folder);
-    warn(fmt::format("the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
-                     folder.string(), std::generic_category().message(errno)));
+    warn("the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
+         folder.string(), std::generic_category().message(errno));
     break;
   } while (!is_file(file_, path_));
   const std::string holder = this_process();

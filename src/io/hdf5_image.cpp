@@ -22,7 +22,7 @@ constexpr std::size_t place_of_open_flag = 20;
 using Handle = std::shared_ptr<const hid_t>;
 
 Handle own(hid_t id, herr_t (*close)(hid_t), std::string_view what) {
-  if (id < 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  if (id < 0) throw IoError("HDF5 cannot {}", what);
   return {new hid_t(id), [close](const hid_t* held) {
             close(*held);
             delete held;
@@ -30,7 +30,7 @@ Handle own(hid_t id, herr_t (*close)(hid_t), std::string_view what) {
 }
 
 void require(herr_t status, std::string_view what) {
-  if (status < 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  if (status < 0) throw IoError("HDF5 cannot {}", what);
 }
 
 /// Errors are ours to tell, and HDF5 prints them by default.
@@ -128,7 +128,7 @@ std::vector<Value> Hdf5Reader::get(const std::string& name) const {
   const hssize_t count = H5Sget_simple_extent_npoints(*space);
   // A file says how many values it has before it has them, and they are not compressed.
   const bool is_there = count >= 0 && static_cast<std::uint64_t>(count) <= size_ / sizeof(Value);
-  if (!is_there || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError(fmt::format("HDF5 cannot {}", what));
+  if (!is_there || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError("HDF5 cannot {}", what);
   std::vector<Value> values(static_cast<std::size_t>(count));
   if (count > 0) require(H5Dread(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
   return values;

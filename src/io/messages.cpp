@@ -105,7 +105,7 @@ void tell(std::string_view line) {
 
 void warn(const std::string& line) {
   messages().warnings.push_back(line);
-  tell(fmt::format("warning: {}", line));
+  tell("warning: {}", line);
 }
 
 void tell_error(std::string_view message, std::string_view prefix) {

@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace tailwater {
 
@@ -26,10 +29,18 @@ void begin_messages(Voice voice);
 
 /// Lines are shown as `printable` (base/text.h) makes them, and with their middle left out if they are very long.
 
-/// A line for the user.
+/// A line for the user, as it is or as fmt::format makes it.
 void tell(std::string_view line);
+template <class First, class... Rest>
+void tell(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+  tell(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+}
 /// "warning: LINE"; kept for `warnings`.
 void warn(const std::string& line);
+template <class First, class... Rest>
+void warn(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+  warn(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+}
 /// "error: PREFIX LINE" for each line of the message: a case may have several problems. A line that is there twice is
 /// told once.
 void tell_error(std::string_view message, std::string_view prefix = "");

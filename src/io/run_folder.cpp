@@ -173,9 +173,8 @@ bool is_free(const fs::path& folder) {
 void require_no_links(const fs::path& run) {
   const auto refuse_if = [](bool is_other, const fs::path& path) {
     if (!is_other) return;
-    throw InputError(
-        fmt::format("'{}' is a link, a device or a pipe, which no run writes into: remove it, or name another folder",
-                    path.string()));
+    throw InputError("'{}' is a link, a device or a pipe, which no run writes into: remove it, or name another folder",
+                     path.string());
   };
   for (const std::string_view name : result_files) {
     std::error_code error;
@@ -195,14 +194,12 @@ FolderLock make_run_folder(const fs::path& path, bool force) {
   const fs::file_status status = fs::status(path, error);
   if (status.type() != fs::file_type::not_found) require(error, "read", path);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw InputError(fmt::format("output folder '{}' is a file: name another folder", path.string()));
+    throw InputError("output folder '{}' is a file: name another folder", path.string());
   }
   if (fs::is_directory(status) && !force && !is_free(path)) {
     FolderLock::require_free(path);
-    throw InputError(
-        fmt::format("output folder '{}' is not empty: name another one, or add --force to replace the "
-                    "results in it",
-                    path.string()));
+    throw InputError("output folder '{}' is not empty: name another one, or add --force to replace the results in it",
+                     path.string());
   }
   require_no_links(path);
   make_folder(path);

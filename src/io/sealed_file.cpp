@@ -84,7 +84,7 @@ std::optional<Head> parse_head(const std::string& text) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view reason) {
-  throw IoError(fmt::format("checkpoint '{}' is damaged: {}", path.string(), reason));
+  throw IoError("checkpoint '{}' is damaged: {}", path.string(), reason);
 }
 
 Head read_head(std::ifstream& file, const std::filesystem::path& path) {

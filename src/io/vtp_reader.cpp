@@ -153,7 +153,7 @@ VtpFile read_vtp_bytes(std::string_view bytes, const std::string& name) {
   try {
     return parsed(bytes);
   } catch (const IoError& error) {
-    throw IoError(fmt::format("cannot read '{}': {}", name, error.what()));
+    throw IoError("cannot read '{}': {}", name, error.what());
   }
 }
 

@@ -90,7 +90,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   });
   const auto require_none = [&](const std::string& reason) {
     do_together(ranks, [&] {
-      if (!reason.empty()) throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
+      if (!reason.empty()) throw IoError("cannot write '{}': {}", path.string(), reason);
     });
   };
   try {
@@ -137,7 +137,7 @@ void flush_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 void throw_io_error(std::string_view what, const std::filesystem::path& path, int error_number) {
-  throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number)));
+  throw IoError("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number));
 }
 
 void require_regular_or_none(const std::filesystem::path& path) {
@@ -146,9 +146,9 @@ void require_regular_or_none(const std::filesystem::path& path) {
   if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
   if (std::filesystem::is_directory(status)) throw_io_error("write", path, EISDIR);
   throw IoError(
-      fmt::format("cannot write '{}': {} is in its place, and is neither followed nor replaced; remedy: remove "
-                  "it, or choose another name",
-                  path.string(), std::filesystem::is_symlink(status) ? "a link" : "a device or a pipe"));
+      "cannot write '{}': {} is in its place, and is neither followed nor replaced; remedy: remove it, or choose "
+      "another name",
+      path.string(), std::filesystem::is_symlink(status) ? "a link" : "a device or a pipe");
 }
 
 int open_regular_file(const std::filesystem::path& path, int flags) {

@@ -120,12 +120,12 @@ std::vector<double> shown_residuals(const std::vector<double>& history, double f
 
 /// `first` is the residual from which the method's history begins.
 SolverError no_convergence(const LinearSystem& system, const Solve& solve, const MethodOutcome& outcome, double first) {
-  return SolverError(fmt::format(
-      "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} "
-      "({} unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose "
-      "another pressure_solver.preconditioner or petsc_options",
+  return SolverError(
+      "the pressure solve did not converge: {} after {} iterations, relative residual {:.3e}, asked for {:.1e} ({} "
+      "unknowns). Residuals on the way: {:.2e}. Remedy: raise pressure_solver.max_iterations, or choose another "
+      "pressure_solver.preconditioner or petsc_options",
       outcome.reason, solve.report().iterations, solve.report().residual, solve.tolerance(), system.size_of_all(),
-      fmt::join(shown_residuals(outcome.history, first), ", ")));
+      fmt::join(shown_residuals(outcome.history, first), ", "));
 }
 
 }  // namespace

@@ -119,8 +119,8 @@ std::vector<std::string> words_of(std::string options) {
 
 void require_harmless(const PressureSolverTable& settings) {
   const auto refuse = [&](const std::string& word, const char* remedy) {
-    throw InputError(fmt::format("pressure_solver.petsc_options = \"{}\": {} is not allowed: {}",
-                                 settings.petsc_options, word, remedy));
+    throw InputError("pressure_solver.petsc_options = \"{}\": {} is not allowed: {}", settings.petsc_options, word,
+                     remedy);
   };
   for (const std::string& word : words_of(settings.petsc_options)) {
     const auto has = [&](const char* part) { return word.find(part) != word.npos; };
@@ -170,15 +170,15 @@ void take_petsc_options(const PressureSolverTable& settings) {
     check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
     ask_for_all_options(settings);
   } catch (const SolverError& error) {
-    throw InputError(fmt::format("pressure_solver.petsc_options = \"{}\": {}; give other options",
-                                 settings.petsc_options, error.what()));
+    throw InputError("pressure_solver.petsc_options = \"{}\": {}; give other options", settings.petsc_options,
+                     error.what());
   }
   const std::vector<std::string> unused = unused_options(settings);
   if (unused.empty()) return;
-  throw InputError(fmt::format(
-      "pressure_solver.petsc_options = \"{}\": PETSc's solver asks for no option {}; give options of its KSP "
-      "and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\"",
-      settings.petsc_options, fmt::join(unused, ", ")));
+  throw InputError(
+      "pressure_solver.petsc_options = \"{}\": PETSc's solver asks for no option {}; give options of its KSP and PC "
+      "with the prefix pressure_, as in \"-pressure_ksp_type fgmres\"",
+      settings.petsc_options, fmt::join(unused, ", "));
 }
 
 }  // namespace tailwater

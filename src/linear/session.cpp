@@ -82,8 +82,8 @@ void check_petsc(PetscErrorCode code) {
   PetscErrorMessage(code, &kind, nullptr);
   std::string reason = std::exchange(last_reason(), "");
   std::replace(reason.begin(), reason.end(), '\n', ' ');
-  throw SolverError(fmt::format("PETSc failed (code {}): {}{}{}", static_cast<int>(code), kind ? kind : "",
-                                kind && !reason.empty() ? ": " : "", reason));
+  throw SolverError("PETSc failed (code {}): {}{}{}", static_cast<int>(code), kind ? kind : "",
+                    kind && !reason.empty() ? ": " : "", reason);
 }
 
 LinearSession::LinearSession() {

@@ -28,9 +28,9 @@ std::vector<double> profile_values(Formula& formula, int parts, const std::strin
     values.push_back(formula.at(std::array{share}));
     if (!std::isfinite(values.back())) {
       throw InputError(
-          fmt::format("{}: profile has no finite value at s = {:.4g}: give an expression that has one "
-                      "everywhere from the bed, s = 0, to the surface, s = 1",
-                      owner, share));
+          "{}: profile has no finite value at s = {:.4g}: give an expression that has one everywhere from the bed, s = "
+          "0, to the surface, s = 1",
+          owner, share);
     }
   }
   return values;
@@ -51,17 +51,17 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
   const double mean = mean_of(values);
   if (mean <= 0.0) {
     throw InputError(
-        fmt::format("{}: profile has the mean {:.4g}: give one whose mean is above 0; a discharge or a "
-                    "velocity below 0 lets water out",
-                    owner, mean));
+        "{}: profile has the mean {:.4g}: give one whose mean is above 0; a discharge or a velocity below 0 lets water "
+        "out",
+        owner, mean);
   }
   const double finer = mean_of(profile_values(formula, 2 * profile_parts, owner));
   if (std::abs(finer - mean) > most_change_of_mean * mean) {
     const bool at_bed = std::abs(values.front()) > std::abs(values.back());
     throw InputError(
-        fmt::format("{}: profile grows without bound towards s = {}, so that it has no mean: give an expression with "
-                    "an end there, such as min(10, ...)",
-                    owner, at_bed ? "0, the bed" : "1, the surface"));
+        "{}: profile grows without bound towards s = {}, so that it has no mean: give an expression with an end there, "
+        "such as min(10, ...)",
+        owner, at_bed ? "0, the bed" : "1, the surface");
   }
   std::vector<double> below{0.0};
   for (const double value : values) below.push_back(below.back() + value / (mean * profile_parts));

@@ -49,9 +49,8 @@ template <int Dim>
 WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner)
     : rotation_(make_component(spec, table.rotation)) {
   if (!table.displacement.empty() && table.displacement.size() != Dim) {
-    throw InputError(
-        fmt::format("{}: displacement has {} components but the case has {} dimensions: give one per dimension", owner,
-                    table.displacement.size(), Dim));
+    throw InputError("{}: displacement has {} components but the case has {} dimensions: give one per dimension", owner,
+                     table.displacement.size(), Dim);
   }
   for (const Varying& component : table.displacement) displacement_.push_back(make_component(spec, component));
 }
@@ -273,9 +272,9 @@ void WallMotion<Dim>::steer(std::size_t which, GivenMotion<Dim> given, double ti
   const double jump = farthest_corner(moving.wall, moving.at(time, state), moving.path.at(given.at(time)));
   if (jump > off) {
     throw InputError(
-        fmt::format("{}: the path of a script begins {:.4g} m from where the wall is at t = {:.4f} s; remedy: one that "
-                    "begins there",
-                    label, jump, time));
+        "{}: the path of a script begins {:.4g} m from where the wall is at t = {:.4f} s; remedy: one that begins "
+        "there",
+        label, jump, time);
   }
   moving.path.follow(std::move(given));
 }

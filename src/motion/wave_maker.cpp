@@ -189,31 +189,30 @@ WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
   const Vec<Dim> to = to_vec<Dim>(maker.to, owner, "to");
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0) {
-    throw InputError(fmt::format("{}: without gravity there are no waves; give physics.gravity", owner));
+    throw InputError("{}: without gravity there are no waves; give physics.gravity", owner);
   }
   up = -gravity.normalized();
   const auto side = static_cast<int>(maker.side);
   forward = (side % 2 == 0 ? 1.0 : -1.0) * Vec<Dim>::Unit(side / 2);
   if (std::abs(forward.dot(up)) > 1e-9) {
     throw InputError(
-        fmt::format("{}: lies flat, but a plate that makes waves stands upright; give `from` and `to` on an upright "
-                    "{}",
-                    owner, Dim == 2 ? "segment" : "rectangle"));
+        "{}: lies flat, but a plate that makes waves stands upright; give `from` and `to` on an upright {}", owner,
+        Dim == 2 ? "segment" : "rectangle");
   }
   if (up.dot(to - from) < depth) {
     throw InputError(
-        fmt::format("{}: its top is {:.4g} m above its foot, below the still water's level of {:.4g} m: give a higher "
-                    "`to`, the foot as `from`, or correct depth",
-                    owner, up.dot(to - from), depth));
+        "{}: its top is {:.4g} m above its foot, below the still water's level of {:.4g} m: give a higher `to`, the "
+        "foot as `from`, or correct depth",
+        owner, up.dot(to - from), depth);
   }
   if (maker.waves == WaveKind::regular) {
     const double k = wave_number(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
     const double highest = steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
     if (maker.height > highest) {
-      throw InputError(fmt::format(
-          "{}: its height of {:.4g} m is too much for its period of {:.4g} s: such waves break at {:.4g} m; "
-          "give a smaller height, or a longer period",
-          owner, maker.height, maker.period, highest));
+      throw InputError(
+          "{}: its height of {:.4g} m is too much for its period of {:.4g} s: such waves break at {:.4g} m; give a "
+          "smaller height, or a longer period",
+          owner, maker.height, maker.period, highest);
     }
   }
   foot = from;

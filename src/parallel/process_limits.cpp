@@ -23,16 +23,15 @@ void require_room_for_mpi(int ranks) {
     getrlimit(RLIMIT_NOFILE, &files);
   }
   if (files.rlim_cur < needed) {
-    throw InputError(
-        fmt::format("this process may have {} files open, and MPI needs {} for {} rank(s); remedy: ulimit -n {}",
-                    files.rlim_cur, needed, ranks, needed));
+    throw InputError("this process may have {} files open, and MPI needs {} for {} rank(s); remedy: ulimit -n {}",
+                     files.rlim_cur, needed, ranks, needed);
   }
   rlimit size{};
   getrlimit(RLIMIT_FSIZE, &size);
   if (size.rlim_cur < least_size) {
-    throw InputError(fmt::format(
+    throw InputError(
         "this process may write files of {} kB at most, and MPI makes one of several MB; remedy: ulimit -f unlimited",
-        size.rlim_cur / 1024));
+        size.rlim_cur / 1024);
   }
 }
 

@@ -16,9 +16,8 @@ inline std::string label(const ProbeTable& probe) { return fmt::format("probe '{
 inline double step_of(const ProbeTable& probe, double spacing) {
   constexpr double least = 0.1;  // dx
   if (probe.step > 0.0 && probe.step < least * spacing) {
-    throw InputError(
-        fmt::format("{}: step = {} m is below {} dx = {:.4g} m, which particles cannot tell: make it larger",
-                    label(probe), probe.step, least, least * spacing));
+    throw InputError("{}: step = {} m is below {} dx = {:.4g} m, which particles cannot tell: make it larger",
+                     label(probe), probe.step, least, least * spacing);
   }
   return probe.step > 0.0 ? probe.step : spacing;
 }

@@ -49,9 +49,8 @@ template <int Dim>
 Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
   if (spec.air.pockets == AirPockets::none) {
     throw InputError(
-        fmt::format("{}: reads enclosed air, which this case does not compute; give pockets = \"{}\" in [air], "
-                    "or remove the probe",
-                    label(probe), name_of(AirPockets::adiabatic)));
+        "{}: reads enclosed air, which this case does not compute; give pockets = \"{}\" in [air], or remove the probe",
+        label(probe), name_of(AirPockets::adiabatic));
   }
   return {{"pressure_Pa", "volume_m3", "gas_m3", "vented_m3", "energy_J", "pockets"},
           [](const ProbeContext<Dim>& context) -> std::vector<Row> {
@@ -176,9 +175,9 @@ void ProbeSet<Dim>::restore(std::span<const double> memory, const std::filesyste
   const auto require = [&](bool fits) {
     if (fits) return;
     throw IoError(
-        fmt::format("what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the "
-                    "newest file in '{}', to go on from the one before",
-                    checkpoints.string()));
+        "what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the newest file "
+        "in '{}', to go on from the one before",
+        checkpoints.string());
   };
   for (const Instrument& instrument : instruments_) {
     const Reading<Dim>& reading = instrument.probe.reading;

@@ -345,9 +345,9 @@ void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
   if (why.empty()) return;
   throw InputError(
-      fmt::format("{}: type = \"force\" does not go with this formulation: {}; choose scheme.formulation = \"robust\", "
-                  "or measure with type = \"wall-pressure-mean\"",
-                  label(probe), why));
+      "{}: type = \"force\" does not go with this formulation: {}; choose scheme.formulation = \"robust\", or measure "
+      "with type = \"wall-pressure-mean\"",
+      label(probe), why);
 }
 
 }  // namespace

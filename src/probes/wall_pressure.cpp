@@ -28,8 +28,8 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   const double support = traits_of(spec).support * spec.particles.spacing;
   const NearestWall<Dim> nearest = boundary.nearest(x, support);
   if (nearest.face < 0) {
-    throw InputError(fmt::format("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall",
-                                 label(probe), support, place(x)));
+    throw InputError("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall", label(probe),
+                     support, place(x));
   }
   const int wall = boundary.faces[nearest.face].wall;
   Vec<Dim> point = nearest.point;
@@ -37,9 +37,8 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
     const double tolerance = corner_tolerance * spec.particles.spacing;
     if (nearest.signed_distance <= tolerance) {
       throw InputError(
-          fmt::format("{}: {} is on {}, a plate that has water on both sides: move it by a millimetre to "
-                      "the side that is meant",
-                      label(probe), place(x), wall_label(boundary, wall)));
+          "{}: {} is on {}, a plate that has water on both sides: move it by a millimetre to the side that is meant",
+          label(probe), place(x), wall_label(boundary, wall));
     }
     point += tolerance * boundary.faces[nearest.face].normal;
   }
@@ -47,15 +46,14 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   const Drive& drive = spec.walls[wall].drive;
   if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {
     throw InputError(
-        fmt::format("{}: {} gives way to waves, and a probe cannot follow it: move the probe, or give "
-                    "absorption = \"none\"",
-                    label(probe), wall_label(boundary, wall)));
+        "{}: {} gives way to waves, and a probe cannot follow it: move the probe, or give absorption = \"none\"",
+        label(probe), wall_label(boundary, wall));
   }
   if (drive.by == Drive::By::body) {
     throw InputError(
-        fmt::format("{}: {} is of body '{}', which the water moves, and a probe cannot follow it: move the probe, or "
-                    "take type = \"force\" with a region",
-                    label(probe), wall_label(boundary, wall), spec.bodies[drive.index].name));
+        "{}: {} is of body '{}', which the water moves, and a probe cannot follow it: move the probe, or take type = "
+        "\"force\" with a region",
+        label(probe), wall_label(boundary, wall), spec.bodies[drive.index].name);
   }
   return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
@@ -106,8 +104,7 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   std::vector<Vec<Dim>> line = places_between<Dim>(probe, step);
   if (probe.width == 0.0) return line;
   if constexpr (Dim == 2) {
-    throw InputError(
-        fmt::format("{}: width = {} m: a wall in 2D has no width; leave it out", label(probe), probe.width));
+    throw InputError("{}: width = {} m: a wall in 2D has no width; leave it out", label(probe), probe.width);
   } else {
     const Vec<3> along = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
     const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(along).normalized();

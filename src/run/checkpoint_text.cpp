@@ -12,7 +12,7 @@
 namespace tailwater {
 
 void require_fit(bool condition, const char* part) {
-  if (!condition) throw IoError(fmt::format("its '{}' does not fit", part));
+  if (!condition) throw IoError("its '{}' does not fit", part);
 }
 
 // There may be many.

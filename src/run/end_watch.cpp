@@ -30,21 +30,20 @@ void EndWatch::look(const Flow<Dim>& flow) {
     const OpenEndState& state = flow.state.open_ends[e];
     const std::string label = end.opening.label();
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
-      warn(fmt::format(
-          "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more "
-          "than the spacing of {:.3g} m; water_balance in summary.json tells how long. Remedy: a wider or "
-          "deeper opening, or levels and discharges that change more slowly",
-          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing));
+      warn(
+          "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
+          "spacing of {:.3g} m; water_balance in summary.json tells how long. Remedy: a wider or deeper opening, or "
+          "levels and discharges that change more slowly",
+          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing);
     }
     if (!end.flow.feeds() || end.circuit >= 0) continue;
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
     const double columns = columns_that_wait * spacing * state.depth * end.width;
     if (missing > most_missing * std::abs(state.asked) + columns && is_first(label + ": discharge")) {
       warn(
-          fmt::format("{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of "
-                      "room; water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller "
-                      "spacing",
-                      label, flow.state.time, missing, state.asked));
+          "{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of room; "
+          "water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller spacing",
+          label, flow.state.time, missing, state.asked);
     }
   }
 }

@@ -140,21 +140,21 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
   // The particles' memory is proportional to dx^-Dim.
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
-  return {Finding::error(
-      "particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory; only "
-      "{:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes{}",
-      spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting,
-      length_of_longest_mesh(boundary))};
+  return {
+      Finding::error("particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB "
+                     "of memory; only {:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes{}",
+                     spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting,
+                     length_of_longest_mesh(boundary))};
 }
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   const double largest_step = rule.largest(0.0, 0.0);
   // Not a quotient, which may overflow for a mistyped end time.
   if (spec.time.end > most_steps * largest_step) {
-    throw InputError(fmt::format(
+    throw InputError(
         "time.end = {:g} s is out of reach: steps of at most {:.3g} s make more than {:g} of them; give the end in "
         "seconds, at most {:.3g}, or a larger particles.spacing",
-        spec.time.end, largest_step, most_steps, most_steps * largest_step));
+        spec.time.end, largest_step, most_steps, most_steps * largest_step);
   }
 }
 

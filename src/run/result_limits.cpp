@@ -56,8 +56,8 @@ void ResultLimits::check(Limit& limit, double time, double error, double harmles
                        fmt::format(fmt::runtime(limit.what), 100.0 * error), limit.keys, kind, bound);
   };
   if (limit.stop > 0.0 && error > limit.stop) {
-    throw SolverError(fmt::format("{}. Remedy: a smaller particles.spacing or scheme.courant, or a higher limit",
-                                  describe("stop", limit.stop)));
+    throw SolverError("{}. Remedy: a smaller particles.spacing or scheme.courant, or a higher limit",
+                      describe("stop", limit.stop));
   }
   if (limit.warning > 0.0 && error > std::max(limit.warning, harmless) && limit.told == 0.0) {
     limit.told = growth;
@@ -69,8 +69,8 @@ void ResultLimits::warn_of_largest() {
   for (Limit* limit : {&energy_, &volume_}) {
     if (limit->told == 0.0 || limit->largest <= worth_telling * limit->told) continue;
     limit->told = limit->largest;
-    warn(fmt::format("until t = {:.4f} s {}, the most in this run", limit->time_of_largest,
-                     fmt::format(fmt::runtime(limit->most), 100.0 * limit->largest)));
+    warn("until t = {:.4f} s {}, the most in this run", limit->time_of_largest,
+         fmt::format(fmt::runtime(limit->most), 100.0 * limit->largest));
   }
 }
 

@@ -55,7 +55,7 @@ std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& f
   for (const fs::path& path : checkpoints_in(options.out)) {
     try {
       SealedFile file = read_sealed_file(path);
-      if (!problems.empty()) warn(fmt::format("{}; going on from '{}'", problems, path.string()));
+      if (!problems.empty()) warn("{}; going on from '{}'", problems, path.string());
       found = path;
       return file;
     } catch (const IoError& error) {
@@ -63,40 +63,39 @@ std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& f
     }
   }
   if (problems.empty()) return std::nullopt;
-  throw IoError(fmt::format("{}; remedy: start again with tailwater run {} --out {} --force", problems,
-                            (options.out / effective_case_name).string(), options.out.string()));
+  throw IoError("{}; remedy: start again with tailwater run {} --out {} --force", problems,
+                (options.out / effective_case_name).string(), options.out.string());
 }
 
 void require_readable_format(const SealedFile& file, const fs::path& path) {
   if (file.format == checkpoint_format) return;
-  throw InputError(fmt::format(
-      "checkpoint '{}' has format {}, and this program, {}, reads format {}; remedy: resume with the program "
-      "that wrote it, {}",
-      path.string(), file.format, version_line(), checkpoint_format, file.writer));
+  throw InputError(
+      "checkpoint '{}' has format {}, and this program, {}, reads format {}; remedy: resume with the program that "
+      "wrote it, {}",
+      path.string(), file.format, version_line(), checkpoint_format, file.writer);
 }
 
 /// Another program computes the same flow with other last digits.
 void tell_of_another_writer(const SealedFile& file) {
   if (file.writer == version_line()) return;
-  warn(fmt::format("the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same", file.writer,
-                   version_line()));
+  warn("the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same", file.writer,
+       version_line());
 }
 
 void require_same_case(const CaseSpec& spec, const CaseSpec& saved, const fs::path& path, const fs::path& case_file) {
   if (with_changeable_keys_of(spec, saved) == spec) return;
   throw InputError(
-      fmt::format("checkpoint '{}' is of another case than '{}': {}; remedy: put back the case that was run, "
-                  "or start another run",
-                  path.string(), case_file.string(), first_difference(with_changeable_keys_of(spec, saved), spec)));
+      "checkpoint '{}' is of another case than '{}': {}; remedy: put back the case that was run, or start another run",
+      path.string(), case_file.string(), first_difference(with_changeable_keys_of(spec, saved), spec));
 }
 
 void require_allowed(const CaseSpec& before, const CaseSpec& after) {
   const CaseSpec allowed = with_changeable_keys_of(after, before);
   if (allowed == after) return;
   throw InputError(
-      fmt::format("--set: a run that goes on keeps its case, and here {}; it may change {}; remedy: tailwater run "
-                  "with another --out",
-                  first_difference(allowed, after), changeable_keys));
+      "--set: a run that goes on keeps its case, and here {}; it may change {}; remedy: tailwater run with another "
+      "--out",
+      first_difference(allowed, after), changeable_keys);
 }
 
 }  // namespace
@@ -116,9 +115,8 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
     std::error_code error;
     if (!fs::exists(case_file, error)) {
       throw InputError(
-          fmt::format("'{}' is not the folder of a run: it has no {}; remedy: name the folder that a run "
-                      "was given by --out",
-                      options.out.string(), effective_case_name));
+          "'{}' is not the folder of a run: it has no {}; remedy: name the folder that a run was given by --out",
+          options.out.string(), effective_case_name);
     }
     FolderLock::require_free(options.out);  // before anything is read that a run replaces as it goes
   });

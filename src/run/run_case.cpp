@@ -82,9 +82,9 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
     } catch (const nlohmann::json::exception& error) {
       if (checkpoint == nullptr) throw;
       throw IoError(
-          fmt::format("checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from "
-                      "the one before",
-                      checkpoint->path.string(), error.what()));
+          "checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from the one "
+          "before",
+          checkpoint->path.string(), error.what());
     }
   };
   std::unique_ptr<Run<Dim>> run = make_run();
@@ -127,7 +127,7 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
     errors[most_shown - 1] += fmt::format(" (and {} more problems)", errors.size() - most_shown);
     errors.resize(most_shown);
   }
-  throw InputError(fmt::format("{}", fmt::join(errors, "\n")));
+  throw InputError("{}", fmt::join(errors, "\n"));
 }
 
 }  // namespace

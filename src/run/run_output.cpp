@@ -269,9 +269,9 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
   warn(
-      fmt::format("at t = {:.4f} s {} fluid particle(s) left the walls for good; they are computed until they "
-                  "are below all walls, and counted in summary.json. Remedy: higher walls",
-                  flow.state.time, outside));
+      "at t = {:.4f} s {} fluid particle(s) left the walls for good; they are computed until they are below all walls, "
+      "and counted in summary.json. Remedy: higher walls",
+      flow.state.time, outside);
 }
 
 template <int Dim>
@@ -351,26 +351,25 @@ void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   const Water outside = water_outside(flow);
   if (flow.setup.open_ends.empty() && outside.particles == 0) return;
   const Water came = water_came(flow);
-  tell(fmt::format("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
-                   came.particles > 0 ? came.text() + " in, " : "", water_inside(flow).text(), outside.text(),
-                   water_out(flow).text()));
+  tell("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
+       came.particles > 0 ? came.text() + " in, " : "", water_inside(flow).text(), outside.text(),
+       water_out(flow).text());
 }
 
 template <int Dim>
 void RunOutput<Dim>::tell_results() const {
   constexpr std::size_t most_told = 20;
   for (std::size_t k = 0; k < std::min(results_.size(), most_told); ++k) {
-    tell(fmt::format("{}: {}", results_[k].probe, results_[k].words()));
+    tell("{}: {}", results_[k].probe, results_[k].words());
   }
   if (results_.size() > most_told) {
-    tell(fmt::format("and {} more probes: tailwater info {}", results_.size() - most_told, folder_.path().string()));
+    tell("and {} more probes: tailwater info {}", results_.size() - most_told, folder_.path().string());
   }
   for (std::size_t k = 0; k < std::min(scores_.size(), most_told); ++k) {
-    tell(fmt::format("{}: {}", scores_[k].probe, scores_[k].words()));
+    tell("{}: {}", scores_[k].probe, scores_[k].words());
   }
   if (scores_.size() > most_told) {
-    tell(fmt::format("and {} more measurements: tailwater info {}", scores_.size() - most_told,
-                     folder_.path().string()));
+    tell("and {} more measurements: tailwater info {}", scores_.size() - most_told, folder_.path().string());
   }
 }
 

@@ -92,10 +92,9 @@ void StepGuard<Dim>::require_sound_step(double dt) {
     if (!setup.wall_motion.moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
   }
   if (!std::isfinite(reference_step_) || dt >= smallest_share * reference_step_) return;
-  const std::string reason = fmt::format(
-      "the time step collapsed to {:.3g} s, less than {:g} of {:.3g} s, the step at the "
-      "start",
-      dt, smallest_share, reference_step_);
+  const std::string reason =
+      fmt::format("the time step collapsed to {:.3g} s, less than {:g} of {:.3g} s, the step at the start", dt,
+                  smallest_share, reference_step_);
   if (dt < step_of_water(flow_)) {
     fail(fmt::format("{}: {} moves too fast or jumps. Remedy: a smoother displacement or rotation of the wall", reason,
                      fastest_wall(flow_, dt)),
@@ -143,8 +142,8 @@ void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& d
   if (!is_here) culprit.reset();
   const std::string reason = ranks.broadcast(is_here ? describe(*culprit) : std::string(), rank);
   fail(reason +
-           ". The run has become unstable; remedy: a smaller scheme.courant, a larger "
-           "study.noise_viscosity, or scheme.formulation = \"robust\" where it is not chosen",
+           ". The run has become unstable; remedy: a smaller scheme.courant, a larger study.noise_viscosity, or "
+           "scheme.formulation = \"robust\" where it is not chosen",
        culprit);
 }
 

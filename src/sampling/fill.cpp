@@ -94,20 +94,19 @@ class Fill {
 
   void require_sound_seed() const {
     if (seed_[Dim - 1] >= level_) {
-      throw InputError(fmt::format("{}: seed {} is not below level = {:.6g}: put it into the water, or raise the level",
-                                   owner_, place(seed_), level_));
+      throw InputError("{}: seed {} is not below level = {:.6g}: put it into the water, or raise the level", owner_,
+                       place(seed_), level_);
     }
     const NearestWall<Dim> wall = boundary_.nearest(seed_, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
-      throw InputError(
-          fmt::format("{}: shape = \"fill\" needs walls that hold the water: draw them, or use a box", owner_));
+      throw InputError("{}: shape = \"fill\" needs walls that hold the water: draw them, or use a box", owner_);
     }
     if (wall.signed_distance < 0.0) {
       throw InputError(
-          fmt::format("{}: seed {} is in {}, {:.6g} m behind its surface at {}: move it into the water, or "
-                      "give the wall the other fluid_side",
-                      owner_, place(seed_), wall_label(boundary_, boundary_.faces[wall.face].wall),
-                      -wall.signed_distance, place(wall.point)));
+          "{}: seed {} is in {}, {:.6g} m behind its surface at {}: move it into the water, or give the wall the other "
+          "fluid_side",
+          owner_, place(seed_), wall_label(boundary_, boundary_.faces[wall.face].wall), -wall.signed_distance,
+          place(wall.point));
     }
   }
 
@@ -150,9 +149,9 @@ class Fill {
       return *first;
     }
     throw InputError(
-        fmt::format("{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from "
-                    "the walls, or use a smaller spacing",
-                    owner_, dx_, place(seed_)));
+        "{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from the walls, or use a "
+        "smaller spacing",
+        owner_, dx_, place(seed_));
   }
 
   /// Water outside the box around all walls has left the case.
@@ -160,9 +159,9 @@ class Fill {
     if (box_.exteriorDistance(x) <= tolerance_) return;
     const NearestWall<Dim> wall = boundary_.nearest(last, std::numeric_limits<double>::infinity());
     throw InputError(
-        fmt::format("{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the "
-                    "rim there, or the walls have a gap; lower the level, or close the walls",
-                    owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall)));
+        "{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the rim there, or the "
+        "walls have a gap; lower the level, or close the walls",
+        owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall));
   }
 
   const std::string& owner_;

@@ -40,9 +40,8 @@ class StartVelocity {
   /// Throws InputError, which names the block's `owner`.
   StartVelocity(const CaseSpec& spec, const FluidTable& block, const std::string& owner) : owner_(owner) {
     if (!block.velocity.empty() && block.velocity.size() != Dim) {
-      throw InputError(
-          fmt::format("{}: velocity has {} components but the case has {} dimensions: give one per dimension", owner,
-                      block.velocity.size(), Dim));
+      throw InputError("{}: velocity has {} components but the case has {} dimensions: give one per dimension", owner,
+                       block.velocity.size(), Dim);
     }
     for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
       if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
@@ -61,16 +60,16 @@ class StartVelocity {
       velocity[component.axis] = component.formula.at({x.data(), Dim});
       if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
         throw InputError(
-            fmt::format("{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is a number of at most {:g} "
-                        "wherever the block has particles",
-                        owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number));
+            "{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is a number of at most {:g} wherever the "
+            "block has particles",
+            owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number);
       }
     }
     if (const double speed = velocity.norm(); speed > largest_speed_of_case) {
       throw InputError(
-          fmt::format("{}: velocity is {:.4g} m/s at {}, but water is treated as incompressible, which limits it to "
-                      "{:g} m/s: correct its velocity",
-                      owner_, speed, place(x), largest_speed_of_case));
+          "{}: velocity is {:.4g} m/s at {}, but water is treated as incompressible, which limits it to {:g} m/s: "
+          "correct its velocity",
+          owner_, speed, place(x), largest_speed_of_case);
     }
     return velocity;
   }
@@ -245,12 +244,12 @@ class BlockWater {
       const double dx = spec_.particles.spacing;
       const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * dx;
       if (!is_thin && fitted_.missed <= largest_misfit) return;
-      throw InputError(fmt::format(
+      throw InputError(
           "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
           "leave out {:.0f} % of that: it is too small or too thin for them; use a smaller spacing, or correct scale = "
           "{:g}",
           owner_, block_.file, place<3>(surface.low()), place<3>(surface.high()), shape_.volume(), dx,
-          100.0 * fitted_.missed, block_.scale));
+          100.0 * fitted_.missed, block_.scale);
     }
   }
 

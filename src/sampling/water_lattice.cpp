@@ -27,8 +27,8 @@ Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::st
   Eigen::AlignedBox<double, Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw InputError(fmt::format(
-          "{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\", \"mesh\" or \"fill\"", owner));
+      throw InputError("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\", \"mesh\" or \"fill\"",
+                       owner);
     } else {
       for (const Vec<2>& corner : outline_of(block, owner)) box.extend(corner);
     }
@@ -38,9 +38,8 @@ Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::st
   }
   for (int axis = 0; axis < Dim; ++axis) {
     if (box.max()[axis] > box.min()[axis]) continue;
-    throw InputError(
-        fmt::format("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
-                    owner, "xyz"[axis], box.min()[axis], box.max()[axis]));
+    throw InputError("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
+                     owner, "xyz"[axis], box.min()[axis], box.max()[axis]);
   }
   return box;
 }

@@ -16,7 +16,7 @@ std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner
     outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
   }
   if (outline.size() < 3) {
-    throw InputError(fmt::format("{} has {} points: a polygon needs at least 3", owner, outline.size()));
+    throw InputError("{} has {} points: a polygon needs at least 3", owner, outline.size());
   }
   return outline;
 }

@@ -122,7 +122,7 @@ Json run_for_export(const std::filesystem::path& path) {
   Json scene = scene_of_run(path);
   Json frames = frames_of(index, scene.at("spacing"));
   if (frames.empty()) {
-    throw IoError(fmt::format("'{}' has no frames and no field files: there is nothing to show yet", path.string()));
+    throw IoError("'{}' has no frames and no field files: there is nothing to show yet", path.string());
   }
   return {{"scene", std::move(scene)},
           {"info", std::move(info)},

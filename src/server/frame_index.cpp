@@ -77,7 +77,7 @@ std::string frame_of_fields(std::string_view bytes, const std::string& name, std
     for (std::size_t i = 0; i < id.size(); ++i) {
       const double number = ids->second.values[i];
       if (!std::isfinite(number) || std::abs(number) > 0x1p53) {
-        throw IoError(fmt::format("cannot read '{}': an id is no whole number", name));
+        throw IoError("cannot read '{}': an id is no whole number", name);
       }
       id[i] = static_cast<std::int64_t>(number);
     }

@@ -343,7 +343,7 @@ FrameSummary read_frame_head(std::string_view bytes) {
   Taker taker(bytes);
   if (taker.take_bytes(magic.size()) != magic) throw IoError("not a frame: it begins with other bytes");
   const auto format = taker.take<std::uint16_t>();
-  if (format != frame_format) throw IoError(fmt::format("a frame of format {}; known is {}", format, frame_format));
+  if (format != frame_format) throw IoError("a frame of format {}; known is {}", format, frame_format);
   FrameSummary summary;
   FrameHead& head = summary.head;
   const std::size_t dimension = taker.take<std::uint8_t>();

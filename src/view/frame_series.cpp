@@ -35,7 +35,7 @@ constexpr double room_in_range = 0.25;
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(fmt::format("cannot read '{}'", path.string()));
+  if (!file) throw IoError("cannot read '{}'", path.string());
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
