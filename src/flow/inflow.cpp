@@ -81,7 +81,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
 /// kept. Those that have waited longest come first.
 template <int Dim>
 std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow) {
-  const Passed sump = sump_of(flow, end.circuit);
+  const WaterAmount sump = sump_of(flow, end.circuit);
   const double number = static_cast<double>(sump.particles);
   const double cell = power<Dim>(flow.setup.spacing);
   std::vector<Entrant<Dim>> entrants =
@@ -142,8 +142,8 @@ bool add_inflow(Flow<Dim>& flow) {
 }
 
 template <int Dim>
-Passed sump_of(const Flow<Dim>& flow, int circuit) {
-  Passed sump;
+WaterAmount sump_of(const Flow<Dim>& flow, int circuit) {
+  WaterAmount sump;
   const double particle = power<Dim>(flow.setup.spacing);
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
     const OpenEnd<Dim>& end = flow.setup.open_ends[e];

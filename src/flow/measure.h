@@ -38,8 +38,8 @@ struct FlowMeasures {
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
-  Passed departed;  ///< through all open ends, and below all walls, since the start
-  Passed arrived;
+  WaterAmount departed;  ///< through all open ends, and below all walls, since the start
+  WaterAmount arrived;
   AirMeasures air;
 
   double energy() const { return kinetic_energy + potential_energy; }

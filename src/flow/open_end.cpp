@@ -279,14 +279,14 @@ double kinetic_energy_in_driven_ends(const Flow<Dim>& flow) {
 
 }  // namespace
 
-Passed& Passed::operator+=(const Passed& other) {
+WaterAmount& WaterAmount::operator+=(const WaterAmount& other) {
   particles += other.particles;
   volume += other.volume;
   energy += other.energy;
   return *this;
 }
 
-Passed& Passed::operator-=(const Passed& other) {
+WaterAmount& WaterAmount::operator-=(const WaterAmount& other) {
   particles -= other.particles;
   volume -= other.volume;
   energy -= other.energy;

@@ -16,14 +16,14 @@ namespace tailwater {
 template <int Dim>
 struct Flow;
 
-/// What passed one opening, in one direction, since the start.
-struct Passed {
+/// An amount of water.
+struct WaterAmount {
   std::int64_t particles = 0;
   double volume = 0.0;  ///< m^Dim
-  double energy = 0.0;  ///< J; kinetic and potential, on passing
+  double energy = 0.0;  ///< J; kinetic and potential; of water that passed an opening, on passing
 
-  Passed& operator+=(const Passed& other);
-  Passed& operator-=(const Passed& other);
+  WaterAmount& operator+=(const WaterAmount& other);
+  WaterAmount& operator-=(const WaterAmount& other);
 };
 
 /// How well a prescribed level is held.
@@ -55,8 +55,8 @@ struct OpenEndState {
   LevelMiss miss;
   double asked = 0.0;     ///< m^Dim; what should have come in less what should have left; where that is prescribed
   std::int64_t rows = 0;  ///< of the lattice on which particles enter
-  Passed departed;
-  Passed arrived;
+  WaterAmount departed;
+  WaterAmount arrived;
   std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate
 };
 
@@ -86,6 +86,6 @@ std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec);
 /// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
 /// through them, less what came. Its energy is not booked.
 template <int Dim>
-Passed sump_of(const Flow<Dim>& flow, int circuit);
+WaterAmount sump_of(const Flow<Dim>& flow, int circuit);
 
 }  // namespace tailwater

@@ -60,7 +60,7 @@ bool remove_outflow(Flow<Dim>& flow) {
   if (!flow.setup.ranks.any(some_left)) return false;
   flow.air.forget_responses();
   for (std::size_t w = 0; w <= falls; ++w) {
-    Passed passed = sum_over(particles.owned, Passed{}, [&](std::size_t i) -> Passed {
+    WaterAmount passed = sum_over(particles.owned, WaterAmount{}, [&](std::size_t i) -> WaterAmount {
       if (leaves_by[i] != w) return {};
       return {1, particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
     });

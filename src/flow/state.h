@@ -26,7 +26,7 @@ struct State {
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
   AirState air;                         ///< pockets of it
-  Passed fallen;                        ///< water that fell below all walls, and is no longer computed
+  WaterAmount fallen;                   ///< water that fell below all walls, and is no longer computed
 };
 
 }  // namespace tailwater

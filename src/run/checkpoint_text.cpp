@@ -24,7 +24,7 @@ inline void from_json(const nlohmann::json& json, CellRun& run) { run = {json.at
   NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Struct, __VA_ARGS__) \
   [[maybe_unused]] static void has_no_more(const Struct& all) { [[maybe_unused]] const auto& [__VA_ARGS__] = all; }
 
-TAILWATER_SAVED(Passed, particles, volume, energy)
+TAILWATER_SAVED(WaterAmount, particles, volume, energy)
 TAILWATER_SAVED(LevelMiss, mean, lasts, since, total, most)
 TAILWATER_SAVED(OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
                 entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,

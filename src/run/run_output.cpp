@@ -348,12 +348,12 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
 
 template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
-  const Water outside = water_outside(flow);
+  const WaterAmount outside = water_outside(flow);
   if (flow.setup.open_ends.empty() && outside.particles == 0) return;
-  const Water came = water_came(flow);
-  tell("water: {} at the start, {}{} inside, {} outside the walls, {} out", water_at_start_.text(),
-       came.particles > 0 ? came.text() + " in, " : "", water_inside(flow).text(), outside.text(),
-       water_out(flow).text());
+  const WaterAmount came = water_came(flow);
+  tell("water: {} at the start, {}{} inside, {} outside the walls, {} out", text_of(water_at_start_),
+       came.particles > 0 ? text_of(came) + " in, " : "", text_of(water_inside(flow)), text_of(outside),
+       text_of(water_out(flow)));
 }
 
 template <int Dim>

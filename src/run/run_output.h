@@ -101,7 +101,7 @@ class RunOutput {
   ResultLimits limits_;
   std::vector<ProbeResult> results_;  ///< at the end, on the root
   std::vector<MeasurementScore> scores_;
-  Water water_at_start_;
+  WaterAmount water_at_start_;
   Schedule fields_schedule_;
   bool warned_outside_ = false;
   EndWatch end_watch_;

@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-nlohmann::ordered_json json_of(const Water& water, double density) {
+nlohmann::ordered_json json_of(const WaterAmount& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
@@ -93,80 +93,65 @@ bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box
   return first.height > 0.0;
 }
 
-template <int Dim>
-Water water_fallen(const Flow<Dim>& flow) {
-  return {flow.state.fallen.particles, flow.state.fallen.volume};
-}
-
 }  // namespace
 
-Water& Water::operator+=(const Water& other) {
-  particles += other.particles;
-  volume += other.volume;
-  return *this;
+std::string text_of(const WaterAmount& water) {
+  return fmt::format("{} particles ({:.6g} m^3)", water.particles, water.volume);
 }
-
-Water& Water::operator-=(const Water& other) {
-  particles -= other.particles;
-  volume -= other.volume;
-  return *this;
-}
-
-std::string Water::text() const { return fmt::format("{} particles ({:.6g} m^3)", particles, volume); }
 
 template <int Dim>
-Water water_in(const Flow<Dim>& flow) {
+WaterAmount water_in(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
-    return particles.is_fluid(i) ? Water{1, particles.volume[i]} : Water();
+  WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
+    return particles.is_fluid(i) ? WaterAmount{1, particles.volume[i]} : WaterAmount();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
   return water;
 }
 
 template <int Dim>
-Water water_outside(const Flow<Dim>& flow) {
+WaterAmount water_outside(const Flow<Dim>& flow) {
   const Eigen::AlignedBox<double, Dim> box = flow.box();
   if (box.isEmpty()) return {};
   const Particles<Dim>& particles = flow.state.particles;
-  Water water = sum_over(particles.owned, Water(), [&](std::size_t i) {
+  WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
     const bool is_outside =
         particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !is_passing_end(flow, x);
-    return is_outside ? Water{1, particles.volume[i]} : Water();
+    return is_outside ? WaterAmount{1, particles.volume[i]} : WaterAmount();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
-  water += water_fallen(flow);
+  water += flow.state.fallen;
   return water;
 }
 
 template <int Dim>
-Water water_inside(const Flow<Dim>& flow) {
-  Water water = water_in(flow);
-  water += water_fallen(flow);
+WaterAmount water_inside(const Flow<Dim>& flow) {
+  WaterAmount water = water_in(flow);
+  water += flow.state.fallen;
   water -= water_outside(flow);
   return water;
 }
 
 template <int Dim>
-Water water_out(const Flow<Dim>& flow) {
-  Water water;
-  for (const OpenEndState& end : flow.state.open_ends) water += {end.departed.particles, end.departed.volume};
+WaterAmount water_out(const Flow<Dim>& flow) {
+  WaterAmount water;
+  for (const OpenEndState& end : flow.state.open_ends) water += end.departed;
   return water;
 }
 
 template <int Dim>
-Water water_came(const Flow<Dim>& flow) {
-  Water water;
-  for (const OpenEndState& end : flow.state.open_ends) water += {end.arrived.particles, end.arrived.volume};
+WaterAmount water_came(const Flow<Dim>& flow) {
+  WaterAmount water;
+  for (const OpenEndState& end : flow.state.open_ends) water += end.arrived;
   return water;
 }
 
 template <int Dim>
-nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flow) {
+nlohmann::ordered_json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
   const double density = flow.setup.density;
-  const auto json_of_passed = [&](const Passed& passed) {
-    nlohmann::ordered_json json = json_of(Water{passed.particles, passed.volume}, density);
+  const auto json_of_passed = [&](const WaterAmount& passed) {
+    nlohmann::ordered_json json = json_of(passed, density);
     json["energy_J"] = passed.energy;
     return json;
   };
@@ -185,10 +170,7 @@ nlohmann::ordered_json water_balance(const Water& at_start, const Flow<Dim>& flo
     if (circuit >= 0 && is_inlet) json["steps_short_of_water"] = end.short_steps;
     if (flow.setup.open_ends[e].flow.feeds()) json["asked_for_m3"] = end.asked;
     if (flow.setup.open_ends[e].holds_level()) json["level_missed"] = json_of_miss(end.miss);
-    if (circuit == static_cast<int>(e)) {
-      const Passed sump = sump_of(flow, circuit);
-      json["waiting"] = json_of(Water{sump.particles, sump.volume}, density);
-    }
+    if (circuit == static_cast<int>(e)) json["waiting"] = json_of(sump_of(flow, circuit), density);
     (is_inlet ? inlets : outlets).push_back(json);
   }
   return {{"start", json_of(at_start, density)},

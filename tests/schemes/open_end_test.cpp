@@ -56,7 +56,7 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
       remove_outflow(flow);
       const auto before = fluid_ids(flow.state.particles);
       step(flow);
-      const Passed& departed = flow.state.open_ends[0].departed;
+      const WaterAmount& departed = flow.state.open_ends[0].departed;
       ASSERT_EQ(fluid_ids(flow.state.particles), before) << "a step takes nothing out";
       ASSERT_EQ(before.size() + static_cast<std::size_t>(departed.particles), ids_at_start.size());
       ASSERT_TRUE(std::includes(ids_at_start.begin(), ids_at_start.end(), before.begin(), before.end()));
@@ -178,7 +178,7 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
     const std::size_t now = count_fluid(flow);
     ASSERT_GE(now, before);
     before = now;
-    const Passed arrived = arrived_at(flow, 0);
+    const WaterAmount arrived = arrived_at(flow, 0);
     ASSERT_EQ(static_cast<std::size_t>(arrived.particles), now);
     ASSERT_NEAR(arrived.volume, static_cast<double>(now) * power<Dim>(dx), 1e-12);
     const double asked = speed * flow.state.time * height * breadth;
@@ -234,8 +234,8 @@ TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
     const auto at_start = static_cast<std::int64_t>(count_fluid(flow));
     start(flow);
     while (flow.state.time < 0.5 * width / speed) pass_and_step(flow);
-    const Passed arrived = arrived_at(flow, 0);
-    const Passed departed = flow.state.open_ends[1].departed;
+    const WaterAmount arrived = arrived_at(flow, 0);
+    const WaterAmount departed = flow.state.open_ends[1].departed;
     EXPECT_NEAR(arrived.volume, speed * depth * breadth * flow.state.time, dx * depth * breadth);
     const auto inside = static_cast<std::int64_t>(count_fluid(flow));
     EXPECT_EQ(at_start + arrived.particles + flow.state.open_ends[1].arrived.particles,
@@ -312,7 +312,7 @@ TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
     start(flow);
     while (flow.state.time < 0.4 * width / speed) {
       pass_and_step(flow);
-      const Passed sump = sump_of(flow, 1);
+      const WaterAmount sump = sump_of(flow, 1);
       ASSERT_GE(sump.particles, 0);
       ASSERT_EQ(static_cast<std::int64_t>(count_fluid(flow)) + sump.particles, at_start);
       double volume = sump.volume;
@@ -363,7 +363,7 @@ TEST(OpenEnd, AReservoirFloodsADryChannel) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 0.5) pass_and_step(flow);
-  const Passed arrived = arrived_at(flow, 0);
+  const WaterAmount arrived = arrived_at(flow, 0);
   const double critical = std::sqrt(g * 0.4);
   EXPECT_GT(arrived.volume, 0.5 * 0.4 * (8.0 / 27.0) * critical) << "what a dam break of that depth lets pass";
   EXPECT_LT(arrived.volume, 0.5 * 0.4 * 2.0 * critical + dx * 0.4) << "no water is faster than its front";

@@ -60,7 +60,7 @@ void pass_and_step(Flow<Dim>& flow) {
 }
 
 template <int Dim>
-Passed arrived_at(const Flow<Dim>& flow, std::size_t end) {
+WaterAmount arrived_at(const Flow<Dim>& flow, std::size_t end) {
   return flow.state.open_ends[end].arrived;
 }
 
