@@ -88,11 +88,11 @@ void ColumnFile::wrong(const std::string& message) const { throw InputError("{}:
 std::vector<std::string_view> ColumnFile::numbers_of(std::string_view line) const {
   std::vector<std::string_view> fields = fields_of(line, separator_);
   if (fields.size() > width_) {
-    wrong(fmt::format(
+    wrong(
         "has {} columns, and the first line has {}; {}", fields.size(), width_,
         separator_ == ','
             ? "if the comma is that of decimals, write them with a point; otherwise name all columns in the first line"
-            : "name all columns in the first line"));
+            : "name all columns in the first line");
   }
   return fields;
 }
@@ -100,8 +100,7 @@ std::vector<std::string_view> ColumnFile::numbers_of(std::string_view line) cons
 double ColumnFile::number_at(const std::vector<std::string_view>& fields, std::size_t column,
                              std::string_view quantity) const {
   if (column >= fields.size()) {
-    wrong(fmt::format("has {} columns where column {} is needed; complete the line, or remove it", fields.size(),
-                      column + 1));
+    wrong("has {} columns where column {} is needed; complete the line, or remove it", fields.size(), column + 1);
   }
   const std::string_view field = fields[column];
   const std::optional<double> value = number_in_field(field);
@@ -109,11 +108,11 @@ double ColumnFile::number_at(const std::vector<std::string_view>& fields, std::s
     const bool has_comma = field.find(',') != std::string_view::npos;
     const std::string what =
         is_like_a_number(field) ? fmt::format("\"{}\"", field) : fmt::format("what is in column {}", column + 1);
-    wrong(fmt::format("{} is not a number; {}", what,
-                      has_comma ? "write decimals with a point" : "correct it, or begin comments with #"));
+    wrong("{} is not a number; {}", what,
+          has_comma ? "write decimals with a point" : "correct it, or begin comments with #");
   }
   if (!std::isfinite(*value) || std::abs(*value) > largest_number)
-    wrong(fmt::format("{} is no finite {}; correct it", field, quantity));
+    wrong("{} is no finite {}; correct it", field, quantity);
   return *value;
 }
 
@@ -127,8 +126,7 @@ std::optional<double> ColumnFile::unit_of(const Heading& heading, std::string_vi
   for (const Unit& unit : units) names.push_back(unit.name);
   const std::string_view last = names.back();
   names.pop_back();
-  wrong(fmt::format("column \"{}\" has the unknown unit \"{}\"; use {} or {}", field, heading.unit,
-                    fmt::join(names, ", "), last));
+  wrong("column \"{}\" has the unknown unit \"{}\"; use {} or {}", field, heading.unit, fmt::join(names, ", "), last);
 }
 
 }  // namespace tailwater

@@ -9,7 +9,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace tailwater {
 
@@ -55,7 +58,12 @@ class ColumnFile {
     }
   }
 
+  /// Throws InputError with file and line before the message.
   [[noreturn]] void wrong(const std::string& message) const;
+  template <class First, class... Rest>
+  [[noreturn]] void wrong(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) const {
+    wrong(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
   /// The fields of a line of numbers, of which there are no more than columns: a decimal comma would make two of one.
   std::vector<std::string_view> numbers_of(std::string_view line) const;

@@ -20,17 +20,17 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
     if (from[d] == to[d]) flat += "xyz"[d];
   }
   if (flat.size() != 1) {
-    reader.wrong("to", *reader.given("to"),
-                 fmt::format("differs from `from` in {} coordinates, but {} is a flat {}: give two points that have "
-                             "exactly one coordinate in common",
-                             from.size() - flat.size(), what,
-                             from.size() == 2 ? "upright or level segment" : "axis-parallel rectangle"));
+    reader.wrong("to",
+                 "differs from `from` in {} coordinates, but {} is a flat {}: give two points that have exactly one "
+                 "coordinate in common",
+                 from.size() - flat.size(), what,
+                 from.size() == 2 ? "upright or level segment" : "axis-parallel rectangle");
   } else if (axis >= from.size() || flat[0] != "xyz"[axis]) {
     const std::string message = fmt::format(
         "the plane through from and to is at one {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
         flat, flat);
-    if (const toml::node* node = reader.given("side")) {
-      reader.wrong("side", *node, message);
+    if (reader.given("side") != nullptr) {
+      reader.wrong("side", message);
     } else {
       reader.missing("side", message);
     }
@@ -50,19 +50,18 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
   }
   const bool has_period = maker.waves == WaveKind::regular || maker.waves == WaveKind::jonswap;
   if (has_period && maker.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
-    reader.wrong("period", *reader.given("period"), "waves need a period; give a number above 0 in s");
+    reader.wrong("period", "waves need a period; give a number above 0 in s");
   }
   if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
-    reader.wrong("type", *reader.given("type"), "a solitary wave moves the water evenly over the depth; use a piston");
+    reader.wrong("type", "a solitary wave moves the water evenly over the depth; use a piston");
   }
   if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
       !reader.is_wrong("ramp")) {
-    reader.wrong("ramp", *reader.given("ramp"), "irregular waves do not begin at rest; give a time above 0 s");
+    reader.wrong("ramp", "irregular waves do not begin at rest; give a time above 0 s");
   }
   if (maker.height > highest_over_depth * maker.depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
-    reader.wrong("height", *reader.given("height"),
-                 fmt::format("such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
-                             highest_over_depth, highest_over_depth * maker.depth));
+    reader.wrong("height", "such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
+                 highest_over_depth, highest_over_depth * maker.depth);
   }
 }
 
@@ -75,10 +74,8 @@ void check(const BodyTable& body, TableReader& reader) {
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");
     if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
-      reader.wrong(
-          "free", *reader.given("free"),
-          fmt::format("\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
-                      reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z"));
+      reader.wrong("free", "\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
+                   reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
       return;
     }
   }
@@ -96,9 +93,8 @@ void check(const BodyTable& body, TableReader& reader) {
     }
   } else if (body.inertia.size() != needed ||
              std::ranges::any_of(body.inertia, [](double moment) { return moment <= 0.0; })) {
-    reader.wrong(
-        "inertia", *reader.given("inertia"),
-        fmt::format("give {} above 0 in {} dimensions", is_flat ? "one number" : "three numbers", reader.dimension()));
+    reader.wrong("inertia", "give {} above 0 in {} dimensions", is_flat ? "one number" : "three numbers",
+                 reader.dimension());
   }
 }
 
@@ -108,12 +104,11 @@ void check(const MooringTable& mooring, TableReader& reader) {
     if (bodies.empty()) {
       reader.missing("body", "a mooring holds a body; give its name");
     } else if (bodies.size() > 2) {
-      reader.wrong("body", *reader.given("body"), "a line has two ends; name one body, or the two that it ties");
+      reader.wrong("body", "a line has two ends; name one body, or the two that it ties");
     }
   }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
-    reader.wrong("anchor", *reader.given("anchor"),
-                 "is where the line is fastened to the body, so it has no direction; give another place");
+    reader.wrong("anchor", "is where the line is fastened to the body, so it has no direction; give another place");
   }
 }
 
@@ -121,7 +116,7 @@ void check(const DampingTable& damping, TableReader& reader) {
   check_box(damping.min, damping.max, reader);
   if (const toml::node* node = reader.given("towards");
       node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
-    reader.wrong("towards", *node, "a case of two dimensions has no z; give a direction in x or y");
+    reader.wrong("towards", "a case of two dimensions has no z; give a direction in x or y");
   }
 }
 

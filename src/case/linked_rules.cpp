@@ -23,7 +23,7 @@ void read_linked(std::string_view key, TableReader& reader, Body&& body) {
   try {
     body();
   } catch (const UserError& error) {
-    reader.wrong(key, *node, error.what());
+    reader.wrong(key, error.what());
   }
 }
 
@@ -70,8 +70,7 @@ struct Given {
 void check_given_once(std::span<const Given> quantities, TableReader& reader) {
   for (const Given& quantity : quantities) {
     if (!quantity.in_case || !quantity.in_file) continue;
-    reader.wrong(quantity.key, *reader.given(quantity.key),
-                 fmt::format("the file has a column {} as well; remove one of the two", quantity.key));
+    reader.wrong(quantity.key, "the file has a column {} as well; remove one of the two", quantity.key);
   }
 }
 
@@ -142,10 +141,10 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
   }
   if (discharge.anywhere() && velocity.anywhere()) {
     const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
-    reader.wrong(key, *reader.given(key), "an inlet has a discharge or a velocity; remove one of the two");
+    reader.wrong(key, "an inlet has a discharge or a velocity; remove one of the two");
   }
   if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
-    reader.wrong("profile", *reader.given("profile"),
+    reader.wrong("profile",
                  "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
   }
 }

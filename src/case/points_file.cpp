@@ -54,15 +54,14 @@ class PointsFile : ColumnFile {
       }
       if (fields.size() > 2) {
         wrong(
-            fmt::format("has {} columns and no line that names them; begin the file with such a line, as in \"x [m], z "
-                        "[m]\", or give two columns",
-                        fields.size()));
+            "has {} columns and no line that names them; begin the file with such a line, as in \"x [m], z [m]\", or "
+            "give two columns",
+            fields.size());
       }
     }
     const std::vector<std::string_view> fields = numbers_of(line);
     if (points_.size() == most_points) {
-      wrong(fmt::format("has more than {} points; a wall has at most that many: give fewer, or several walls",
-                        most_points));
+      wrong("has more than {} points; a wall has at most that many: give fewer, or several walls", most_points);
     }
     points_.push_back({columns_.unit_along * number_at(fields, columns_.along, "length"),
                        columns_.unit_up * number_at(fields, columns_.up, "length")});
@@ -92,8 +91,8 @@ class PointsFile : ColumnFile {
     if (along.size() == 1 && up.size() == 1) {
       columns = {along[0], up[0]};
     } else if (fields.size() > 2) {
-      wrong(fmt::format("of its {} columns {} are named {}, and {} are named {}; name one of each", fields.size(),
-                        along.size(), fmt::join(names_along, ", "), up.size(), fmt::join(names_up, ", ")));
+      wrong("of its {} columns {} are named {}, and {} are named {}; name one of each", fields.size(), along.size(),
+            fmt::join(names_along, ", "), up.size(), fmt::join(names_up, ", "));
     }
     columns.unit_along = named[columns.along].unit;
     columns.unit_up = named[columns.up].unit;

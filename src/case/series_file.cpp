@@ -46,9 +46,9 @@ class SeriesFile : ColumnFile {
     for_each_line(file, [this](std::string_view line) { take(line); });
     if (series_.time.size() < 2) {
       wrong(
-          fmt::format("the file has {} lines of numbers; give at least two, with a line before them that names the "
-                      "columns, as in \"{}\"",
-                      series_.time.size(), example()));
+          "the file has {} lines of numbers; give at least two, with a line before them that names the columns, as in "
+          "\"{}\"",
+          series_.time.size(), example());
     }
     return std::move(series_);
   }
@@ -106,7 +106,7 @@ class SeriesFile : ColumnFile {
     }
     const std::vector<std::string_view> fields = numbers_of(line);
     if (series_.time.size() == most_samples) {
-      wrong(fmt::format("has more than {} lines of numbers; give fewer", most_samples));
+      wrong("has more than {} lines of numbers; give fewer", most_samples);
     }
     for (std::size_t k = 0; k < found_.size(); ++k) {
       const auto [wanted, unit] = found_[k];
@@ -115,9 +115,9 @@ class SeriesFile : ColumnFile {
       const double value = unit * number_at(fields, k, is_its_time ? "time" : "value");
       if (is_its_time && names_.empty() && !series_.time.empty() && value <= series_.time.back()) {
         wrong(
-            fmt::format("its time, {:.9g} s, is not after that of line {}, {:.9g} s; put the lines in order of time, "
-                        "and keep one of two with the same time",
-                        value, series_.line.back(), series_.time.back()));
+            "its time, {:.9g} s, is not after that of line {}, {:.9g} s; put the lines in order of time, and keep one "
+            "of two with the same time",
+            value, series_.line.back(), series_.time.back());
       }
       (is_its_time ? series_.time : series_.columns[wanted]).push_back(value);
     }
@@ -126,12 +126,11 @@ class SeriesFile : ColumnFile {
 
   void take_header(const std::vector<std::string_view>& fields) {
     if (std::ranges::any_of(fields, [](auto field) { return number_in_field(field).has_value(); })) {
-      wrong(
-          fmt::format("has numbers where the columns must be named; begin the file with a line as \"{}\"", example()));
+      wrong("has numbers where the columns must be named; begin the file with a line as \"{}\"", example());
     }
     // First of all, because nothing is quoted from a file that is no such series.
     if (std::ranges::none_of(fields, [](auto field) { return is_time(Heading(field)); })) {
-      wrong(fmt::format("does not name the column t; name t and at least one other column, as in \"{}\"", example()));
+      wrong("does not name the column t; name t and at least one other column, as in \"{}\"", example());
     }
     if (!names_.empty()) {
       choose_measured(fields);
@@ -140,12 +139,11 @@ class SeriesFile : ColumnFile {
     for (const std::string_view field : fields) found_.push_back(column_named(field));
     for (auto at = found_.begin(); at != found_.end(); ++at) {
       if (std::ranges::find(found_.begin(), at, at->wanted, &Found::wanted) != at) {
-        wrong(fmt::format("names column \"{}\" twice; keep one",
-                          at->wanted == time_column ? "t" : wanted_[at->wanted].name));
+        wrong("names column \"{}\" twice; keep one", at->wanted == time_column ? "t" : wanted_[at->wanted].name);
       }
     }
     if (found_.size() < 2) {
-      wrong(fmt::format("does not name any column but t; name at least one other, as in \"{}\"", example()));
+      wrong("does not name any column but t; name at least one other, as in \"{}\"", example());
     }
   }
 
@@ -157,8 +155,8 @@ class SeriesFile : ColumnFile {
     for (std::size_t column = 1; column < wanted_.size(); ++column) {
       const auto at = std::ranges::find(headings, wanted_[column].name) - headings.begin();
       if (at == std::ssize(headings)) {
-        wrong(fmt::format("has no column \"{}\", the places along the profile; name it, as in \"{}\"",
-                          wanted_[column].name, example()));
+        wrong("has no column \"{}\", the places along the profile; name it, as in \"{}\"", wanted_[column].name,
+              example());
       }
       found_[static_cast<std::size_t>(at)] = value_column(column, fields[static_cast<std::size_t>(at)]);
     }
@@ -176,8 +174,7 @@ class SeriesFile : ColumnFile {
     } else if (fields.size() == 2 && wanted_.size() == 1) {
       place = 1 - time;
     } else {
-      wrong(fmt::format("has no column \"{}\"; call the one that is to be compared so, as in \"{}\"", names_.front(),
-                        example()));
+      wrong("has no column \"{}\"; call the one that is to be compared so, as in \"{}\"", names_.front(), example());
     }
     found_[static_cast<std::size_t>(time)] = column_named(fields[static_cast<std::size_t>(time)]);
     found_[static_cast<std::size_t>(place)] = value_column(0, fields[static_cast<std::size_t>(place)]);
@@ -192,9 +189,9 @@ class SeriesFile : ColumnFile {
     }
     const auto known = std::ranges::find(wanted_, heading.name, &SeriesColumn::name);
     if (known == wanted_.end()) {
-      wrong(fmt::format(
+      wrong(
           "has a column \"{}\", which is none of those that count here, \"{}\"; correct its name, or remove the column",
-          field, example()));
+          field, example());
     }
     return value_column(static_cast<std::size_t>(known - wanted_.begin()), field);
   }
@@ -206,7 +203,7 @@ class SeriesFile : ColumnFile {
     const std::optional<double> unit = unit_of(heading, field, units);
     const bool needs_unit = column.measure != Measure::length && column.measure != Measure::speed;
     if (!unit && needs_unit) {
-      wrong(fmt::format("column \"{}\" has no unit; write {} [{}]", field, heading.name, units.front().name));
+      wrong("column \"{}\" has no unit; write {} [{}]", field, heading.name, units.front().name);
     }
     return {wanted, unit.value_or(1.0)};
   }

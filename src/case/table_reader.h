@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "case/expression.h"
@@ -90,6 +92,12 @@ class TableReader {
 
   /// Reports a problem with the value of `key`, or with the part of it at `place`.
   void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");
+  /// The same of what the file has for a key.
+  void wrong(std::string_view key, const std::string& message) { wrong(key, *given(key), message); }
+  template <class First, class... Rest>
+  void wrong(std::string_view key, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+    wrong(key, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
   /// Reports a key that is required and absent.
   void missing(std::string_view key, const std::string& message);

@@ -55,7 +55,7 @@ void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction =
 void check(const PhysicsTable& physics, TableReader& reader) {
   const toml::node* node = reader.given("channel_width");
   if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {
-    reader.wrong("channel_width", *node,
+    reader.wrong("channel_width",
                  "replaces the side walls that are missing in two dimensions, but case.dimension = 3; remove it and "
                  "give the side walls as [[wall]] tables");
   }
@@ -75,10 +75,9 @@ namespace {
 void check_mesh_of_plate(const WallTable& wall, TableReader& reader) {
   if (reader.is_wrong("file")) return;
   if (reader.dimension() == 2) {
-    reader.wrong("file", *reader.given("file"),
-                 "a mesh has three dimensions, but case.dimension = 2; give points or a points_file");
+    reader.wrong("file", "a mesh has three dimensions, but case.dimension = 2; give points or a points_file");
   } else if (!wall.points_file.empty() || reader.given("points") != nullptr) {
-    reader.wrong("file", *reader.given("file"), "the plate has points as well; remove one of the two keys");
+    reader.wrong("file", "the plate has points as well; remove one of the two keys");
   }
 }
 
@@ -91,8 +90,7 @@ void check_points_given(const WallTable& wall, TableReader& reader) {
   }
   const bool has_file = !wall.points_file.empty();
   if (has_file && reader.given("points") != nullptr) {
-    reader.wrong("points_file", *reader.given("points_file"),
-                 "the wall has points as well; remove one of the two keys");
+    reader.wrong("points_file", "the wall has points as well; remove one of the two keys");
   } else if (!has_file && reader.given("points") == nullptr && !reader.is_wrong("shape") &&
              !reader.is_wrong("points_file")) {
     reader.missing(
@@ -113,28 +111,27 @@ void check_fluid_side(const WallTable& wall, TableReader& reader) {
     if (node == nullptr) {
       reader.missing("fluid_side", fmt::format("a mesh needs it; give {}", sides));
     } else if (is_chain_side) {
-      reader.wrong("fluid_side", *node, fmt::format("does not fit shape = \"mesh\"; give {}", sides));
+      reader.wrong("fluid_side", "does not fit shape = \"mesh\"; give {}", sides);
     }
     return;
   }
   const bool is_chain = wall.shape == WallShape::polyline;
   if (is_chain ? is_chain_side : is_body_side) return;
-  reader.wrong("fluid_side", *node,
-               fmt::format("does not fit shape = \"{}\"; give {}", name_of(wall.shape),
-                           is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\""));
+  reader.wrong("fluid_side", "does not fit shape = \"{}\"; give {}", name_of(wall.shape),
+               is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\"");
 }
 
 /// How a wall moves is said by expressions or by a file, and in 3D it turns about an axis.
 void check_wall_motion(const WallTable& wall, TableReader& reader) {
   const auto is_zero = [](const Varying& value) { return value == Varying(0.0); };
   const auto refuse = [&](std::string_view key) {
-    reader.wrong(key, *reader.given(key), "the wall has a motion from a file as well; remove one of the two keys");
+    reader.wrong(key, "the wall has a motion from a file as well; remove one of the two keys");
   };
   if (!wall.motion.empty() && !std::ranges::all_of(wall.displacement, is_zero)) refuse("displacement");
   if (!wall.motion.empty() && !is_zero(wall.rotation)) refuse("rotation");
   const bool has_axis = std::ranges::any_of(wall.axis, [](double c) { return c != 0.0; });
   if (reader.dimension() == 2 && has_axis) {
-    reader.wrong("axis", *reader.given("axis"), "in two dimensions walls turn about their pivot only; remove the key");
+    reader.wrong("axis", "in two dimensions walls turn about their pivot only; remove the key");
   }
   if (reader.dimension() != 3 || wall.rotation == Varying(0.0)) return;
   check_turning_in_3d(wall, "rotation", reader);
@@ -161,14 +158,14 @@ void check(const WallTable& wall, TableReader& reader) {
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
     for (const std::string& face : wall.open) {
       if (face.ends_with('z')) {
-        reader.wrong("open", *node, fmt::format("a box of two dimensions has no face \"{}\"; remove it", face));
+        reader.wrong("open", "a box of two dimensions has no face \"{}\"; remove it", face);
       }
     }
   }
   check_fluid_side(wall, reader);
   check_wall_motion(wall, reader);
   if (wall.roughness > 0.0 && wall.manning > 0.0) {
-    reader.wrong("manning", *reader.given("manning"), "the wall has a roughness as well; remove one of the two keys");
+    reader.wrong("manning", "the wall has a roughness as well; remove one of the two keys");
   }
 }
 
@@ -176,7 +173,7 @@ void check(const InletTable& inlet, TableReader& reader) {
   check_direction(inlet.direction, reader);
   check_ends(inlet.from, inlet.to, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
-    reader.wrong("reserve", *reader.given("reserve"),
+    reader.wrong("reserve",
                  "is water that waits to circulate; say with water_from which outlet's water enters, or remove it");
   }
 }
@@ -218,7 +215,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
         std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
     const bool are_needed = probe.type == ProbeType::profile;
     if (probe.times.empty() ? are_needed : probe.times.front() < 0.0 || !is_rising) {
-      reader.wrong("times", *node, "give at least one time in s, none negative, in increasing order");
+      reader.wrong("times", "give at least one time in s, none negative, in increasing order");
     }
   }
   check_ends(probe.from, probe.to, reader);
@@ -229,8 +226,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
     const bool is_file_name = std::all_of(probe.name.begin(), probe.name.end(), is_plain) && !probe.name.empty() &&
                               probe.name.front() != '-' && probe.name.size() <= 100;
     if (!is_file_name) {
-      reader.wrong("name", *node,
-                   "cannot be a file name; use up to 100 letters, digits, _ and -, and do not begin with -");
+      reader.wrong("name", "cannot be a file name; use up to 100 letters, digits, _ and -, and do not begin with -");
     }
   }
 }
@@ -240,11 +236,11 @@ void check(const DomainTable& domain, TableReader& reader) {
     const toml::node* node = reader.given(key);
     if (node == nullptr || reader.is_wrong(key) || range.empty()) return;
     if (range.size() != 2) {
-      reader.wrong(key, *node, "give two numbers in m, [low, high], or remove the key");
+      reader.wrong(key, "give two numbers in m, [low, high], or remove the key");
     } else if (range[0] >= range[1]) {
-      reader.wrong(key, *node, "is empty; give [low, high] with low below high, in m");
+      reader.wrong(key, "is empty; give [low, high] with low below high, in m");
     } else if (reader.dimension() != 0 && reader.dimension() < least_dimension) {
-      reader.wrong(key, *node, "a case of two dimensions has no z; remove the key");
+      reader.wrong(key, "a case of two dimensions has no z; remove the key");
     }
   };
   check_period("periodic_x", domain.periodic_x, 2);
@@ -262,11 +258,9 @@ void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, Table
     if (need == KeyNeed::needed && node == nullptr) {
       reader.missing(info.key, fmt::format("{} needs it: {}{}", choice, info.doc, in_unit(info.unit)));
     } else if (need == KeyNeed::needed && node->is_string() && node->as_string()->get().empty()) {
-      reader.wrong(info.key, *node, fmt::format("is empty, and {} needs it: {}", choice, info.doc));
+      reader.wrong(info.key, "is empty, and {} needs it: {}", choice, info.doc);
     } else if (need == KeyNeed::unused && node != nullptr) {
-      reader.wrong(
-          info.key, *node,
-          fmt::format("is not used with {}; remove it (it goes with {})", choice, key_use_text(table, info.key)));
+      reader.wrong(info.key, "is not used with {}; remove it (it goes with {})", choice, key_use_text(table, info.key));
     }
   }
 }
