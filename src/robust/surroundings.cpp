@@ -3,6 +3,7 @@
 #include "closures/free_surface.h"
 #include "operators/pair_vectors.h"
 #include "robust/discretisation.h"
+#include "walls/water_in_front.h"
 
 namespace tailwater {
 
@@ -11,6 +12,10 @@ void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, bool /*keep_marks*
   Surroundings<Dim>& here = flow.here;
   const Particles<Dim>& particles = flow.state.particles;
   find_interior<Dim>(flow.pairs(), particles, here.concentration, flow.setup.kernel_values.W_0, here.interior);
+  if (flow.walls.is_curved) {
+    flow.halo().exchange(here.interior);
+    see_water_in_front<Dim>(flow.wall_scene(), flow.setup.spacing, here.interior);
+  }
   mark_thin_water<Dim>(particles, here.concentration, here.is_surface);  // for the field files
   flow.halo().exchange(here.interior);
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "closures/free_surface.h"
 #include "geometry/meshes.h"
 #include "schemes/cases.h"
 
@@ -168,6 +169,36 @@ TEST(TurningWall, HasNoCurvatureAtItsCorners) {
   roof.fluid_side = FluidSide::left;
   spec.walls = {roof};
   EXPECT_FALSE(make_flow<2>(spec).walls.is_curved);
+}
+
+// Water that runs round a wall must be drawn to it, which a row that takes the gap behind it for a surface is not. Then
+// the gap grows.
+TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
+  const double dx = 0.05;
+  CaseSpec spec = round_tank();
+  spec.walls = {round_wall(96, FluidSide::right)};
+  FluidTable around;
+  around.min = {-1.5, -1.5};
+  around.max = {1.5, 1.5};
+  spec.fluid = {around};
+  Flow<2> flow = make_flow<2>(spec);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][0] += 0.2 * dx;
+  }
+  locate(flow);
+  std::vector<double> by_neighbours(flow.here.interior.size());
+  find_interior<2>(flow.pairs(), flow.state.particles, flow.here.concentration, flow.setup.kernel_values.W_0,
+                   by_neighbours);
+  double least = 1.0;
+  double least_by_neighbours = 1.0;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    const Vec<2>& x = flow.state.particles.position[i];
+    if (!flow.state.particles.is_fluid(i) || x.norm() > 1.0 + dx || x[0] < 0.95 * x.norm()) continue;
+    least = std::min(least, flow.here.interior[i]);
+    least_by_neighbours = std::min(least_by_neighbours, by_neighbours[i]);
+  }
+  EXPECT_LT(least_by_neighbours, 0.1);
+  EXPECT_GT(least, 0.7);
 }
 
 // Water glides at speed s along a plate that turns with omega about the origin, so it must gain 2 omega s across the

@@ -1,0 +1,75 @@
+#include "walls/water_in_front.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/for_each.h"
+#include "neighbours/pair_lanes.h"
+
+namespace tailwater {
+namespace {
+
+// dx; distances from a wall between which the water in front counts less and less.
+constexpr double in_full_until = 1.0;
+constexpr double ends_at = 1.5;
+
+/// Share of the wall particles in reach of particle i, by the kernel, whose wall turns away from the water.
+template <int Dim>
+double share_of_turning_walls(const WallScene<Dim>& scene, std::size_t i) {
+  const Pairs<Dim>& pairs = scene.pairs;
+  double turning = 0.0;
+  double all = 0.0;
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (scene.particles.is_fluid(j)) continue;
+    const double W = pairs.value(i, k);
+    all += W;
+    if (scene.walls.curvature[scene.particles.wall_row[j]].trace() > 0.0) turning += W;
+  }
+  return all > 0.0 ? turning / all : 0.0;
+}
+
+/// Mean of `interior` over the fluid in front of particle i, where the unit vector n points: by the kernel and the
+/// eighth power of the cosine, so that beside a wall that meets the surface only water of the same depth counts.
+template <int Dim>
+double mean_in_front(const Pairs<Dim>& pairs, std::size_t i, const Vec<Dim>& n, std::span<const double> interior) {
+  Lanes sum{};
+  Lanes weights{};
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PlaceLanes<Dim> place = several.place();
+    Lanes ahead{};
+    for (int a = 0; a < Dim; ++a) ahead -= static_cast<float>(n[a]) * place.d.at[a];
+    ahead = max_of(ahead, Lanes{});
+    const Lanes square = ahead * ahead / place.d.dot(place.d);
+    const Lanes weight = place.of_fluid(several.kernel_at(place.d) * square * square * square * square);
+    sum += weight * several.of(interior);
+    weights += weight;
+  });
+  const double weight = sum_of(weights);
+  return weight > 0.0 ? sum_of(sum) / weight : 0.0;
+}
+
+}  // namespace
+
+template <int Dim>
+void see_water_in_front(const WallScene<Dim>& scene, double spacing, std::span<double> interior) {
+  const Particles<Dim>& particles = scene.particles;
+  std::vector<double> raised(scene.pairs.owned(), 0.0);
+  for_each(raised.size(), [&](std::size_t i) {
+    if (!particles.is_fluid(i) || interior[i] == 1.0 || scene.pairs.sees_wall[i] == 0) return;
+    const double turning = share_of_turning_walls(scene, i);
+    if (turning == 0.0) return;
+    const NearestWall<Dim> wall = scene.walls.boundary.nearest(particles.position[i], ends_at * spacing);
+    if (wall.face < 0 || wall.signed_distance <= 0.0) return;
+    const double distance = wall.signed_distance / spacing;
+    const double share = turning * std::min(1.0, (ends_at - distance) / (ends_at - in_full_until));
+    const Vec<Dim> n = (particles.position[i] - wall.point).normalized();
+    raised[i] = share * mean_in_front<Dim>(scene.pairs, i, n, interior);
+  });
+  for_each(raised.size(), [&](std::size_t i) { interior[i] = std::max(interior[i], raised[i]); });
+}
+
+template void see_water_in_front<2>(const WallScene<2>&, double, std::span<double>);
+template void see_water_in_front<3>(const WallScene<3>&, double, std::span<double>);
+
+}  // namespace tailwater

@@ -1,0 +1,19 @@
+// Where a wall turns away from the water, the first row of particles may leave it by a part of dx. What opens behind it
+// is no surface: no air can enter there, and water that runs on round the wall has to be drawn to it. But a row that
+// misses neighbours behind it looks like one at a surface, which is not held. Beside such a wall water is therefore
+// taken to be as far inside as the water in front of it (docs/theory/closures.md).
+#pragma once
+
+#include <span>
+
+#include "walls/wall_model.h"
+
+namespace tailwater {
+
+/// Raises `interior` (free_surface.h) of owned fluid beside a wall that turns away from it to the mean of that of the
+/// water straight in front: in full up to dx from the wall, not at all from 1.5 dx on. Continuous in the positions.
+/// `interior` must be up to date on ghosts, which are not raised.
+template <int Dim>
+void see_water_in_front(const WallScene<Dim>& scene, double spacing, std::span<double> interior);
+
+}  // namespace tailwater
