@@ -4,12 +4,12 @@ namespace tailwater {
 namespace {
 
 /// Rows of particles. The iterations of SSOR grow with the way to the surface, where p = 0; the cost of both per
-/// unknown does not depend on their number. In 2D the set-up of the multigrid pays from 65 rows on for two solves, and
-/// from 25 for three; in 3D, where a cycle costs less than a product, from some 12
+/// unknown does not depend on their number. In 2D the set-up of the multigrid pays from 40 rows on for two solves (39
+/// with what jitter may take), and from 25 for three; in 3D, where a cycle costs less than a product, from some 12
 /// (docs/theory/linear.md#the-choice-of-method).
 double multigrid_pays_from(const SystemTraits& system) {
   if (system.dimension == 3) return 12.0;
-  return system.solves > 2 ? 25.0 : 60.0;
+  return system.solves > 2 ? 25.0 : 39.0;
 }
 
 PreconditionerName fastest_preconditioner(const SystemTraits& system) {

@@ -199,6 +199,9 @@ TEST(SolverChoice, TheRuleFillsInWhatTheCaseLeavesOpen) {
   // Three solves with one matrix pay for its set-up sooner than two.
   EXPECT_EQ(choose_solver(open, {.rows_deep = depth, .solves = 3, .has_cells = true}).preconditioner,
             PreconditionerName::cell_multigrid);
+  // Zhou's dam break at 0.015 m, jittered or not.
+  EXPECT_EQ(choose_solver(open, {.rows_deep = 39.8, .has_cells = true}).preconditioner,
+            PreconditionerName::cell_multigrid);
   PressureSolverTable chosen;
   chosen.method = KrylovMethod::fgmres;
   chosen.preconditioner = PreconditionerName::jacobi;
