@@ -10,22 +10,18 @@ constexpr double cold_tolerance = 1e-6;
 /// Reached by the first iteration, so that a solve to it is the set-up and little else.
 constexpr double next_to_nothing = 0.999;
 
-/// The whole rows of a system, diagonal included, one behind the other.
+/// The whole rows of a system, one behind the other, each with its diagonal first.
 struct WholeRows {
   explicit WholeRows(const LinearSystem& system) {
+    const LinearSystem::Part row = system.whole();
     for (std::size_t i = 0; i < system.size(); ++i) {
-      add(system, system.before(), i);
       column.push_back(static_cast<int>(i));
       value.push_back(1.0);
-      add(system, system.behind(), i);
+      for (std::size_t k = row.begin[i]; k < row.end[i]; ++k) {
+        column.push_back(row.column[k]);
+        value.push_back(-system.scale(i) * row.weight[k]);
+      }
       begin.push_back(static_cast<int>(column.size()));
-    }
-  }
-
-  void add(const LinearSystem& system, const LinearSystem::Part& part, std::size_t i) {
-    for (std::size_t k = part.begin[i]; k < part.end[i]; ++k) {
-      column.push_back(part.column[k]);
-      value.push_back(-system.scale(i) * part.weight[k]);
     }
   }
 

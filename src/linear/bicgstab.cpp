@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "linear/dot.h"
-#include "linear/triangular_sweeps.h"
 
 namespace tailwater {
 namespace {
@@ -14,9 +13,9 @@ constexpr double explosion = 1e5;
 /// BiCGStab for the change y of the preconditioned system (D + L)^-1 A (D + U)^-1 y = (D + L)^-1 (b - A x).
 class Recurrence {
  public:
-  Recurrence(const LinearSystem& system, std::span<const double> residual_of_x)
+  Recurrence(const LinearSystem& system, const RowParts& parts, std::span<const double> residual_of_x)
       : ranks_(system.ranks()),
-        sweeps_(system),
+        sweeps_(system, parts),
         first_(residual_of_x.size()),
         image_(residual_of_x.size()),
         image_of_residual_(residual_of_x.size()),
@@ -108,7 +107,7 @@ class Recurrence {
 }  // namespace
 
 MethodOutcome Bicgstab::improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) {
-  Recurrence recurrence(system, iterate.residual);
+  Recurrence recurrence(system, parts_, iterate.residual);
   MethodOutcome outcome{.reason = "BiCGStab was still on its way"};
   outcome.history.push_back(recurrence.residual());
   while (recurrence.residual() > goal.residual && outcome.iterations < goal.iterations) {

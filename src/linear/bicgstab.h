@@ -3,16 +3,20 @@
 #pragma once
 
 #include "linear/method.h"
+#include "linear/triangular_sweeps.h"
 
 namespace tailwater {
 
 class Bicgstab : public Method {
  public:
-  void begin(const LinearSystem&, double) override {}
+  void begin(const LinearSystem& system, double) override { parts_.follow(system); }
 
   /// Breaks down where it would divide by a number that happens to vanish, or where the residual explodes. Then x is
   /// what it was.
   MethodOutcome improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) override;
+
+ private:
+  RowParts parts_;
 };
 
 }  // namespace tailwater

@@ -42,22 +42,16 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   sum_.assign(rows, 0.0);
   columns_ = columns;
   row_begin_.assign(row_begin.begin(), row_begin.end());
-  behind_begin_.resize(rows);
-  ghosts_begin_.resize(rows);
-  std::size_t ghosts = 0;
+  bool has_ghosts = false;
   for (std::size_t i = 0; i < rows; ++i) {
     const std::span<const std::int32_t> row = columns.subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
-    const auto is_before = [i](std::int32_t j) { return static_cast<std::size_t>(j) < i; };
-    const auto is_own = [rows](std::int32_t j) { return static_cast<std::size_t>(j) < rows; };
-    TAILWATER_ASSERT(std::ranges::is_partitioned(row, is_before) && std::ranges::is_partitioned(row, is_own),
-                     "the columns of a row are in order");
-    const auto diagonal = std::ranges::partition_point(row, is_before);
-    const auto ghost = std::ranges::partition_point(row, is_own);
-    behind_begin_[i] = row_begin_[i] + static_cast<std::uint32_t>(diagonal - row.begin());
-    ghosts_begin_[i] = row_begin_[i] + static_cast<std::uint32_t>(ghost - row.begin());
-    ghosts += row.end() - ghost;
+    TAILWATER_ASSERT(
+        std::ranges::is_partitioned(row, [i](std::int32_t j) { return static_cast<std::size_t>(j) < i; }) &&
+            std::ranges::is_partitioned(row, [rows](std::int32_t j) { return static_cast<std::size_t>(j) < rows; }),
+        "the columns of a row are in order");
+    if (!row.empty() && static_cast<std::size_t>(row.back()) >= rows) has_ghosts = true;
   }
-  has_ghosts_ = ranks_.any(ghosts > 0);
+  has_ghosts_ = ranks_.any(has_ghosts);
 }
 
 void LinearSystem::forget_weights() {

@@ -24,7 +24,7 @@ namespace tailwater {
 /// Row i of the system is   diagonal_i x_i - sum_k weight_ik x_j(i,k) = rhs_i.
 class LinearSystem {
  public:
-  /// A part of every row. It borrows everything from its system.
+  /// A part of every row, or all of it. It borrows everything from its system.
   struct Part {
     std::span<const std::uint32_t> begin;  ///< first entry of each row's part
     std::span<const std::uint32_t> end;    ///< one behind its last
@@ -155,10 +155,10 @@ class LinearSystem {
 
   /// For solvers: the number of the present pattern, and the rows.
   std::uint64_t pattern_number() const { return pattern_number_; }
-  Part before() const { return part(begins(), behind_begin_); }       ///< unknowns of this rank, left of the diagonal
-  Part behind() const { return part(behind_begin_, ghosts_begin_); }  ///< unknowns of this rank, right of it
-  Part ghosts() const { return part(ghosts_begin_, ends()); }  ///< columns are those of the pattern, from size() on
-  Part whole() const { return part(begins(), ends()); }        ///< all
+  Part whole() const {
+    const std::span<const std::uint32_t> begin(row_begin_);
+    return {begin.first(size()), begin.last(size()), columns_.data(), weights_.data()};
+  }
   std::size_t entries() const { return columns_.size(); }
   /// The number over all ranks, rank after rank, of this rank's first unknown, and of the unknown of a ghost's column.
   std::int64_t first_number() const { return first_number_; }
@@ -171,12 +171,6 @@ class LinearSystem {
   std::span<const double> rhs() const { return rhs_; }
 
  private:
-  std::span<const std::uint32_t> begins() const { return std::span(row_begin_).first(size()); }
-  std::span<const std::uint32_t> ends() const { return std::span(row_begin_).last(size()); }
-  Part part(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end) const {
-    return {begin, end, columns_.data(), weights_.data()};
-  }
-
   Communicator ranks_;
   std::uint64_t pattern_number_ = 0;
   bool constant_is_free_ = false;
@@ -186,8 +180,6 @@ class LinearSystem {
   ExchangePlan halo_;
   Cells cells_;
   std::vector<std::uint32_t> row_begin_;  ///< rows + 1
-  std::vector<std::uint32_t> behind_begin_;
-  std::vector<std::uint32_t> ghosts_begin_;
   std::span<const std::int32_t> columns_;
   UnwrittenArray<float> weights_;
   std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column

@@ -2,6 +2,7 @@
 // rank before and behind the diagonal, G ghosts, which the preconditioner leaves out.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,10 +13,24 @@ namespace tailwater {
 /// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
 inline constexpr double ssor_factor = 1.35;
 
-/// Borrows the system. All vectors have one entry per row.
+/// Where in each row the unknowns behind the diagonal begin, and where ghosts. Only sweeps have to know.
+struct RowParts {
+  /// Finds them, if the system has a new pattern.
+  void follow(const LinearSystem& system);
+
+  std::vector<std::uint32_t> behind_begin = {};
+  std::vector<std::uint32_t> ghosts_begin = {};
+  std::uint64_t pattern_number = 0;
+};
+
+/// Borrows the system and its parts. All vectors have one entry per row.
 class TriangularSweeps {
  public:
-  explicit TriangularSweeps(const LinearSystem& system) : system_(system) {}
+  TriangularSweeps(const LinearSystem& system, const RowParts& parts)
+      : system_(system), before_(system.whole()), behind_(before_), ghosts_(before_) {
+    before_.end = behind_.begin = parts.behind_begin;
+    behind_.end = ghosts_.begin = parts.ghosts_begin;
+  }
 
   /// x = (D + L)^-1 b with D = I/omega.
   void forward(double omega, std::span<const double> b, std::span<double> x) const;
@@ -28,6 +43,9 @@ class TriangularSweeps {
 
  private:
   const LinearSystem& system_;
+  LinearSystem::Part before_;
+  LinearSystem::Part behind_;
+  LinearSystem::Part ghosts_;
   std::vector<double> scratch_;
   std::vector<double> with_ghosts_;
 };

@@ -51,6 +51,19 @@ struct SparseRows {
     }
   }
 
+  /// Gives this system the rows of another one, which must outlive it.
+  void take_over(const SparseRows& other) {
+    const LinearSystem::Part whole = other.system.whole();
+    std::vector<std::size_t> row_begin(whole.begin.begin(), whole.begin.end());
+    row_begin.push_back(other.columns.size());
+    system.set_pattern(row_begin, other.columns);
+    for (std::size_t i = 0; i < system.size(); ++i) {
+      LinearSystem::Row row = system.row(i);
+      row.set_weights([&](std::size_t k) { return whole.weight[k]; });
+      row.finish(1.0, 0.0);
+    }
+  }
+
   Eigen::MatrixXd lower() const {
     return Eigen::MatrixXd(own.triangularView<Eigen::StrictlyLower>()) + diagonal_matrix();
   }
@@ -66,6 +79,13 @@ struct SparseRows {
   LinearSystem system;
 };
 
+/// Where the rows' parts begin, of a new pattern.
+RowParts parts_of(const LinearSystem& system) {
+  RowParts parts;
+  parts.follow(system);
+  return parts;
+}
+
 std::span<const double> entries(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
@@ -73,7 +93,8 @@ std::span<double> entries(Eigen::VectorXd& vector) { return {vector.data(), stat
 
 TEST(TriangularSweeps, SolveWithTheLowerAndTheUpperTriangle) {
   const SparseRows rows(40, 0);
-  const TriangularSweeps sweeps(rows.system);
+  const RowParts parts = parts_of(rows.system);
+  const TriangularSweeps sweeps(rows.system, parts);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
   Eigen::VectorXd x(40);
   sweeps.forward(omega, entries(b), entries(x));
@@ -87,7 +108,8 @@ TEST(TriangularSweeps, SolveWithTheLowerAndTheUpperTriangle) {
 TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
   for (const int images : {0, 5}) {
     const SparseRows rows(40, images);
-    TriangularSweeps sweeps(rows.system);
+    const RowParts parts = parts_of(rows.system);
+    TriangularSweeps sweeps(rows.system, parts);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
     Eigen::VectorXd x(40);
     sweeps.eisenstat(omega, entries(b), entries(x));
@@ -99,7 +121,9 @@ TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
 /// x, whose b - A x is `residual`, improved by BiCGStab.
 MethodOutcome improve(const LinearSystem& system, const Eigen::VectorXd& residual, double target, Eigen::VectorXd& x) {
   Iterate iterate{entries(x), {residual.begin(), residual.end()}};
-  return Bicgstab().improve(system, {.tolerance = target, .residual = target, .iterations = 100}, iterate);
+  Bicgstab method;
+  method.begin(system, residual.norm());
+  return method.improve(system, {.tolerance = target, .residual = target, .iterations = 100}, iterate);
 }
 
 TEST(Bicgstab, ItsResidualIsThatOfItsSolution) {
@@ -121,6 +145,23 @@ TEST(Bicgstab, ItsResidualIsThatOfItsSolution) {
   }
 }
 
+TEST(Bicgstab, SolvesOnePatternAfterTheOther) {
+  SparseRows rows(40, 5);
+  const SparseRows other(40, 0, 22);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
+  Bicgstab method;
+  const auto solution_error = [&](const Eigen::MatrixXd& matrix) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(40);
+    Iterate iterate{entries(x), {b.begin(), b.end()}};
+    method.begin(rows.system, 1.0);
+    method.improve(rows.system, {.tolerance = 1e-10, .residual = 1e-10, .iterations = 100}, iterate);
+    return (b - matrix * x).norm();
+  };
+  EXPECT_LT(solution_error(rows.whole()), 1e-10);
+  rows.take_over(other);
+  EXPECT_LT(solution_error(other.whole()), 1e-10);
+}
+
 TEST(Bicgstab, SaysWhenItBreaksDown) {
   // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its
   // image and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
@@ -133,7 +174,8 @@ TEST(Bicgstab, SaysWhenItBreaksDown) {
     row.set_weights([&](std::size_t k) { return weights[k]; });
     row.finish(1.0, 0.0);
   }
-  TriangularSweeps sweeps(system);
+  const RowParts parts = parts_of(system);
+  TriangularSweeps sweeps(system, parts);
   const auto product_with_image = [&](double angle) {
     const Eigen::VectorXd v = Eigen::Vector2d(std::cos(angle), std::sin(angle));
     Eigen::VectorXd image(2);
@@ -236,21 +278,32 @@ TEST(LinearSystemRow, IsWrittenAtOnceAsOneByOne) {
   EXPECT_TRUE(std::ranges::equal(weights, std::span(one_by_one.whole().weight, columns.size())));
 }
 
-TEST(LinearSystemRow, ItsPartsFollowEachOther) {
-  const SparseRows rows(40, 5);
-  const LinearSystem& system = rows.system;
-  EXPECT_EQ(system.entries(), rows.columns.size());
-  for (std::size_t i = 0; i < system.size(); ++i) {
-    EXPECT_EQ(system.before().begin[i], system.whole().begin[i]);
-    EXPECT_EQ(system.before().end[i], system.behind().begin[i]);
-    EXPECT_EQ(system.behind().end[i], system.ghosts().begin[i]);
-    EXPECT_EQ(system.ghosts().end[i], system.whole().end[i]);
-    const auto columns_of = [i](const LinearSystem::Part& part) {
-      return std::span(part.column + part.begin[i], part.column + part.end[i]);
-    };
-    for (const std::int32_t j : columns_of(system.before())) EXPECT_LT(j, static_cast<std::int32_t>(i));
-    for (const std::int32_t j : columns_of(system.behind())) EXPECT_TRUE(j > static_cast<std::int32_t>(i) && j < 40);
-    for (const std::int32_t j : columns_of(system.ghosts())) EXPECT_GE(j, 40);
+TEST(RowParts, FollowEachOtherInEachPattern) {
+  constexpr int rows = 40;
+  const ExchangePlan images({}, rows, {{0, 1, 2}});
+  LinearSystem system;
+  RowParts parts;
+  for (const int step : {2, 3}) {
+    std::vector<std::size_t> row_begin{0};
+    std::vector<std::int32_t> columns;
+    for (int i = 0; i < rows; ++i) {
+      for (int j = 0; j < rows + 3; ++j) {
+        if (j != i && (i + j) % step == 0) columns.push_back(j);
+      }
+      row_begin.push_back(columns.size());
+    }
+    system.set_pattern(row_begin, columns, images);
+    parts.follow(system);
+    ASSERT_EQ(system.entries(), columns.size());
+    for (int i = 0; i < rows; ++i) {
+      ASSERT_LE(row_begin[i], parts.behind_begin[i]);
+      ASSERT_LE(parts.behind_begin[i], parts.ghosts_begin[i]);
+      ASSERT_LE(parts.ghosts_begin[i], row_begin[i + 1]);
+      for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k) {
+        EXPECT_EQ(k < parts.behind_begin[i], columns[k] < i);
+        EXPECT_EQ(k < parts.ghosts_begin[i], columns[k] < rows);
+      }
+    }
   }
 }
 
