@@ -108,11 +108,18 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   );
 }
 
+/** How long a value stays while it plays, ms: nobody reads faster, and each costs a layout of the page. */
+const readable = 100;
+
 /** The value at the moment shown. */
 function Now({ app, run, probe, column, unit }: { app: App; run: Subject; probe: string; column: string; unit: string }) {
   const out = useRef<HTMLSpanElement>(null);
   useEffect(() => {
+    let told = 0;
     const tell = () => {
+      const now = performance.now();
+      if (app.player.playing && now - told < readable) return;
+      told = now;
       const table = run.table(probe);
       const value = table ? valueAt(table.values[0] ?? [], table.column(column) ?? [], app.player.time) : NaN;
       if (out.current) out.current.textContent = Number.isNaN(value) ? "" : `${number(value, 4)} ${unit}`;

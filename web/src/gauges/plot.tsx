@@ -75,7 +75,7 @@ export function Plot(props: PlotProps) {
       if (line.parentElement !== u.over) u.over.append(line);
       const x = u.valToPos(player.time, "x");
       line.style.transform = `translateX(${x}px)`;
-      line.hidden = !(x >= 0 && x <= u.over.clientWidth);
+      line.hidden = !(x >= 0 && x <= u.bbox.width / uPlot.pxRatio); // to ask the element would cost a layout
     };
     move();
     const u = plot.current;

@@ -20,7 +20,8 @@ export function TimeBar({ app }: { app: App }) {
     const show = () => {
       const [low, high] = player.range;
       const input = slider.current!;
-      [input.min, input.max] = [String(low), String(high)];
+      const ends = [String(low), String(high)] as const;
+      if (input.min !== ends[0] || input.max !== ends[1]) [input.min, input.max] = ends; // either costs a layout
       input.value = String(player.time);
       input.style.setProperty("--share", String(high > low ? (player.time - low) / (high - low) : 0));
       clock.current!.value = player.time.toFixed(timeDecimals(high)) + " s";

@@ -48,7 +48,8 @@ export class Labels {
         }
         taken.push({ x, y, w: label.width });
         label.element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
-        if (label.probe) label.element.setAttribute("aria-pressed", String(label.probe === look.probe));
+        const pressed = String(label.probe === look.probe);
+        if (label.probe && label.element.ariaPressed !== pressed) label.element.ariaPressed = pressed;
       }
     }
   }

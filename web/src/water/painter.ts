@@ -72,7 +72,9 @@ export class Painter {
     this.scale.hidden = !eye || !cell;
     if (!eye || !cell) return;
     const metres = niceBelow((eye.span / cell.height) * Math.min(180, cell.width * 0.3));
-    this.scale.style.width = `${(metres / eye.span) * cell.height}px`;
+    const width = `${((metres / eye.span) * cell.height).toFixed(1)}px`;
+    if (this.scale.style.width === width && this.scale.textContent === length(metres)) return; // either costs a layout
+    this.scale.style.width = width;
     this.scale.textContent = length(metres);
   }
 }

@@ -13,9 +13,9 @@ uniform vec4 rangeA, rangeB, plane, up, levelGrid, tint;
 uniform vec2 limits, levelOrigin;
 uniform int quantity, upAxis;
 uniform sampler2D map, levels;
-out vec3 colour;
-out float eyeDepth;
-out float size;
+flat out vec3 colour;
+flat out float eyeDepth;
+flat out float size;
 
 float scalar(float packed, vec4 range) {
   float both = floor(packed * 65535.0 + 0.5);
@@ -53,9 +53,9 @@ void main() {
 export const fragment = /* glsl */ `
 precision mediump float;
 uniform float opacity;
-in vec3 colour;
-in float eyeDepth;
-in float size;
+flat in vec3 colour;
+flat in float eyeDepth;
+flat in float size;
 out vec4 pixel;
 
 void main() {
@@ -73,7 +73,9 @@ void main() {
   if (r2 > 1.0) discard;
   float nz = sqrt(1.0 - r2);
   float light = 0.42 + 0.58 * max(0.0, 0.35 * p.x * 0.6 - 0.55 * p.y + 0.76 * nz);
-  shade = colour * light + 0.12 * pow(max(0.0, nz * 0.9 - 0.35 * p.y), 12.0);
+  float glance = max(0.0, nz * 0.9 - 0.35 * p.y);
+  float third = glance * glance * glance;
+  shade = colour * light + 0.12 * third * third * third * third;
   #endif
   pixel = vec4(shade, cover);
 }

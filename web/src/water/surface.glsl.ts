@@ -9,8 +9,8 @@ export const depth = /* glsl */ `
 precision highp float;
 uniform float radius, larger;
 uniform mat4 projectionMatrix;
-in vec3 colour;
-in float eyeDepth;
+flat in vec3 colour;
+flat in float eyeDepth;
 layout(location = 0) out vec4 depths;
 layout(location = 1) out vec4 colours;
 void main() {
