@@ -91,7 +91,8 @@ void add_lines(Json& drawing, std::string_view text) {
     put(wall, table, count[table]++);
   }
   const std::pair<const char*, const char*> lists[] = {
-      {"bodies", "body"}, {"inlets", "inlet"}, {"outlets", "outlet"}, {"probes", "probe"}, {"fluid", "fluid"}};
+      {"bodies", "body"}, {"inlets", "inlet"}, {"outlets", "outlet"}, {"pockets", "pocket"},
+      {"vents", "vent"},  {"probes", "probe"}, {"fluid", "fluid"}};
   for (const auto& [list, table] : lists) {
     std::size_t index = 0;
     for (Json& thing : drawing[list]) put(thing, table, index++);

@@ -128,6 +128,7 @@ struct Marker {
   std::string name;
   std::vector<Vec<2>> points;  ///< m; one point, or the two ends of a stretch
   bool is_vertical = false;    ///< a depth probe looks up and down its whole column
+  const char* colour = probe_colour;
 };
 
 std::vector<Marker> markers_of(const CaseSpec& spec) {
@@ -145,6 +146,10 @@ std::vector<Marker> markers_of(const CaseSpec& spec) {
     if (!marker.points.empty()) {
       markers.push_back(marker);
     }
+  }
+  for (const VentTable& vent : spec.vents) markers.push_back({vent.name, {project(vent.at)}, false, opening_colour});
+  for (const PocketTable& pocket : spec.pockets) {
+    markers.push_back({pocket.name, {project(pocket.at)}, false, opening_colour});
   }
   return markers;
 }
@@ -305,10 +310,10 @@ void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
   const double end = marker.is_vertical ? view.bottom() : points[0][1];
   svg.add(R"(<line x1="{0:.2f}" y1="{1:.2f}" x2="{0:.2f}" y2="{2:.2f}" stroke="{3}" stroke-width="0.6" )"
           R"(stroke-dasharray="4 3"/>)",
-          points[0][0], baseline - 8.0, end, probe_colour);
-  if (points.size() == 2) svg.line(points[0], points[1], probe_colour, 3.0);
+          points[0][0], baseline - 8.0, end, marker.colour);
+  if (points.size() == 2) svg.line(points[0], points[1], marker.colour, 3.0);
   if (!marker.is_vertical) {
-    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="{}"/>)", points[0][0], points[0][1], probe_colour);
+    svg.add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="{}"/>)", points[0][0], points[0][1], marker.colour);
   }
   svg.text(points[0][0] + 4.0, baseline, "start", marker.name);
 }

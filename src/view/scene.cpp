@@ -1,12 +1,14 @@
 #include "view/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -225,6 +227,28 @@ Json measurements_json(const CaseSpec& spec, const Columns& columns) {
   return measurements;
 }
 
+/// Where the spaces are that start at another pressure.
+template <int Dim>
+Json pockets_json(const CaseSpec& spec) {
+  Json pockets = Json::array();
+  for (const PocketTable& pocket : spec.pockets) {
+    pockets.push_back({{"name", pocket.name}, {"at", point<Dim>(to_vec<Dim>(pocket.at, pocket.name, "at"))}});
+  }
+  return pockets;
+}
+
+/// Vents, as wide as a slit in 2D and a round hole in 3D of their area.
+template <int Dim>
+Json vents_json(const CaseSpec& spec) {
+  Json vents = Json::array();
+  for (const VentTable& vent : spec.vents) {
+    const double width = Dim == 2 ? vent.area : std::sqrt(4.0 * vent.area / std::numbers::pi);
+    vents.push_back(
+        {{"name", vent.name}, {"at", point<Dim>(to_vec<Dim>(vent.at, vent.name, "at"))}, {"width", rounded(width)}});
+  }
+  return vents;
+}
+
 Json periodic_json(const CaseSpec& spec) {
   Json periodic = Json::array();
   for (int axis = 0; axis < spec.general.dimension; ++axis) {
@@ -291,6 +315,8 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
           {"bodies", bodies_json(spec, pose_of_walls(boundary))},
           {"inlets", open_ends_json(ends, OpeningKind::inlet)},
           {"outlets", open_ends_json(ends, OpeningKind::outlet)},
+          {"pockets", pockets_json<Dim>(spec)},
+          {"vents", vents_json<Dim>(spec)},
           {"probes", probes_json<Dim>(spec, columns, box)},
           {"measurements", measurements_json(spec, columns)},
           {"scalars", std::move(scalars)}};

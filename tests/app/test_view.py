@@ -437,6 +437,13 @@ class OfACase(Viewed):
         self.assertEqual(json.loads(result.stdout)["findings"], [])
         result = subprocess.run([PROGRAM, "check", "-", "--json"], input="[case]\ntitel = 1\n", cwd=self.folder,
                                 env=environment(), capture_output=True, text=True, timeout=PATIENCE)
+        air = '[air]\npockets = "adiabatic"\n[[pocket]]\nat = [1, 0.6]\noverpressure = 9\n[[vent]]\nat = [1, 0.7]\narea = 0.1\n'
+        small = (self.folder / "small.toml").read_text()
+        (self.folder / "air.toml").write_text(small + air)
+        drawing = json.loads(self.call("check", "air.toml", "--json").stdout)["drawing"]
+        first = len(small.splitlines()) + 1
+        self.assertEqual([drawing[what][0]["lines"] for what in ("pockets", "vents")],
+                         [[first + 2, first + 4], [first + 5, first + 7]])
         findings = json.loads(result.stdout)["findings"]
         self.assertIn((2, "case.titel"), [(one["line"], one.get("key")) for one in findings])
 

@@ -65,6 +65,15 @@ TEST(Preview, ShowsOutlets) {
   EXPECT_EQ(preview<2>(spec).find("weir"), std::string::npos);
 }
 
+TEST(Preview, ShowsVentsAndPockets) {
+  CaseSpec spec = tank();
+  spec.vents = {{.name = "vent1", .at = {0.5, 0.5}, .area = 0.01}};
+  spec.pockets = {{.name = "pocket1", .at = {0.5, 0.6}, .overpressure = 100.0}};
+  const std::string svg = preview<2>(spec);
+  EXPECT_NE(svg.find(">vent1</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">pocket1</text>"), std::string::npos);
+}
+
 TEST(Preview, CirclesBadPlaces) {
   const CaseSpec spec = tank();
   const Boundary<2> boundary = make_boundary<2>(spec);

@@ -127,6 +127,38 @@ points = [[2, 0], [2, 0.5], [2.5, 0.8]]
   EXPECT_EQ(scene["walls"][1]["polylines"], Json::parse("[[[2.0, 0.0], [2.0, 0.5], [2.5, 0.8]]]"));
 }
 
+TEST(Scene, HasPlacesOfAirAndVentsAsWideAsTheirArea) {
+  constexpr const char* air = R"([air]
+pockets = "adiabatic"
+[[pocket]]
+at = [3, 1]
+overpressure = 100
+[[vent]]
+at = [3, 1.5]
+area = 0.02
+)";
+  const Json scene = scene_of<2>(tank + air);
+  EXPECT_EQ(scene["pockets"], Json::parse(R"([{"name": "pocket1", "at": [3.0, 1.0]}])"));
+  EXPECT_EQ(scene["vents"], Json::parse(R"([{"name": "vent1", "at": [3.0, 1.5], "width": 0.02}])"));
+  const Json hole = scene_of<3>(R"(
+[case]
+dimension = 3
+[air]
+pockets = "adiabatic"
+[[fluid]]
+min = [0, 0, 0]
+max = [0.5, 0.5, 0.5]
+[[wall]]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 1, 1]
+[[vent]]
+at = [0.5, 0.5, 1]
+area = 0.00785398163
+)");
+  EXPECT_NEAR(hole["vents"][0]["width"].get<double>(), 0.1, 1e-6) << "of pi/4 d^2";
+}
+
 TEST(Scene, TrianglesOfABoxShareTheirCorners) {
   const Json scene = scene_of<3>(R"(
 [case]

@@ -145,6 +145,14 @@ export interface OpenEnd {
   lines?: Lines;
 }
 
+/** A place in air: a vent, as wide as a slit in 2D and a round hole in 3D; or a space that starts at another pressure. */
+export interface AirPlace {
+  name: string;
+  at: Point;
+  width?: number;
+  lines?: Lines;
+}
+
 export interface Probe {
   name: string;
   type: string;
@@ -180,6 +188,8 @@ export interface Scene {
   bodies: { name: string; pose: number | null; lines?: Lines }[];
   inlets: OpenEnd[];
   outlets: OpenEnd[];
+  pockets: AirPlace[];
+  vents: AirPlace[];
   probes: Probe[];
   scalars: { name: string; unit: string }[];
   measurements: Measurement[];

@@ -8,7 +8,7 @@ interface Named {
 
 /** Everything in a drawing that has lines in the case file. */
 function named(drawing: Drawing): Named[] {
-  return [...drawing.walls, ...drawing.bodies, ...drawing.inlets, ...drawing.outlets, ...drawing.probes, ...(drawing.fluid ?? [])];
+  return [...drawing.walls, ...drawing.bodies, ...drawing.inlets, ...drawing.outlets, ...drawing.pockets, ...drawing.vents, ...drawing.probes, ...(drawing.fluid ?? [])];
 }
 
 export function linesOf(drawing: Drawing, name: string): Lines | null {

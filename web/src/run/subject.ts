@@ -26,7 +26,7 @@ export interface Subject {
 
 /** A scene as the page wants it: every list is there, and a box around all that is drawn. */
 export function whole<S extends Scene>(scene: S): S {
-  const lists = { walls: [], bodies: [], inlets: [], outlets: [], probes: [], scalars: [], measurements: [] };
+  const lists = { walls: [], bodies: [], inlets: [], outlets: [], pockets: [], vents: [], probes: [], scalars: [], measurements: [] };
   const filled = { ...lists, ...Object.fromEntries(Object.entries(scene).filter(([, value]) => value !== null)) } as unknown as S;
   return { ...filled, box: filled.box ?? around(filled) };
 }

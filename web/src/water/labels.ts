@@ -102,6 +102,7 @@ export class Labels {
     };
     for (const probe of scene.probes) add(probe.name, "probe", middle(probe.points), probe.name);
     for (const end of [...scene.inlets, ...scene.outlets]) add(end.name, "open", middle(end.corners ?? [end.from, end.to].filter((p) => p !== undefined)));
+    for (const place of [...scene.vents, ...(isCase ? scene.pockets : [])]) add(place.name, "open", place.at);
     for (const wall of scene.walls) {
       if (wall.kind === "wall" && !isCase) continue;
       const point = wall.polylines ? ofLongest(wall.polylines) : centre(wall.triangles?.positions ?? []);

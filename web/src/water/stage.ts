@@ -1,6 +1,6 @@
 // One run in the picture: its water, walls, open ends, probes and the lines that are measured over the water.
 import { Scene as ThreeScene, Vector4 } from "three";
-import type { OpenEnd, Probe, Scene } from "../contract.ts";
+import type { AirPlace, OpenEnd, Probe, Scene } from "../contract.ts";
 import type { Frame } from "../frames/format.ts";
 import { upward } from "./eye.ts";
 import { LineMark } from "./lines.ts";
@@ -23,6 +23,7 @@ export class Stage {
   /** In 3D, where the surface is asked for. */
   surface: SurfaceMark | null = null;
   private ends: LineMark;
+  private vents: LineMark;
   private probes: LineMark;
   private lit: LineMark;
   private profile: LineMark;
@@ -34,19 +35,26 @@ export class Stage {
     this.particles = new ParticleMark(dim, scene.spacing, this.up);
     this.walls = new WallMarks(scene, dim);
     this.ends = new LineMark({ colour: "#000", width: 2, dash: 12 });
+    this.vents = new LineMark({ colour: "#000", width: 2, onTop: true });
     this.probes = new LineMark({ colour: "#000", width: 1.5, onTop: true, opacity: 0.9 });
     this.lit = new LineMark({ colour: "#000", width: 3.5, onTop: true });
     this.profile = new LineMark({ colour: "#000", width: 2.5, onTop: dim === 2 });
     this.ends.set([...scene.inlets, ...scene.outlets].map((end) => outline(end, dim)));
+    this.vents.set(scene.vents.flatMap((vent) => rings(vent, dim, scene.spacing)));
     this.probes.set(scene.probes.map((probe) => this.mark(probe)));
-    this.scene3.add(this.walls.group, this.particles.points, this.ends.mesh, this.profile.mesh, this.probes.mesh, this.lit.mesh);
+    this.scene3.add(this.walls.group, this.particles.points, this.ends.mesh, this.vents.mesh, this.profile.mesh, this.probes.mesh, this.lit.mesh);
     this.particles.points.renderOrder = dim === 2 ? -1 : 0;
-    for (const mark of [this.ends, this.profile, this.probes, this.lit]) mark.mesh.renderOrder = 3;
+    for (const mark of this.marks) mark.mesh.renderOrder = 3;
+  }
+
+  private get marks(): LineMark[] {
+    return [this.ends, this.vents, this.profile, this.probes, this.lit];
   }
 
   colours(c: StageColours): void {
     this.walls.colours(c);
     this.ends.colour(c.open);
+    this.vents.colour(c.open);
     this.probes.colour(c.probe);
     this.lit.colour(c.accent);
     this.profile.colour(c.profile);
@@ -64,7 +72,7 @@ export class Stage {
 
   picture(width: number, height: number): void {
     this.walls.picture(width, height);
-    for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.picture(width, height);
+    for (const mark of this.marks) mark.picture(width, height);
   }
 
   /** `choice`: which of the particles are drawn. */
@@ -112,7 +120,7 @@ export class Stage {
     this.surface?.dispose();
     this.particles.dispose();
     this.walls.dispose();
-    for (const mark of [this.ends, this.probes, this.lit, this.profile]) mark.dispose();
+    for (const mark of this.marks) mark.dispose();
   }
 }
 
@@ -121,6 +129,15 @@ export function outline(end: OpenEnd, dim: 2 | 3): number[][] {
   if (end.corners) return end.corners.length > 2 ? [...end.corners, end.corners[0]!] : end.corners;
   if (!end.from || !end.to) return [];
   return dim === 2 ? [end.from, end.to] : rectangle(end.from, end.to);
+}
+
+/** Circles around a vent, as wide as it is but so wide that they show: one in 2D, three in 3D. */
+function rings({ at, width = 0 }: AirPlace, dim: 2 | 3, spacing: number): number[][][] {
+  const radius = Math.max(width, spacing) / 2;
+  const planes = dim === 2 ? [[0, 1]] : [[0, 1], [1, 2], [2, 0]];
+  return planes.map(([u, v]) =>
+    Array.from({ length: 33 }, (_, i) => at.map((x, d) => x + radius * (d === u ? Math.cos((i * Math.PI) / 16) : d === v ? Math.sin((i * Math.PI) / 16) : 0))),
+  );
 }
 
 /** The flat axis-parallel rectangle between opposite corners. */

@@ -15,6 +15,10 @@ title = "Tank"
 name = "tank"
 points = [[0, 1], [0, 0], [2, 0], [2, 1]]
 
+[[vent]]
+at = [1, 0.9]
+area = 0.1
+
 [[probe]]
 name = "H1"
 type = "depth"
@@ -39,6 +43,7 @@ function check(given: string): Check {
     drawing: {
       ...scene,
       walls: [{ ...scene.walls[0]!, lines: [line("[[wall]]"), line("[[wall]]") + 2] }],
+      vents: [{ name: "vent1", at: [1, 0.9], width: 0.1, lines: [line("[[vent]]"), line("[[vent]]") + 2] }],
       probes: [{ ...scene.probes[0]!, lines: [line("[[probe]]"), line("[[probe]]") + 3] }],
       particles: { count: 3, shown: 3, positions },
     },
@@ -63,6 +68,10 @@ test("a case: drawn and checked at each key, an error shown, a wall pressed, hel
     await view.waitForFunction("document.querySelectorAll('.cm-marked').length === 3");
     assert.equal(await view.evaluate("document.querySelector('.cm-marked').textContent"), "[[wall]]");
 
+    // A vent is named, and its name marks its lines.
+    await view.evaluate("[...document.querySelectorAll('.label.open')].find((label) => label.textContent === 'vent1').click()");
+    await view.waitForFunction("document.querySelector('.cm-marked')?.textContent === '[[vent]]'");
+
     // A mistake is told within 0.3 s of the last key, of which the page waits 0.12.
     await view.evaluate("document.querySelector('.cm-content').focus()");
     await view.keyboard.down("Control");
@@ -78,7 +87,7 @@ test("a case: drawn and checked at each key, an error shown, a wall pressed, hel
     await view.waitForSelector(".found .error");
     const took = (await view.evaluate("told - typed")) as number;
     assert.ok(took < (await allowed(view, 300)), `an error is told within 0.3 s; here ${took} ms`);
-    assert.match((await view.$eval(".found .error", (e) => e.textContent)) ?? "", /line 13: unknown key "pionts"/);
+    assert.match((await view.$eval(".found .error", (e) => e.textContent)) ?? "", /line 17: unknown key "pionts"/);
     assert.ok(await view.$(".cm-lintRange-error"));
     assert.equal(await view.$eval("button.primary", (b) => (b as HTMLButtonElement).disabled), true);
 

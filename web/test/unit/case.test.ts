@@ -45,8 +45,9 @@ test("what is offered and told is what the program's description says", () => {
 });
 
 test("from the drawing to the lines and back", () => {
-  const drawing = { walls: [{ name: "bed", lines: [3, 6] }], bodies: [], inlets: [{ name: "in", lines: [8, 9] }], outlets: [], probes: [{ name: "H1" }] } as unknown as Drawing;
+  const drawing = { walls: [{ name: "bed", lines: [3, 6] }], bodies: [], inlets: [{ name: "in", lines: [8, 9] }], outlets: [], pockets: [], vents: [{ name: "vent1", lines: [10, 12] }], probes: [{ name: "H1" }] } as unknown as Drawing;
   assert.deepEqual(linesOf(drawing, "bed"), [3, 6]);
+  assert.deepEqual(linesOf(drawing, "vent1"), [10, 12]);
   assert.equal(linesOf(drawing, "H1"), null);
   assert.deepEqual([nameAt(drawing, 6), nameAt(drawing, 7), nameAt(drawing, 8)], ["bed", null, "in"]);
   assert.equal(distance([1, 1], [0, 0], [2, 0]), 1);
