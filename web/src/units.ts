@@ -15,6 +15,19 @@ export function number(x: number, digits = 4): string {
   return (text.includes(".") ? text.replace(/\.?0+$/, "") : text).replace("-", "−");
 }
 
+/** With so many decimals, 0 to 12; no minus before what is rounded to 0. */
+export function decimals(x: number, places: number): string {
+  const text = x.toFixed(Math.max(0, Math.min(12, places)));
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+/** "0.3907 ± 0.0046": two digits of the uncertainty, and the value to the same place. */
+export function withUncertainty(value: number, uncertainty: number): string {
+  if (!(uncertainty >= 1e-8 && uncertainty < 1e6 && Math.abs(value) < 1e6)) return `${number(value, 4)} ± ${number(uncertainty, 2)}`;
+  const places = 1 - Math.floor(Math.log10(uncertainty));
+  return `${decimals(value, places)} ± ${decimals(uncertainty, places)}`;
+}
+
 function superscript(n: number): string {
   return String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]!));
 }

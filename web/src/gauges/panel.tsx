@@ -8,7 +8,7 @@ import type { Subject } from "../run/subject.ts";
 import { useChanges } from "../store.ts";
 import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
-import { number, split } from "../units.ts";
+import { number, split, withUncertainty } from "../units.ts";
 import { axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor } from "./curves.ts";
 import { limit, meanOf, type Mean } from "./limit.ts";
 import { Plot, type Line } from "./plot.tsx";
@@ -84,8 +84,8 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
           <span class="column">{axisLabel(column)}</span>
         )}
         {!profile && <Now app={app} run={owner} probe={probe.name} column={column} unit={unit} />}
-        <select class="save" aria-label={`Save ${probe.name}`} value="" onChange={(e) => { save(e.currentTarget.value); e.currentTarget.value = ""; }}>
-          <option value="">Save</option>
+        <select class="save" aria-label={`Save ${probe.name}`} title={`Save ${probe.name} as a table or a picture`} value="" onChange={(e) => { save(e.currentTarget.value); e.currentTarget.value = ""; }}>
+          <option value="">⤓</option>
           <option value="csv">CSV</option>
           <option value="svg">SVG</option>
           <option value="png">PNG</option>
@@ -151,7 +151,7 @@ function Limit({ runs, probe, column, plot }: { runs: Subject[]; probe: string; 
   const { unit } = split(column);
   return (
     <p class="score" title="A straight line through the means over the times shown; zoom to where the flow is steady">
-      means over {number(span[0], 3)} to {number(span[1], 3)} s: {means.map((m) => number(m!.mean, 4)).join(", ")}; at dx = 0: <strong>{number(end.value, 4)} ± {number(end.uncertainty, 2)} {unit}</strong>
+      means over {number(span[0], 3)} to {number(span[1], 3)} s: {means.map((m) => number(m!.mean, 4)).join(", ")}; <span class="whole">at dx = 0: <strong>{withUncertainty(end.value, end.uncertainty)} {unit}</strong></span>
     </p>
   );
 }

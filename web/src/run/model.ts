@@ -8,6 +8,12 @@ import { whole, type Subject } from "./subject.ts";
 /** How often a run that is not going is asked whether it goes on, ms. */
 const idle = 5000;
 
+/** A member of a sweep by what it has of its own: "spacing = P/8". */
+function nameOf(run: { name: string; parameters?: Record<string, string> }): string {
+  const own = Object.entries(run.parameters ?? {}).map(([key, value]) => `${key.split(".").at(-1)} = ${value}`);
+  return own.join(", ") || run.name;
+}
+
 export class RunModel implements Subject {
   tables = new Map<string, Table>();
   info: Info | null = null;
@@ -39,7 +45,7 @@ export class RunModel implements Subject {
   ): Promise<RunModel> {
     const scene = whole(await source.scene(run.id));
     const frames = new FrameWindow(run.id, source, worker, changed);
-    const model = new RunModel(run.id, run.name, run.parameters ?? {}, scene, frames, source, changed);
+    const model = new RunModel(run.id, nameOf(run), run.parameters ?? {}, scene, frames, source, changed);
     await model.catchUp();
     model.watch();
     return model;

@@ -34,12 +34,15 @@ export class Labels {
       view.eye.apply(cell.width / cell.height);
       for (const label of list) {
         const at = view.eye.project(label.moving === null ? label.point : (staging.shown[index]?.stage.walls.moved(label.moving, label.point) ?? label.point));
-        const x = at ? cell.x + ((at.x + 1) * cell.width) / 2 : 0;
-        let y = at ? cell.y + ((1 - at.y) * cell.height) / 2 : 0;
+        const placeX = at ? cell.x + ((at.x + 1) * cell.width) / 2 : 0;
+        const placeY = at ? cell.y + ((1 - at.y) * cell.height) / 2 : 0;
+        const half = label.width / 2;
+        const x = Math.max(cell.x + half, Math.min(cell.x + cell.width - half, placeX)); // no name is cut off
+        let y = placeY;
         const visible = at !== null && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1;
         label.element.style.visibility = visible ? "visible" : "hidden";
         if (!visible) continue;
-        if (label.probe) this.places.push({ probe: label.probe, x, y });
+        if (label.probe) this.places.push({ probe: label.probe, x: placeX, y: placeY });
         // Names that would lie on each other move up, a few lines at most.
         for (let tries = 0; tries < 5; ++tries) {
           const w = label.width;
@@ -48,6 +51,8 @@ export class Labels {
         }
         taken.push({ x, y, w: label.width });
         label.element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
+        label.element.style.setProperty("--from", `${(placeX - x).toFixed(1)}px`); // the dot stays where the probe is
+        label.element.style.setProperty("--below", `${(placeY - y).toFixed(1)}px`);
         const pressed = String(label.probe === look.probe);
         if (label.probe && label.element.ariaPressed !== pressed) label.element.ariaPressed = pressed;
       }

@@ -1,5 +1,5 @@
 // What is under the pointer: its place, and speed and pressure of the water there.
-import { number } from "../units.ts";
+import { decimals, number } from "../units.ts";
 import { nearest } from "./pick.ts";
 import type { Staging } from "./staging.ts";
 import { colourings, valueOf } from "./value.ts";
@@ -10,8 +10,8 @@ export function read(view: WaterView, staging: Staging, out: HTMLElement, x: num
   const at = nearest(view, staging, x, y);
   out.hidden = at === null;
   if (!at) return;
-  const least = 1e-5 * (view.eye?.span ?? 0); // far less than a pixel
-  const place = at.place.map((c, d) => `${"xyz"[d]} ${number(Math.abs(c) < least ? 0 : c, 4)}`).join("  ") + " m";
+  const pixel = (view.eye?.span ?? 1) / (view.cells[0]?.height ?? 1);
+  const place = at.place.map((c, d) => `${"xyz"[d]} ${decimals(c, Math.ceil(-Math.log10(pixel)))}`).join("  ") + " m";
   const { run, frame, i } = at;
   const values = colourings
     .filter((c) => run && frame && (c.name === "speed" || c.name === "pressure"))

@@ -39,7 +39,7 @@ export class Staging {
       const mark = stage.particles;
       mark.colours(look.map);
       mark.colourBy(over ? "plain" : quantity(run, look.colouring));
-      mark.set("radius", 0.5 * run.scene.spacing * look.size * (run.scene.dimension === 2 ? 1.36 : 1.1));
+      mark.set("radius", 0.5 * run.scene.spacing * look.size * (run.scene.dimension === 2 ? 1.46 : 1.1));
       const tint = new Color(over ? series[look.theme][i % 6] : theme.water).convertLinearToSRGB();
       mark.set("tint", new Vector4(tint.r, tint.g, tint.b, 0));
       mark.set("opacity", over && i > 0 ? 0.55 : 1);

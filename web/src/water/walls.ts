@@ -28,7 +28,7 @@ out vec4 pixel;
 void main() {
   if (side < 0.0) discard;
   vec3 n = normalize(cross(dFdx(eye), dFdy(eye)));
-  float light = 0.8 + 0.2 * abs(dot(n, normalize(vec3(0.25, 0.75, 0.62))));
+  float light = 0.66 + 0.34 * abs(dot(n, normalize(vec3(0.25, 0.75, 0.62))));
   pixel = vec4(colour * light, opacity);
 }
 `;

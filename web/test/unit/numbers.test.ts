@@ -4,7 +4,7 @@ import { colourMaps, table } from "../../src/colours.ts";
 import { measuredFor } from "../../src/gauges/curves.ts";
 import { wetLines } from "../../src/gauges/profiles.ts";
 import { block, Table, toCsv, valueAt } from "../../src/tables.ts";
-import { duration, length, niceBelow, number, split, timeDecimals } from "../../src/units.ts";
+import { decimals, duration, length, niceBelow, number, split, timeDecimals, withUncertainty } from "../../src/units.ts";
 import { ticks, toSvg } from "../../src/picture/svg.ts";
 import { bestColumns } from "../../src/water/columns.ts";
 import { Player } from "../../src/time/player.ts";
@@ -15,6 +15,12 @@ test("numbers as people read them", () => {
   assert.deepEqual([0.3, 42, 200, 7500, 90000].map(duration), ["under 1 s", "42 s", "3 min 20 s", "2 h 5 min", "1 d 1 h"]);
   assert.deepEqual([0.99, 1, 3.7, 80].map(niceBelow), [0.5, 1, 2, 50]);
   assert.deepEqual([0.5, 2, 60, 5000].map(timeDecimals), [4, 3, 2, 1]);
+});
+
+test("a place has the decimals of a pixel, a value those of its uncertainty", () => {
+  assert.deepEqual([[-0.0094741, 3], [-0.0004, 3], [12.5, -1], [2, 2]].map(([x, places]) => decimals(x!, places!)), ["−0.009", "0.000", "13", "2.00"]);
+  assert.deepEqual([[0.05048, 0.015], [0.39071, 0.0046], [1234.5, 20], [-3, 1], [1, 0]].map(([x, u]) => withUncertainty(x!, u!)),
+    ["0.050 ± 0.015", "0.3907 ± 0.0046", "1235 ± 20", "−3.0 ± 1.0", "1 ± 0"]);
 });
 
 test("names of columns end with their unit", () => {
