@@ -84,7 +84,7 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
     lines.push_back({"step", fmt::format("{:.0f}, of {:.3g} s", value("step"), value("dt_s"))});
     lines.push_back({"speed", fmt::format("{:.3g} m/s at most", value("speed_max_m_per_s"))});
     lines.push_back(
-        {"energy", fmt::format("{:.6g} J kinetic, {:.6g} J potential", value("kinetic_J"), value("potential_J"))});
+        {"energy", fmt::format("{:.4g} J kinetic, {:.4g} J potential", value("kinetic_J"), value("potential_J"))});
     if (step.contains("pockets")) {
       lines.push_back(
           {"air", pockets_in_words(value("pockets"), value("pockets_volume_m3"), value("pocket_pressure_Pa"))});
@@ -92,7 +92,7 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
     lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
-    lines.push_back({"water", fmt::format("{:.6g} kg at the start, {:.6g} m3 in, {:.6g} m3 out",
+    lines.push_back({"water", fmt::format("{:.6g} kg at the start, {:.4g} m3 in, {:.4g} m3 out",
                                           number_of(summary.at("water_balance").at("start"), "mass_kg"),
                                           value("volume_in_m3"), value("volume_out_m3"))});
   }
