@@ -62,7 +62,7 @@ class Resumed(ProgramTest):
         process.kill()
         process.wait()
         self.wait_for(lambda: not processes_of(out))
-        shutil.rmtree(out / "checkpoints")  # the ranks have written one when they lost their launcher
+        shutil.rmtree(out / "checkpoints", ignore_errors=True)  # ranks that lose their launcher write one if they can
         self.call("resume", out, "--quiet", "--set", "time.end=0.01")
         self.assertEqual((self.summary("run")["status"], self.summary("run")["ranks"]["count"]), ("done", 2))
 
