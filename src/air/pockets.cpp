@@ -51,7 +51,7 @@ Overlap overlap_of(const AirPocket& pocket, const VoidGrid<Dim>& grid, const Voi
   return overlap;
 }
 
-void book_end(const AirPocket& pocket, double share, const GasLaw& law, AirState& state) {
+void count_end(const AirPocket& pocket, double share, const GasLaw& law, AirState& state) {
   if (share <= 0.0) return;
   state.gas_lost += share * pocket.gas;
   state.energy_lost += share * law.energy(pocket.gas, pocket.volume);
@@ -115,7 +115,7 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
           {{old.number, share * old.gas, share * old.volume, since_torn, std::move(overlap.in_the_open)}, 0.0});
       lost -= share;
     }
-    if (lost > 1e-12) book_end(old, lost, law, state);
+    if (lost > 1e-12) count_end(old, lost, law, state);
     if (lost > 1.0 - 1e-12) ++state.ended;
   }
   for (std::size_t k = 0; k < voids.runs().size(); ++k) {

@@ -41,7 +41,7 @@ struct FoundPocket {
 /// The pockets of this moment, from those at the last look, since which water may have gone `displacement` [m]. Volumes
 /// and gas are those of the old ones: cells that one of them had take along their share of both, so gas is kept where
 /// pockets join and part. A part of the void that reaches the open is no pocket; cells that a pocket had are one on
-/// their own for a while, as a film of water that tears for a few steps lets out no gas. What ends is booked in
+/// their own for a while, as a film of water that tears for a few steps lets out no gas. What ends is counted in
 /// `state`.
 template <int Dim>
 std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacing, const Voids<Dim>& voids,

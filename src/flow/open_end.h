@@ -4,7 +4,7 @@
 // neighbours its particles are part of the flow, but they are not solved for: how they move, and their pressure, follow
 // from what is prescribed, or are those of a channel that continues. So water inside has full support and sees no brink
 // and no wall. Particles that have passed the opening outwards are removed; where the end stretch moves inwards, new
-// ones stand in the rows of a lattice at the opening. Both are booked.
+// ones stand in the rows of a lattice at the opening. Both are counted.
 #pragma once
 
 #include <cstdint>
@@ -84,7 +84,7 @@ template <int Dim>
 std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec);
 
 /// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
-/// through them, less what came. Its energy is not booked.
+/// through them, less what came. Its energy is not counted.
 template <int Dim>
 WaterAmount sump_of(const Flow<Dim>& flow, int circuit);
 

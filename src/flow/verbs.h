@@ -80,13 +80,13 @@ void watch_air(Flow<Dim>& flow, double dt);
 template <int Dim>
 void steer_wave_makers(Flow<Dim>& flow);
 
-/// Removes and books the particles that have passed an open end outwards, and those that have fallen below all walls
+/// Removes and counts the particles that have passed an open end outwards, and those that have fallen below all walls
 /// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.
 /// Call between steps only. Collective.
 template <int Dim>
 bool remove_outflow(Flow<Dim>& flow);
 
-/// Adds and books the particles that have room to enter at the open ends. Returns whether there were any, on any rank;
+/// Adds and counts the particles that have room to enter at the open ends. Returns whether there were any, on any rank;
 /// if so, lists are gone. Call between steps only, after `remove_outflow`. Collective.
 template <int Dim>
 bool add_inflow(Flow<Dim>& flow);

@@ -1,4 +1,4 @@
-// The books of the energy, and what they leave to the density source.
+// The balance of the energy, and what it leaves to the density source.
 #include <algorithm>
 #include <cmath>
 

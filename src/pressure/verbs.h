@@ -1,5 +1,5 @@
 // The verbs of the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). As in flow/verbs.h the
-// signatures tell the order: aim, assemble, solve, correct, book; and a second projection where the particles arrived.
+// signatures tell the order: aim, assemble, solve, correct, balance; a second projection where the particles arrived.
 #pragma once
 
 #include <functional>
@@ -91,10 +91,10 @@ double wall_work(const Flow<Dim>& flow, double dt);
 template <int Dim>
 double end_work(const Flow<Dim>& flow, double dt);
 
-/// Adds up the works of all ranks in `report`, books the energy of the step, and sets which share of the density source
-/// the energy leaves to the next step: lifting water that had come too close costs what the scheme must have dissipated
-/// before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the work of walls
-/// and open ends apart; rises are slowly forgotten (docs/theory/robustness.md).
+/// Adds up the works of all ranks in `report`, balances the energy of the step, and sets the share of the density
+/// source that the energy leaves to the next step: lifting water that had come too close costs what the scheme must
+/// have dissipated before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the
+/// work of walls and open ends apart; rises are slowly forgotten (docs/theory/robustness.md).
 template <int Dim>
 void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& report);
 

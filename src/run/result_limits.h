@@ -1,4 +1,4 @@
-// Watches the errors of a run's own books: a warning beyond one limit, the end of the run beyond another.
+// Watches the errors of a run's own balances: a warning beyond one limit, the end of the run beyond another.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

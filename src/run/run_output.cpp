@@ -11,7 +11,7 @@
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
-#include "run/air_books.h"
+#include "run/air_balance.h"
 #include "run/estimate.h"
 #include "run/field_output.h"
 #include "run/probe_results.h"

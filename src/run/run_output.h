@@ -26,7 +26,7 @@
 #include "run/schedule.h"
 #include "run/statistics.h"
 #include "run/step_log.h"
-#include "run/water_books.h"
+#include "run/water_balance.h"
 
 namespace tailwater {
 

@@ -1,4 +1,4 @@
-#include "run/air_books.h"
+#include "run/air_balance.h"
 
 #include "flow/air_pressure.h"
 #include "flow/measure.h"

@@ -1,4 +1,4 @@
-#include "run/water_books.h"
+#include "run/water_balance.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Which water counts as lost.
-#include "run/water_books.h"
+#include "run/water_balance.h"
 #include "formulations/make_flow.h"
 
 #include <gtest/gtest.h>
