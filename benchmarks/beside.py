@@ -1,22 +1,29 @@
 #!/usr/bin/python3
-"""What Tailwater costs beside another code, and what both make of the flow: Zhou's dam break, the same spacing and end,
-in turn, on one core each.
+"""What Tailwater costs beside other codes, and what all make of the flow: the same dam break, spacing and end, in turn,
+on one core each.
 
-Usage: benchmarks/beside.py [--dx 0.015] [--end SECONDS] [--repeats N] [--program FILE] [--set KEY=VALUE]...
+Usage: benchmarks/beside.py [--case zhou|box]... [--dx SPACING] [--end SECONDS] [--repeats N] [--program FILE]
+                            [--dfsph FILE] [--set KEY=VALUE]...
 
-Prints CPU seconds per simulated second, their ratio to Tailwater's, and two numbers of the pressure on the wall 0.12 m
-above the floor: its noise, the RMS about its running median over 0.02 s from 0.6 s on, over rho g H, and when the water
-arrives, the first time that it is above 0.05 rho g H (in the laboratory 0.61 to 0.64 s). Times are of one machine and
-hour: only ratios of one call tell something. Of several repeats the cheapest counts.
+Cases: zhou, in 2D, at 0.015 m to 1.4 s (cases/zhou1999); box, in 3D, SPHERIC's benchmark 2, at 0.02 m to 1 s
+(benchmarks/dam_break_3d.toml). Walls are free in all codes. Of the others those run that are there:
+  SISPH  PySPH (apt-get install python3-pysph), zhou only; set as in PySPH's own example. Its first run compiles its
+         loops, which takes minutes and is not counted.
+  DFSPH  SPlisHSPlasH, built by its users: SPHSimulator in PATH, or --dfsph FILE; set as in its own scenes (dfsph.py).
 
-The other code is PySPH's SISPH (apt-get install python3-pysph), set as in PySPH's own example. Its first run compiles
-its loops, which takes minutes and is not counted.
+Prints CPU seconds per simulated second, Tailwater's over theirs, and two numbers of the pressure on a wall, 0.12 m
+above the floor where Zhou's water arrives, or 0.06 m above it in the middle of the box: its noise, the RMS about its
+running median over 0.02 s from 0.6 s on, over rho g H; and when the water arrives, the first time that it is above 0.05
+rho g H (zhou, in the laboratory: 0.61 to 0.64 s). Times are of one machine and hour: only ratios of one call tell
+something. Of several repeats the cheapest counts.
 """
 import argparse
 import csv
 import importlib.util
 import json
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,11 +31,52 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import dfsph
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-RHO_G_H = 1000.0 * 9.81 * 0.6  # Pa
 WINDOW = 0.02  # s; of the running median
 NOISY_FROM = 0.6  # s
 ARRIVED = 0.05  # of rho g H
+
+
+@dataclass
+class Case:
+    """A dam break in a box, walls at its floor and sides. Lengths in m, corners as [least, largest]."""
+
+    dx: float
+    end: float  # s
+    depth: float  # of the water
+    tank: list
+    water: tuple
+    obstacle: tuple
+    gauge: list
+
+    @property
+    def pressure(self):
+        """rho g H [Pa]."""
+        return 1000.0 * 9.81 * self.depth
+
+
+def zhou(dx, end):
+    return Case(dx or 0.015, end or 1.4, 0.6, [3.22, 3.0], ([0.0, 0.0], [1.2, 0.6]), (), [3.22, 0.12])
+
+
+def box(dx, end):
+    """As benchmarks/dam_break_3d.toml rounds its lengths."""
+    d = dx or 0.02
+
+    def whole(length):
+        return d * round(length / d)
+
+    length, width, depth, begin = whole(3.22), whole(1.0), whole(0.55), whole(0.6635)
+    across = 2 * whole(0.403 / 2)
+    side, thick = whole((width - across) / 2), d * max(3, round(0.161 / d))
+    return Case(d, end or 1.0, depth, [length, width, whole(1.0)],
+                ([length - whole(1.228), 0.0, 0.0], [length, width, depth]),
+                ([begin, side, 0.0], [begin + thick, side + across, thick]), [begin + thick, width / 2, 0.06])
+
+
+CASES = {"zhou": zhou, "box": box}
 
 
 @dataclass
@@ -47,16 +95,21 @@ class Done:
         return self.cpu / self.simulated
 
 
-def tailwater(program, dx, end, settings, folder):
-    """Walls are free, as those of the other code."""
-    command = [program, "run", ROOT / "cases/zhou1999/case.toml", "--out", f"{folder}/run", "--force", "--quiet",
-               "-n", "1"]
-    for setting in (f"particles.spacing={dx}", f"time.end={end}", "wall.tank.slip=free", *settings):
+def tailwater(program, name, case, settings, folder):
+    file, spacing, probe = ROOT / "cases/zhou1999/case.toml", "particles.spacing", "P120"
+    if name == "box":
+        spacing, probe = "parameters.d", "gauge"
+        text = (ROOT / "benchmarks/dam_break_3d.toml").read_text()
+        file = folder / "box.toml"
+        file.write_text(text + '\n[[probe]]\nname = "gauge"\ntype = "wall-pressure"\n'
+                               'at = ["box_begin + box_length", "width/2", 0.06]\n')
+    command = [program, "run", file, "--out", folder / "run", "--force", "--quiet", "-n", "1"]
+    for setting in (f"{spacing}={case.dx}", f"time.end={case.end}", "wall.tank.slip=free", *settings):
         command += ["--set", setting]
     subprocess.run(command, check=True)
-    run = pathlib.Path(folder) / "run"
-    summary = json.loads((run / "summary.json").read_text())
-    rows = list(csv.DictReader(line for line in (run / "probes/P120.csv").open() if not line.startswith("#")))
+    summary = json.loads((folder / "run/summary.json").read_text())
+    lines = (folder / f"run/probes/{probe}.csv").read_text().splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     times, pressure = (np.array([float(row[name]) for row in rows]) for name in ("time_s", "pressure_Pa"))
     return Done(summary["cost"]["cpu_s"], summary["time_s"]["reached"], summary["particles"]["fluid"],
                 summary["steps"]["count"], times, pressure)
@@ -69,19 +122,19 @@ def sisph(dx, end, folder):
     return Done(told["cpu_s"], told["simulated_s"], told["fluid"], told["steps"], times, pressure)
 
 
-def noise(run):
+def noise(run, case):
     """Of rho g H; nothing if the run ends before the water arrives."""
     late = run.times >= NOISY_FROM
     if not late.any():
         return None
     around = [run.pressure[abs(run.times - time) <= WINDOW / 2] for time in run.times[late]]
     about_median = run.pressure[late] - [np.median(values) for values in around]
-    return float(np.sqrt(np.mean(about_median**2))) / RHO_G_H
+    return float(np.sqrt(np.mean(about_median**2))) / case.pressure
 
 
-def arrival(run):
+def arrival(run, case):
     """s; nothing if the run ends before."""
-    arrived = np.flatnonzero(run.pressure > ARRIVED * RHO_G_H)
+    arrived = np.flatnonzero(run.pressure > ARRIVED * case.pressure)
     return float(run.times[arrived[0]]) if len(arrived) else None
 
 
@@ -89,30 +142,45 @@ def or_dash(value, form):
     return "-" if value is None else format(value, form)
 
 
-def show(name, run, price):
-    print(f"{name:9}  {run.fluid:7} particles  {run.steps:6} steps  {run.price:9.2f} CPU s per simulated s"
-          f"  ratio {run.price / price:6.2f}  noise {or_dash(noise(run), '.4f'):>6}"
-          f"  arrival {or_dash(arrival(run), '.3f'):>5} s", flush=True)
+def show(case_name, code, case, run, ours):
+    print(f"{case_name:4}  {code:9}  {run.fluid:7} particles  {run.steps:6} steps"
+          f"  {run.price:9.2f} CPU s per simulated s  ours over it {ours.price / run.price:6.3f}"
+          f"  noise {or_dash(noise(run, case), '.4f'):>6}  arrival {or_dash(arrival(run, case), '.3f'):>5} s", flush=True)
+
+
+def compare(name, case, options, folder):
+    """All codes that are there, in turn."""
+    codes = {"Tailwater": lambda: tailwater(options.program, name, case, options.set, folder)}
+    if name == "zhou" and importlib.util.find_spec("pysph"):
+        sisph(0.1, 1e-3, folder)  # compiles
+        codes["SISPH"] = lambda: sisph(case.dx, case.end, folder)
+    if options.dfsph:
+        codes["DFSPH"] = lambda: Done(*dfsph.run(options.dfsph, case, pathlib.Path(tempfile.mkdtemp(dir=folder))))
+    turns = [{code: run() for code, run in codes.items()} for _ in range(options.repeats)]
+    best = {code: min((turn[code] for turn in turns), key=lambda run: run.price) for code in codes}
+    for code, run in best.items():
+        show(name, code, case, run, best["Tailwater"])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dx", type=float, default=0.015)
-    parser.add_argument("--end", type=float, default=1.4, help="simulated seconds (1.4)")
+    parser.add_argument("--case", action="append", choices=tuple(CASES), help="may be repeated (zhou)")
+    parser.add_argument("--dx", type=float, help="m")
+    parser.add_argument("--end", type=float, help="simulated seconds")
     parser.add_argument("--repeats", type=int, default=1)
     parser.add_argument("--program", default=ROOT / "build/release/bin/tailwater")
+    parser.add_argument("--dfsph", metavar="FILE", default=shutil.which("SPHSimulator"))
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     options = parser.parse_args()
-    if importlib.util.find_spec("pysph") is None:
-        print("error: PySPH is not installed; remedy: apt-get install python3-pysph", file=sys.stderr)
+    if options.dfsph and not os.access(options.dfsph, os.X_OK):
+        print(f"error: {options.dfsph} is no program; remedy: --dfsph with the path of SPHSimulator", file=sys.stderr)
+        return 2
+    if not options.dfsph and not importlib.util.find_spec("pysph"):
+        print("error: there is no other code; remedy: apt-get install python3-pysph, or --dfsph FILE", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as folder:
-        sisph(0.1, 1e-3, folder)  # compiles
-        pairs = [(tailwater(options.program, options.dx, options.end, options.set, folder),
-                  sisph(options.dx, options.end, folder)) for _ in range(options.repeats)]
-    ours, theirs = (min(runs, key=lambda run: run.price) for runs in zip(*pairs))
-    show("Tailwater", ours, ours.price)
-    show("SISPH", theirs, ours.price)
+        for name in options.case or ("zhou",):
+            compare(name, CASES[name](options.dx, options.end), options, pathlib.Path(folder))
     return 0
 
 
