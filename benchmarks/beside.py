@@ -155,7 +155,8 @@ def compare(name, case, options, folder):
         sisph(0.1, 1e-3, folder)  # compiles
         codes["SISPH"] = lambda: sisph(case.dx, case.end, folder)
     if options.dfsph:
-        codes["DFSPH"] = lambda: Done(*dfsph.run(options.dfsph, case, pathlib.Path(tempfile.mkdtemp(dir=folder))))
+        scene = pathlib.Path(tempfile.mkdtemp(dir=folder))
+        codes["DFSPH"] = lambda: Done(*dfsph.run(options.dfsph, case, scene))
     turns = [{code: run() for code, run in codes.items()} for _ in range(options.repeats)]
     best = {code: min((turn[code] for turn in turns), key=lambda run: run.price) for code in codes}
     for code, run in best.items():

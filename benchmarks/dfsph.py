@@ -9,6 +9,7 @@ import math
 import os
 import re
 import resource
+import shutil
 import subprocess
 
 import numpy as np
@@ -112,7 +113,9 @@ def time_of(log, kind):
 
 
 def run(program, case, folder):
-    """CPU seconds, simulated seconds, particles of water, steps, times and pressures at the gauge."""
+    """CPU seconds, simulated seconds, particles of water, steps, times and pressures at the gauge. The folder is for one
+    case: maps of the walls are made once."""
+    shutil.rmtree(folder / "out", ignore_errors=True)
     run_scene(program, case, 1e-6, folder)  # makes the maps
     start, _ = run_scene(program, case, 1e-6, folder)
     cpu, log = run_scene(program, case, case.end, folder)
