@@ -763,7 +763,7 @@ struct OutputTable {
              "Time between field files; 0: a hundredth of the end time");
     v.number("view_interval", self.view_interval, "s", Range::at_least(0.0),
              "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time, and at "
-             "least six steps");
+             "least eight steps");
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.number("checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
              "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or "

@@ -13,8 +13,8 @@ namespace {
 
 /// Enough to play a run for 16 seconds without a jump.
 constexpr double default_frames = 400.0;
-/// By default no more than every sixth step makes a frame, which takes up to 6 % of a step: 1 % of the run.
-constexpr std::int64_t default_least_steps = 6;
+/// By default no more than every eighth step makes a frame, which takes 6 to 7 % of a step: less than 1 % of the run.
+constexpr std::int64_t default_least_steps = 8;
 
 /// From where it is drawn to where it is now, of each pose of the scene.
 template <int Dim>

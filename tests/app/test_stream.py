@@ -16,16 +16,16 @@ class Stream(ProgramTest):
     def test_of_a_dam_break_is_small(self):
         """The demo's case, coarser. Far fewer bytes than places and scalars take as they are: 6 per particle."""
         case = CASES / "zhou1999" / "case.toml"
-        self.call("run", case, "--out", "run", "--quiet", "--set", "particles.spacing=0.03")
+        self.call("run", case, "--out", "run", "--quiet", "--set", "particles.spacing=0.02")
         frames = read_frames(self.folder / "run")
-        # A four-hundredth of the end time apart, and six steps.
+        # A four-hundredth of the end time apart, and eight steps.
         end = tomllib.loads((self.folder / "run/case.effective.toml").read_text())["time"]["end"]
         steps = [time for time, *_ in self.table("run/steps.csv")[1]]
-        interval, expected, next_step = end / 400, [0.0], 6
+        interval, expected, next_step = end / 400, [0.0], 8
         for step, time in enumerate(steps, 1):
             if step >= next_step and time >= (math.floor(expected[-1] / interval) + 1) * interval:
                 expected.append(time)
-                next_step = step + 6
+                next_step = step + 8
         self.assertEqual([frame.time for frame in frames], sorted({*expected, steps[-1]}))
         self.assertGreater(len(frames), 50)
         self.assertLessEqual(sum(frame.bytes for frame in frames) / sum(frame.count for frame in frames), 3.0)
