@@ -20,6 +20,13 @@ constexpr double cover = 1.1;
 constexpr double distance_beside_pockets = 0.5;
 constexpr double distance_without = 2.0;
 
+/// [dx]; edge of the pieces of walls that move: what they see of a pocket falls from 1 to 0 in two.
+constexpr double longest_piece = 0.75;
+
+/// [dx]; how far in front of a wall it looks: where pairs of water and wall find the mean of a field that changes
+/// evenly away from the wall.
+constexpr double sight_of_walls = 0.6;
+
 /// With one bit each in six kinds of marks, and what is kept of each row of cells: some 2 GB.
 constexpr double most_cells_of_map = 2e9;
 
@@ -64,7 +71,15 @@ void AirWatch<Dim>::forget() {
   forget_responses();
 }
 
-/// Marks the cells near a row of a wall that are behind walls.
+/// Whether another wall is less than dx/2 in front of a face, near a place on it: neither water nor air gets through.
+template <int Dim>
+bool AirWatch<Dim>::is_in_gap(const Boundary<Dim>& boundary, int face, const Vec<Dim>& x) const {
+  const Vec<Dim> in_front = x + 0.5 * spacing_ * boundary.faces[face].normal;
+  const NearestWall<Dim> other = boundary.nearest(in_front, search_distance * spacing_);
+  return other.face >= 0 && other.signed_distance < 0.0 && boundary.faces[other.face].wall != boundary.faces[face].wall;
+}
+
+/// Marks the cells near a row of a wall that are behind walls, or in a gap beside one that moves.
 template <int Dim>
 void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMarks& tested, CellMarks& solid) const {
   const Boundary<Dim>& boundary = walls.boundary;
@@ -82,7 +97,11 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
         continue;
       }
       tested.mark(r, place, place + 1);
-      if (nearest.signed_distance <= -0.5 * grid_->edge().maxCoeff()) solid.mark(r, place, place + 1);
+      const double half = 0.5 * grid_->edge().maxCoeff();
+      const bool is_behind = nearest.signed_distance <= -half;
+      if (is_behind || (moves && nearest.signed_distance < half && is_in_gap(boundary, nearest.face, centre))) {
+        solid.mark(r, place, place + 1);
+      }
     }
   });
 }
@@ -123,16 +142,32 @@ void AirWatch<Dim>::mark_resting(const Walls<Dim>& walls, const Communicator& ra
   mark_rows(walls, walls.moving, walls.kept, resting_, resting_plates_);
   ranks.unite(resting_.words());
   ranks.unite(resting_plates_.words());
+  if (walls.moving > 0) moving_ = make_wall_patches(walls.boundary, longest_piece * spacing_);
+  std::erase_if(moving_, [&](const WallPatch<Dim>& patch) {
+    return !walls.boundary.walls[walls.boundary.faces[patch.face].wall].moves();
+  });
   knows_walls_ = true;
 }
 
 template <int Dim>
-void AirWatch<Dim>::find_openings() {
-  openings_.assign(wall_flow_.size(), 0.0);
-  for (const VentTable& vent : vents_) {
-    const int pocket = space_.pocket_at(to_vec<Dim>(vent.at, vent.name, "at"));
-    if (pocket >= 0) openings_[pocket] += vent.area / std::sqrt(vent.loss);
+void AirWatch<Dim>::find_openings(std::span<const Vec<Dim>> vents, std::size_t pockets) {
+  openings_.assign(pockets, 0.0);
+  for (std::size_t n = 0; n < vents.size(); ++n) {
+    const int pocket = space_.pocket_at(vents[n]);
+    if (pocket >= 0) openings_[pocket] += vents_[n].area / std::sqrt(vents_[n].loss);
   }
+}
+
+template <int Dim>
+std::vector<PocketWall<Dim>> AirWatch<Dim>::walls_beside(const Boundary<Dim>& boundary) const {
+  std::vector<PocketWall<Dim>> walls;
+  for (const WallPatch<Dim>& patch : moving_) {
+    const WallFace<Dim>& face = boundary.faces[patch.face];
+    const Vec<Dim> x = patch.centre(boundary);
+    std::vector<PocketShare> shares = space_.shares_at(x + sight_of_walls * spacing_ * face.normal);
+    if (!shares.empty()) walls.push_back({face.wall, x, -patch.measure * face.normal, std::move(shares)});
+  }
+  return walls;
 }
 
 template <int Dim>
@@ -159,7 +194,7 @@ void AirWatch<Dim>::set_start_pressures(AirState& state) const {
 }
 
 template <int Dim>
-void AirWatch<Dim>::look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
+void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vents, const Particles<Dim>& particles,
                          const Communicator& ranks, AirState& state) {
   const bool is_first = state.begun == 0;
   if (!knows_walls_) mark_resting(walls, ranks);
@@ -176,9 +211,8 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, const WallVelocity& velocity, 
   std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, law_, state);
   space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, found);
   const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
-  wall_flow_ = space_.wall_flow(walls.boundary, velocity, ranks);
   take_over(std::move(found), volumes, spacing_, law_, state);
-  find_openings();
+  find_openings(vents, state.pockets.size());
   if (is_first) set_start_pressures(state);
   has_looked_ = true;
 }

@@ -1,13 +1,14 @@
 // Looks for pockets of air every few steps, and tells particles what they see of them.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "air/pocket_space.h"
 #include "case/spec.h"
+#include "geometry/wall_patches.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -29,10 +30,23 @@ struct PocketSide {
   std::vector<PocketGain<Dim>> gains = {};
 };
 
+/// A piece of a wall that moves and looks into pockets, or at water that does.
+template <int Dim>
+struct PocketWall {
+  int wall;       ///< index into Boundary::walls
+  Vec<Dim> x;     ///< m
+  Vec<Dim> area;  ///< m^(Dim-1); towards the wall
+  std::vector<PocketShare> shares;
+};
+
 /// The pockets in one step: where water looks into them, and what they do.
 template <int Dim>
 struct PocketSides {
   std::vector<PocketSide<Dim>> water;
+  std::vector<PocketWall<Dim>> walls;                     ///< the same on all ranks
+  std::vector<std::pair<std::size_t, PocketShare>> seen;  ///< by owned particles, walls too; where walls move
+  Eigen::MatrixXd answers;          ///< m^Dim/s per Pa; by which water makes each (row) grow with the pressure of each
+  std::vector<double> mobility;     ///< the same of floating bodies, each with its own pressure; empty without bodies
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
@@ -63,20 +77,17 @@ class AirWatch {
   /// Whether water may have gone far since the last look.
   bool is_due(const AirState& state) const;
 
-  /// The velocity [m/s] of a wall at a place.
-  using WallVelocity = std::function<Vec<Dim>(int wall, const Vec<Dim>& x)>;
-
-  /// Looks for the pockets of this moment. Those of the first look of a run may start at a pressure that the case
-  /// gives; throws InputError where it gives one and there is no enclosed air. Collective.
-  void look(const Walls<Dim>& walls, const WallVelocity& velocity, const Particles<Dim>& particles,
+  /// Looks for the pockets of this moment, with the vents at these places. Those of the first look of a run may start
+  /// at a pressure that the case gives; throws InputError where it gives one and there is no enclosed air. Collective.
+  void look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vents, const Particles<Dim>& particles,
             const Communicator& ranks, AirState& state);
 
   /// Forgets what the last look has found, and the responses. Call when particles have been repartitioned and sorted.
   void forget();
 
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
-  /// m^Dim/s; by which moving walls make each pocket grow.
-  const std::vector<double>& wall_flow() const { return wall_flow_; }
+  /// What moving walls see of the pockets.
+  std::vector<PocketWall<Dim>> walls_beside(const Boundary<Dim>& boundary) const;
   /// m^(Dim-1); of each pocket the vents that its air is at (vent.h).
   const std::vector<double>& openings() const { return openings_; }
 
@@ -94,22 +105,23 @@ class AirWatch {
   const std::vector<double>& air_pressure() const { return air_pressure_; }
 
  private:
+  bool is_in_gap(const Boundary<Dim>& boundary, int face, const Vec<Dim>& x) const;
   void mark_wall(const Walls<Dim>& walls, std::size_t row, CellMarks& tested, CellMarks& solid) const;
   void mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const;
   void mark_rows(const Walls<Dim>& walls, std::size_t from, std::size_t to, CellMarks& solid, CellMarks& plates) const;
   void mark_resting(const Walls<Dim>& walls, const Communicator& ranks);
-  void find_openings();
+  void find_openings(std::span<const Vec<Dim>> vents, std::size_t pockets);
   void set_start_pressures(AirState& state) const;
 
   std::shared_ptr<const VoidGrid<Dim>> grid_;
   GasLaw law_;
   double spacing_ = 0.0;
   bool knows_walls_ = false;
-  CellMarks resting_;         ///< behind walls that rest
-  CellMarks resting_plates_;  ///< beside plates that rest
+  std::vector<WallPatch<Dim>> moving_;  ///< of walls that move
+  CellMarks resting_;                   ///< behind walls that rest
+  CellMarks resting_plates_;            ///< beside plates that rest
   bool has_looked_ = false;
   PocketSpace<Dim> space_;
-  std::vector<double> wall_flow_;
   std::vector<PocketTable> starts_;
   std::vector<VentTable> vents_;
   std::vector<double> openings_;

@@ -267,35 +267,6 @@ std::vector<double> PocketSpace<Dim>::volumes(const Boundary<Dim>& boundary, con
 }
 
 template <int Dim>
-std::vector<double> PocketSpace<Dim>::wall_flow(const Boundary<Dim>& boundary,
-                                                const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
-                                                const Communicator& ranks) const {
-  std::vector<double> flow(pockets_, 0.0);
-  const bool moves = std::ranges::any_of(boundary.walls, [](const WallProperties& wall) { return wall.moves(); });
-  if (pockets_ == 0 || !moves) return flow;
-  visit_cells([&](std::int64_t k, const Cell& c) {
-    // Water covers a step more of a wall than it wets.
-    if (owner_[k] <= 0 || layer_[k] > 1 || grid_->row_of(c) % ranks.size() != ranks.rank()) return;
-    visit_sides(c, [&](std::int64_t other, const Cell& beside) {
-      if (owner_[other] != behind_wall) return;
-      const Vec<Dim> x = grid_->centre(c);
-      const NearestWall<Dim> nearest = boundary.nearest(x, spacing_);
-      if (nearest.face < 0 || !boundary.walls[boundary.faces[nearest.face].wall].moves()) return;
-      Vec<Dim> area = Vec<Dim>::Zero();  // of the side, towards the wall
-      for (int d = 0; d < Dim; ++d) {
-        const int offset = beside[d] - c[d];
-        if (offset != 0)
-          area[d] =
-              (std::abs(offset) == 1 ? offset : -offset / std::abs(offset)) * grid_->cell_volume() / grid_->edge()[d];
-      }
-      flow[owner_[k] - 1] += area.dot(velocity(boundary.faces[nearest.face].wall, x));
-    });
-  });
-  ranks.sum_of_each(flow);
-  return flow;
-}
-
-template <int Dim>
 int PocketSpace<Dim>::pocket_at(const Vec<Dim>& x) const {
   if (pockets_ == 0) return -1;
   int pocket = -1;

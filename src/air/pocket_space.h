@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,12 +39,6 @@ class PocketSpace {
   /// The volume of each pocket [m^Dim], that of a cell at least; collective.
   std::vector<double> volumes(const Boundary<Dim>& boundary, const Particles<Dim>& particles,
                               const Communicator& ranks) const;
-
-  /// By how much walls that move make each pocket grow [m^Dim/s], if velocity(wall, x) is that of a wall at x [m/s];
-  /// collective.
-  std::vector<double> wall_flow(const Boundary<Dim>& boundary,
-                                const std::function<Vec<Dim>(int, const Vec<Dim>&)>& velocity,
-                                const Communicator& ranks) const;
 
   /// The pocket whose air is nearest to x, within dx; -1 where open air is nearer, or there is no air.
   int pocket_at(const Vec<Dim>& x) const;

@@ -1,20 +1,21 @@
+#include <algorithm>
+
 #include "flow/verbs.h"
 
 namespace tailwater {
 namespace {
 
-/// The velocity of moving walls in a step of dt from now on.
+/// m; where vents are now: one that is on a wall that moves goes along.
 template <int Dim>
-typename AirWatch<Dim>::WallVelocity velocity_of_walls(const Flow<Dim>& flow, double dt) {
-  return [&flow, dt](int wall, const Vec<Dim>& x) {
-    const double time = flow.state.time;
+std::vector<Vec<Dim>> places_of_vents(const Flow<Dim>& flow) {
+  std::vector<Vec<Dim>> places;
+  for (const VentPlace<Dim>& vent : flow.setup.vents) {
+    places.push_back(vent.at);
     for (const auto& moving : flow.setup.wall_motion.moving()) {
-      if (moving.wall != wall || dt == 0.0) continue;
-      const Vec<Dim> drawn = moving.at(time, flow.state.motion).inverse(x);
-      return moving.mean_velocity(time, time + dt, flow.state.motion)(drawn);
+      if (moving.wall == vent.wall) places.back() = moving.at(flow.state.time, flow.state.motion)(vent.at);
     }
-    return Vec<Dim>(Vec<Dim>::Zero());
-  };
+  }
+  return places;
 }
 
 }  // namespace
@@ -24,9 +25,11 @@ void watch_air(Flow<Dim>& flow, double dt) {
   if (!flow.air.is_on()) return;
   AirState& state = flow.state.air;
   if (flow.air.is_due(state)) {
-    flow.air.look(flow.walls, velocity_of_walls(flow, dt), flow.state.particles, flow.setup.ranks, state);
+    flow.air.look(flow.walls, places_of_vents(flow), flow.state.particles, flow.setup.ranks, state);
   }
-  state.displacement += dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow));
+  const double time = flow.state.time;
+  state.displacement += std::max(dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow)),
+                        flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion));
 }
 
 TAILWATER_IN_2D_AND_3D(watch_air);

@@ -60,6 +60,7 @@ AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, cons
   MotionState<Dim> start;
   start.wave_makers.resize(setup.wave_plates.size());
   for (const auto& moving : setup.wall_motion.moving()) {
+    if (moving.body >= 0) continue;  // it stays where water is
     for (int k = 0; k <= looks_at_moving_walls; ++k) {
       const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
       for (const WallFace<Dim>& face : boundary.faces) {
@@ -74,8 +75,7 @@ AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, cons
 template <int Dim>
 void require_start_pockets(Flow<Dim>& flow) {
   AirState none;
-  const auto rest = [](int /*wall*/, const Vec<Dim>& /*x*/) { return Vec<Dim>(Vec<Dim>::Zero()); };
-  flow.air.look(flow.walls, rest, flow.state.particles, flow.setup.ranks, none);
+  flow.air.look(flow.walls, {}, flow.state.particles, flow.setup.ranks, none);
   flow.air.forget();
 }
 

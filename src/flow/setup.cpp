@@ -118,6 +118,17 @@ std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
   return zones;
 }
 
+template <int Dim>
+std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<VentPlace<Dim>> vents;
+  for (const VentTable& vent : spec.vents) {
+    const Vec<Dim> at = to_vec<Dim>(vent.at, "vent '" + vent.name + "'", "at");
+    const NearestWall<Dim> wall = boundary.nearest(at, 0.5 * spec.particles.spacing);
+    vents.push_back({at, wall.face < 0 ? -1 : boundary.faces[wall.face].wall});
+  }
+  return vents;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -152,6 +163,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, drawing.walls.boundary.walls.size())),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
+      vents(make_vents(spec, drawing.walls.boundary)),
       damping(make_damping<Dim>(spec)),
       kernel(formulation.kernel),
       lattice(lattice_sums(kernel, spacing)),

@@ -34,6 +34,14 @@ struct Drawing {
   FluidParticles<Dim> fluid;
 };
 
+/// Where a vent is drawn.
+template <int Dim>
+struct VentPlace {
+  Vec<Dim> at;  ///< m
+  int wall =
+      -1;  ///< index into Boundary::walls of one within dx/2, with which it goes if that moves; -1: there is none
+};
+
 template <int Dim>
 struct Setup {
   /// Takes the motion of the walls out of `drawing`.
@@ -60,6 +68,7 @@ struct Setup {
   std::vector<Mooring<Dim>> moorings;
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
   ContactSurfaces<Dim> contact;   ///< of the bodies
+  std::vector<VentPlace<Dim>> vents;
   std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;
   LatticeSums lattice;

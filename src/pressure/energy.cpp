@@ -5,6 +5,7 @@
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
 #include "pressure/operators.h"
+#include "pressure/pockets.h"
 #include "pressure/verbs.h"
 
 namespace tailwater {
@@ -66,17 +67,24 @@ double wall_work(const Flow<Dim>& flow, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<std::size_t> walls =
       indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.here.is_wet[i]; });
-  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, particles.pressure);
+  const std::vector<double>& air = flow.sides.pressure;
+  std::vector<double> from_air;  // pressure over that of the air beside
+  if (!air.empty()) subtract_seen<Dim>(flow, air, from_air = particles.pressure);
+  const std::vector<double>& pressure = air.empty() ? particles.pressure : from_air;
+  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
   double work = sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
     const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
     return dt * particles.volume[i] * pushes[n].dot(V);  // its force on the fluid, times its velocity
   });
   // Water that is held rests, and takes no work from walls. To other water it is a wall with a pressure of its own.
-  visit_forces_of_held_water(flow, particles.pressure, [&](std::size_t j, const Vec<Dim>& force) {
+  visit_forces_of_held_water(flow, pressure, [&](std::size_t j, const Vec<Dim>& force) {
     work += dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
                                                  : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
   });
+  if (!flow.setup.ranks.is_root() || air.empty()) return work;
+  const std::vector<double> growth = growth_by_walls(flow, dt);
+  for (std::size_t k = 0; k < air.size(); ++k) work -= dt * air[k] * growth[k];
   return work;
 }
 

@@ -6,15 +6,12 @@
 #include "air/vent.h"
 #include "base/for_each.h"
 #include "flow/air_pressure.h"
+#include "pressure/gas_step.h"
 #include "pressure/solve_rows.h"
 #include "pressure/tolerance.h"
 
 namespace tailwater {
 namespace {
-
-/// Newton's method on a convex law, which may not more than halve a volume in a step.
-constexpr int most_steps = 50;
-constexpr double settled = 1e-10;  // of the atmosphere
 
 template <int Dim>
 std::vector<std::size_t> particles_of(const PocketSides<Dim>& sides) {
@@ -43,92 +40,6 @@ std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
   flow.setup.ranks.sum_of_each(growth);
   return growth;
 }
-
-/// The pockets' part of one step: how far each grows, as a function of the pressures, and what the gas asks for.
-class GasStep {
- public:
-  GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings, bool with_mean,
-          double dt)
-      : law_(law),
-        pockets_(pockets),
-        openings_(openings),
-        dt_(dt),
-        share_(with_mean ? 0.5 : 1.0),
-        mean_(with_mean ? 0.5 : 0.0) {}
-
-  /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
-  void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls) {
-    const auto count = static_cast<Eigen::Index>(now.size());
-    constant_.resize(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      constant_[k] = dt_ * (share_ * now[k] + (1.0 - share_) * before[k] + walls[k]);
-    }
-  }
-  void set_answers(const Eigen::MatrixXd& answers) { answers_ = dt_ * share_ * answers; }
-
-  /// The pressures [Pa] with which gas and water agree. The pressure in the step is between that of the gas at its
-  /// start and at its end: at the start (or in the middle, if the water moves with the mean of its old and new
-  /// velocity) a pulsation keeps its energy. The stiffer the gas, the nearer it is to that at the end.
-  std::vector<double> solve() const {
-    const Eigen::Index count = constant_.size();
-    const Eigen::VectorXd theta = blend();
-    Eigen::VectorXd start(count);
-    for (Eigen::Index k = 0; k < count; ++k) start[k] = law_.pressure(pockets_[k].gas, pockets_[k].volume);
-    Eigen::VectorXd pressure = start;
-    for (int step = 0; step < most_steps; ++step) {
-      const Eigen::VectorXd volume = volume_after(pressure);
-      Eigen::VectorXd missing(count);
-      Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        missing[k] = pressure[k] - (1.0 - theta[k]) * start[k] - theta[k] * pressure_after(k, volume[k]);
-        slope.row(k) -= theta[k] * slope_after(k, volume[k]) * answers_.row(k);
-      }
-      if (missing.cwiseAbs().maxCoeff() <= settled * law_.atmosphere) break;
-      Eigen::VectorXd change = -slope.partialPivLu().solve(missing);
-      while ((volume_after(pressure + change).array() < 0.5 * volume.array()).any()) change *= 0.5;
-      pressure += change;
-    }
-    return {pressure.data(), pressure.data() + count};
-  }
-
- private:
-  /// Pa; of the gas at the end of the step, if its volume then is this.
-  double pressure_after(Eigen::Index k, double volume) const {
-    return law_.pressure(gas_after_venting(law_, pockets_[k].gas, volume, openings_[k], dt_), volume);
-  }
-  double slope_after(Eigen::Index k, double volume) const {
-    if (openings_[k] == 0.0) return law_.slope(pockets_[k].gas, volume);
-    const double little = 1e-6 * volume;
-    return (pressure_after(k, volume + little) - pressure_after(k, volume - little)) / (2.0 * little);
-  }
-  /// How much of the pressure is that at the end of the step. With the square s of a pulsation's frequency times dt,
-  /// s/(4 + s) is enough damping for any s, and damps what is resolved by some s^1.5 per period.
-  Eigen::VectorXd blend() const {
-    Eigen::VectorXd theta(constant_.size());
-    for (Eigen::Index k = 0; k < theta.size(); ++k) {
-      const double square = -law_.slope(pockets_[k].gas, pockets_[k].volume) * std::max(0.0, answers_(k, k)) / share_;
-      theta[k] = mean_ + (1.0 - mean_) * square / (4.0 + square);
-    }
-    return theta;
-  }
-  /// A pocket that the water would close within the step is left a tenth.
-  Eigen::VectorXd volume_after(const Eigen::VectorXd& pressure) const {
-    Eigen::VectorXd volume = constant_ + answers_ * pressure;
-    for (Eigen::Index k = 0; k < volume.size(); ++k) {
-      volume[k] = std::max(pockets_[k].volume + volume[k], 0.1 * pockets_[k].volume);
-    }
-    return volume;
-  }
-
-  const GasLaw& law_;
-  const std::vector<AirPocket>& pockets_;
-  const std::vector<double>& openings_;
-  double dt_;
-  double share_;  ///< of the new velocity in that which moves the water
-  double mean_;   ///< share of the pressure at the end with which a slow pulsation keeps its energy
-  Eigen::VectorXd constant_;
-  Eigen::MatrixXd answers_;
-};
 
 /// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts what their owners have.
 template <int Dim>
@@ -205,8 +116,13 @@ void find_sides(Flow<Dim>& flow) {
     water[n].push = push[n];
     water[n].weight = weight[n];
   });
+  flow.sides.walls = flow.air.walls_beside(flow.walls.boundary);
+  const bool walls_move = !flow.setup.wall_motion.moving().empty();
   for (int k = 0; k < static_cast<int>(flow.state.air.pockets.size()); ++k) {
     const std::vector<double> share = shares_of(flow, k);
+    for (std::size_t i = 0; walls_move && i < flow.state.particles.owned; ++i) {  // in order: a list
+      if (share[i] != 0.0) flow.sides.seen.push_back({i, {k, share[i]}});
+    }
     const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, share);
     for (std::size_t n = 0; n < water.size(); ++n) {  // lists
       const Vec<Dim> gain = share[water[n].particle] * push[n] - slope[n];
@@ -253,7 +169,7 @@ void find_response(Flow<Dim>& flow, int pocket, std::vector<double>& left) {
     }
   }
   flow.sides.iterations += solve_rows(flow, response, rough_tolerance(flow.pressure_solver.tolerance())).iterations;
-  flow.halo().exchange(response);
+  spread(flow, response);
   const double pressure = pressure_of(flow, flow.state.air.pockets[pocket]);
   for_each(left.size(), [&](std::size_t i) { left[i] += pressure * (rows.answer(i, response.data()) - response[i]); });
 }
@@ -293,6 +209,17 @@ double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double
   return work;
 }
 
+template <int Dim>
+GasStep gas_step_of(const Flow<Dim>& flow, double dt) {
+  return {flow.air.law(),
+          flow.state.air.pockets,
+          flow.air.openings(),
+          flow.sides.mobility,
+          flow.sides.answers,
+          flow.setup.formulation.moves_with_mean_velocity,
+          dt};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -306,6 +233,7 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   for (int k = 0; k < pockets; ++k) find_response(flow, k, rhs);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
   sides.own_drop = find_own_drop(flow);
+  sides.answers = find_answers(flow, dt);
   const Vec<Dim> gravity =
       flow.setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : flow.setup.gravity;
   sides.flow = growth(flow, [&](std::size_t n) { return Vec<Dim>(predicted[sides.water[n].particle] + dt * gravity); });
@@ -330,6 +258,30 @@ void restore_air(Flow<Dim>& flow) {
 }
 
 template <int Dim>
+std::vector<double> find_air_pressures(const Flow<Dim>& flow, double dt) {
+  const double unit = dt / flow.setup.density;
+  const std::vector<Vec<Dim>> gradient = gradient_at_sides(flow, flow.state.particles.pressure);
+  std::vector<double> now = growth(flow, [&](std::size_t n) { return Vec<Dim>(-unit * gradient[n]); });
+  for (std::size_t k = 0; k < now.size(); ++k) now[k] += flow.sides.flow[k];
+  GasStep step = gas_step_of(flow, dt);
+  step.set_flow(now, flow.sides.flow_before, growth_by_walls(flow, dt));
+  return step.solve();
+}
+
+template <int Dim>
+Eigen::MatrixXd stiffness_of_air(const Flow<Dim>& flow, double dt) {
+  return gas_step_of(flow, dt).stiffness();
+}
+
+template <int Dim>
+void add_air_of(Flow<Dim>& flow, std::span<const double> pressures, std::vector<double>& field) {
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    const std::vector<double>& response = flow.air.response(flow.state.air.pockets[k].number);
+    for_each(field.size(), [&](std::size_t i) { field[i] += pressures[k] * response[i]; });
+  }
+}
+
+template <int Dim>
 void add_air(Flow<Dim>& flow, double dt) {
   PocketSides<Dim>& sides = flow.sides;
   std::vector<double>& air = flow.air.air_pressure();
@@ -337,19 +289,9 @@ void add_air(Flow<Dim>& flow, double dt) {
   const std::vector<AirPocket>& pockets = flow.state.air.pockets;
   if (pockets.empty()) return;
   std::vector<double>& pressure = flow.state.particles.pressure;
-  const double unit = dt / flow.setup.density;
-  const std::vector<Vec<Dim>> gradient = gradient_at_sides(flow, pressure);
-  std::vector<double> now = growth(flow, [&](std::size_t n) { return Vec<Dim>(-unit * gradient[n]); });
-  for (std::size_t k = 0; k < now.size(); ++k) now[k] += sides.flow[k];
-  GasStep step(flow.air.law(), pockets, flow.air.openings(), flow.setup.formulation.moves_with_mean_velocity, dt);
-  step.set_flow(now, sides.flow_before, flow.air.wall_flow());
-  step.set_answers(find_answers(flow, dt));
-  sides.pressure = step.solve();
+  sides.pressure = find_air_pressures(flow, dt);
   air.assign(pressure.size(), 0.0);
-  for (std::size_t k = 0; k < pockets.size(); ++k) {
-    const std::vector<double>& response = flow.air.response(pockets[k].number);
-    for_each(air.size(), [&](std::size_t i) { air[i] += sides.pressure[k] * response[i]; });
-  }
+  add_air_of(flow, sides.pressure, air);
   for_each(air.size(), [&](std::size_t i) { pressure[i] += air[i]; });
 }
 
@@ -364,9 +306,10 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
   });
   const std::vector<double> flow_after = growth(flow, [&](std::size_t n) { return velocity[sides.water[n].particle]; });
   const double share = flow.setup.formulation.moves_with_mean_velocity ? 0.5 : 1.0;
+  const std::vector<double> by_walls = growth_by_walls(flow, dt);
   for (std::size_t k = 0; k < flow_after.size(); ++k) {
     AirPocket& pocket = flow.state.air.pockets[k];
-    const double rate = share * flow_after[k] + (1.0 - share) * sides.flow_before[k] + flow.air.wall_flow()[k];
+    const double rate = share * flow_after[k] + (1.0 - share) * sides.flow_before[k] + by_walls[k];
     const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
     sides.work += change_pocket(pocket, volume, flow.air.law(), flow.air.openings()[k], dt, flow.state.air);
   }
@@ -375,6 +318,9 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
 TAILWATER_IN_2D_AND_3D(pose_pockets);
 TAILWATER_IN_2D_AND_3D(subtract_air);
 TAILWATER_IN_2D_AND_3D(restore_air);
+TAILWATER_IN_2D_AND_3D(find_air_pressures);
+TAILWATER_IN_2D_AND_3D(stiffness_of_air);
+TAILWATER_IN_2D_AND_3D(add_air_of);
 TAILWATER_IN_2D_AND_3D(add_air);
 TAILWATER_IN_2D_AND_3D(push_by_pockets);
 

@@ -3,7 +3,7 @@
 //
 //   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i closes the row (robust/rows.cpp)
 //   water at i:  grad p_i - sum_k P_k chi_ik grad 1_i
-//   pocket k:    dV_k/dt = sum_ij w_i w_j a_ij . u_i (chi_ik - chi_jk) + what moving walls sweep
+//   pocket k:    dV_k/dt = sum_ij w_i w_j a_ij . u_i (chi_ik - chi_jk) + sum of chi_k V . n over walls, n into them
 //
 // The last is the flow of water through the rows in which chi falls, where the force on the water as a whole acts: the
 // gas does on it the work P dV. Dummies have the mean chi of the water beside them. The pressure is linear in P,
@@ -32,8 +32,20 @@ void subtract_air(Flow<Dim>& flow);
 template <int Dim>
 void restore_air(Flow<Dim>& flow);
 
-/// Finds the pressures of the pockets, for a step of dt from where p_w has been solved for, and adds them to the
-/// water's. The pressure is up to date on walls and ghosts before and after. Collective.
+/// The pressures [Pa] of the pockets in a step of dt with which gas and water agree, where p_w has been solved for and
+/// is up to date on walls and ghosts, and walls move as they do now. Collective.
+template <int Dim>
+std::vector<double> find_air_pressures(const Flow<Dim>& flow, double dt);
+
+/// By how much [Pa] they (rows) fall for each m^Dim that walls leave the pockets (columns) in the step.
+template <int Dim>
+Eigen::MatrixXd stiffness_of_air(const Flow<Dim>& flow, double dt);
+
+/// Adds to `field` [Pa] of all particles what such pressures of the pockets make: up to date on walls and ghosts.
+template <int Dim>
+void add_air_of(Flow<Dim>& flow, std::span<const double> pressures, std::vector<double>& field);
+
+/// Finds them, and adds what they make to the pressure of the water, which is up to date before and after. Collective.
 template <int Dim>
 void add_air(Flow<Dim>& flow, double dt);
 
@@ -41,5 +53,19 @@ void add_air(Flow<Dim>& flow, double dt);
 /// velocity, or with the mean of the old and the new, as the water moves. Collective.
 template <int Dim>
 void push_by_pockets(Flow<Dim>& flow, double dt);
+
+/// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on.
+template <int Dim>
+std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt);
+
+/// Takes the pressures of the pockets [Pa] out of `field` [Pa] as far as particles see their air: of the rest the pairs
+/// of water and walls make the force on walls that move, and the air's own is on sides.walls. Ghosts are up to date
+/// then. Collective.
+template <int Dim>
+void subtract_seen(const Flow<Dim>& flow, std::span<const double> air, std::vector<double>& field);
+
+/// Pa; of the air at a piece of a wall.
+template <int Dim>
+double pressure_at(const PocketWall<Dim>& wall, std::span<const double> air);
 
 }  // namespace tailwater

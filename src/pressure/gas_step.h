@@ -1,0 +1,48 @@
+// The gas of all pockets in one step: how far each pocket grows as a function of the pressures, and the pressures that
+// the gas law asks for then.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "air/pockets.h"
+
+namespace tailwater {
+
+class GasStep {
+ public:
+  /// Of pockets whose growth answers the pressures, by water [m^Dim/s per Pa] with `answers` of each (row) to each, and
+  /// by bodies that float with `mobility` of each to its own, empty without bodies. All are kept by reference.
+  GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings,
+          const std::vector<double>& mobility, const Eigen::MatrixXd& answers, bool with_mean, double dt);
+
+  /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
+  void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls);
+
+  /// The pressures [Pa] with which gas and water agree. The pressure in the step is between that of the gas at its
+  /// start and at its end: at the start (or in the middle, if the water moves with the mean of its old and new
+  /// velocity) a pulsation keeps its energy. The stiffer the gas, the nearer it is to that at the end.
+  std::vector<double> solve() const;
+
+  /// By how much [Pa] the pressures (rows) fall for each m^Dim that walls leave the pockets (columns) in the step.
+  Eigen::MatrixXd stiffness() const;
+
+ private:
+  double pressure_after(Eigen::Index k, double volume) const;
+  double slope_after(Eigen::Index k, double volume) const;
+  Eigen::VectorXd blend() const;
+  Eigen::VectorXd volume_after(const Eigen::VectorXd& pressure) const;
+
+  const GasLaw& law_;
+  const std::vector<AirPocket>& pockets_;
+  const std::vector<double>& openings_;
+  const std::vector<double>& mobility_;
+  double dt_;
+  double share_;  ///< of the new velocity in that which moves the water
+  double mean_;   ///< share of the pressure at the end with which a slow pulsation keeps its energy
+  Eigen::MatrixXd answers_;
+  Eigen::VectorXd constant_;
+};
+
+}  // namespace tailwater
