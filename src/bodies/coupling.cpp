@@ -11,6 +11,7 @@
 #include "bodies/moorings.h"
 #include "bodies/verbs.h"
 #include "pressure/full_water.h"
+#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/verbs.h"
 
@@ -33,6 +34,9 @@ constexpr int most_rough_passes = 3;
 
 /// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
 constexpr double probing_share = 0.1;
+
+/// Share of the surface that sees air up to which what seems to be left of it is an error of pairs and pieces.
+constexpr double most_wrong = 0.25;
 
 /// What a degree of freedom resists at least, over its mass or mean moment of inertia.
 constexpr double least_share_of_mass = 0.5;
@@ -69,6 +73,88 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
   one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
   std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
   gaps_.hold_water(flow);
+  meet_air();
+}
+
+/// Where all air around a body is in pockets, one pressure of all of it may not push it. What pairs and pieces of its
+/// surface make of that, which is not quite nothing at edges and corners, is taken out of the pockets' forces as more
+/// pieces, in the shares in which the body looks into each.
+template <int Dim>
+void BodyCoupling<Dim>::balance_air() {
+  const std::vector<double> all_air(flow_.state.air.pockets.size(), 1.0);
+  const std::vector<double> everywhere(flow_.state.particles.size(), 1.0);
+  const std::vector<Twist<Dim>> wrong = forces_of(everywhere, all_air);
+  std::vector<PocketWall<Dim>>& pieces = flow_.sides.walls;
+  const std::vector<PocketWall<Dim>> surface = pieces;
+  for (std::size_t b = 0; b < wrong.size(); ++b) {
+    std::vector<double> seen(all_air.size(), 0.0);
+    double all = 0.0;
+    for (const PocketWall<Dim>& piece : surface) {
+      if (flow_.setup.body_of_wall[piece.wall] != static_cast<int>(b)) continue;
+      for (const PocketShare& share : piece.shares) {
+        seen[share.pocket] += share.share * piece.area.norm();
+        all += share.share * piece.area.norm();
+      }
+    }
+    if (wrong[b].template head<Dim>().norm() >= most_wrong * all) continue;  // open air is at it as well
+    std::vector<PocketShare> shares;
+    for (std::size_t k = 0; k < seen.size(); ++k) shares.push_back({static_cast<int>(k), seen[k] / all});
+    const Vec<Dim> centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time);
+    const int wall = flow_.setup.bodies[b].walls.front();
+    const auto add = [&](const Vec<Dim>& x, const Vec<Dim>& area) { pieces.push_back({wall, x, area, shares}); };
+    add(centre, -wrong[b].template head<Dim>());
+    for (int axis = 0; axis < turns<Dim>; ++axis) {  // a couple, with an arm of 1 m
+      const Vec<Dim> arm = Vec<Dim>::Unit(Dim == 2 ? 0 : (axis + 1) % Dim);
+      const Vec<Dim> couple = -wrong[b][Dim + axis] * Vec<Dim>::Unit(Dim == 2 ? 1 : (axis + 2) % Dim);
+      add(centre + arm, couple);
+      add(centre, -couple);
+    }
+  }
+}
+
+/// G, the force of 1 Pa in each pocket on each degree of freedom, is by how much an acceleration makes the pocket grow,
+/// too: the gas adds dt^2 G S G^T to the inertia, with its stiffness S.
+template <int Dim>
+void BodyCoupling<Dim>::meet_air() {
+  air_ = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
+  const auto pockets = static_cast<Eigen::Index>(flow_.state.air.pockets.size());
+  if (pockets == 0) return;
+  balance_air();
+  Eigen::MatrixXd G(scale_.size(), pockets);
+  for (Eigen::Index k = 0; k < pockets; ++k) {
+    std::vector<double> unit(static_cast<std::size_t>(pockets), 0.0);
+    unit[static_cast<std::size_t>(k)] = 1.0;
+    G.col(k) = on_freedoms(forces_of(flow_.air.response(flow_.state.air.pockets[k].number), unit));
+  }
+  const bool is_known = !flow_.state.motion.bodies.inertia.empty();
+  const Eigen::MatrixXd resisting = is_known ? Eigen::MatrixXd(inertia()) : Eigen::MatrixXd(scale_.asDiagonal());
+  const Eigen::MatrixXd answer = dt_ * G.transpose() * resisting.fullPivLu().solve(G);
+  std::vector<double>& mobility = flow_.sides.mobility;
+  for (Eigen::Index k = 0; k < pockets; ++k) mobility.push_back(std::max(0.0, answer(k, k)));
+  air_ = dt_ * dt_ * G * stiffness_of_air(flow_, dt_) * G.transpose();
+}
+
+template <int Dim>
+Eigen::VectorXd BodyCoupling<Dim>::on_freedoms(const std::vector<Twist<Dim>>& forces) const {
+  Eigen::VectorXd entries(scale_.size());
+  for (std::size_t w = 0; w < freedoms_.size(); ++w) {
+    entries[static_cast<Eigen::Index>(w)] = forces[freedoms_[w].body][freedoms_[w].entry];
+  }
+  return entries;
+}
+
+/// Of a pressure that is up to date, with that of the pockets in it; `air` is that of each.
+template <int Dim>
+std::vector<Twist<Dim>> BodyCoupling<Dim>::forces_of(std::vector<double> pressure,
+                                                     const std::vector<double>& air) const {
+  if (!air.empty()) subtract_seen<Dim>(flow_, air, pressure);
+  std::vector<Twist<Dim>> forces = forces_.of_pressure(pressure, covered_);
+  const std::vector<Twist<Dim>> in_gaps = forces_.of_gaps(pressure, gaps_);
+  for (std::size_t b = 0; b < forces.size(); ++b) forces[b] += in_gaps[b];
+  if (air.empty()) return forces;
+  const std::vector<Twist<Dim>> of_air = forces_.of_air(air);
+  for (std::size_t b = 0; b < forces.size(); ++b) forces[b] += of_air[b];
+  return forces;
 }
 
 template <int Dim>
@@ -103,9 +189,12 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   const std::vector<double> solved = flow_.state.particles.pressure;
   lift_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
   finish_pressure(flow_, drive_);
-  std::vector<Twist<Dim>> pressures = forces_.of_pressure(flow_.state.particles.pressure, covered_);
-  const std::vector<Twist<Dim>> in_gaps = forces_.of_gaps(flow_.state.particles.pressure, gaps_);
-  for (std::size_t b = 0; b < pressures.size(); ++b) pressures[b] += in_gaps[b];
+  std::vector<double> air;
+  if (!flow_.state.air.pockets.empty()) {
+    air = find_air_pressures(flow_, dt_);
+    add_air_of(flow_, air, flow_.state.particles.pressure);
+  }
+  const std::vector<Twist<Dim>> pressures = forces_of(flow_.state.particles.pressure, air);
   flow_.state.particles.pressure = solved;
   Eigen::VectorXd g(scale_.size());
   Eigen::VectorXd forces(scale_.size());
@@ -147,7 +236,7 @@ void BodyCoupling<Dim>::measure_inertia(const Eigen::VectorXd& g, double toleran
     other[k] += step;
     accelerate(other);
     report.iterations += solve_once(tolerance).iterations;
-    inertia().col(k) = (residual() - g) / step;
+    inertia().col(k) = (residual() - g) / step - air_.col(k);
     inertia()(k, k) = std::max(inertia()(k, k), least_share_of_mass * scale_[k]);
     flow_.state.particles.pressure = pressure;
   }
@@ -159,8 +248,8 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   if (flow_.state.motion.bodies.inertia.empty()) measure_inertia(g, tolerance, report);
   const Eigen::VectorXd before = acceleration();
   const Eigen::VectorXd pushed = push_;
-  accelerate(find_one_sided(one_sided_, inertia(), dt_, flow_.setup.spacing,
-                            before - inertia().fullPivLu().solve(g + pushed), push_));
+  accelerate(find_one_sided(one_sided_, inertia() + air_, dt_, flow_.setup.spacing,
+                            before - (inertia() + air_).fullPivLu().solve(g + pushed), push_));
   const Eigen::VectorXd change = acceleration() - before;
   const SolveReport solved = solve_once(tolerance);
   report.iterations += solved.iterations;
@@ -170,7 +259,7 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   // Broyden's update, with degrees of freedom measured alike by their masses. A change that seems to need less force
   // than the mass alone tells of water that tears, not of water that goes along: nothing to learn from.
   const Eigen::VectorXd weighted = change.cwiseProduct(scale_);
-  const Eigen::VectorXd answer = (after + push_) - (g + pushed);
+  const Eigen::VectorXd answer = (after + push_) - (g + pushed) - air_ * change;
   const double square = change.dot(weighted);
   if (square > 0.0 && change.dot(answer) >= least_share_of_mass * square) {
     inertia() += (answer - inertia() * change) * weighted.transpose() / square;
@@ -237,7 +326,10 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
 
 template <int Dim>
 void BodyCoupling<Dim>::carry_over() {
+  const std::vector<double> pressure = flow_.state.particles.pressure;
+  subtract_air(flow_);
   const Eigen::VectorXd g = residual();
+  flow_.state.particles.pressure = pressure;
   std::vector<BodyState<Dim>>& bodies = flow_.state.motion.bodies.each;
   for (BodyState<Dim>& body : bodies) body.carried_over.setZero();
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {

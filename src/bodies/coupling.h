@@ -7,7 +7,9 @@
 // their particles; F(p) is the reaction of the water's pair forces, so that water and bodies keep their momentum
 // together. Taking F at the last A instead would blow up for every body lighter than the water that goes with it. The
 // iteration is Newton's, with the derivative of M A - F(p(A)), which is mass and added mass, measured once and then
-// kept up to date by Broyden's (1965) updates, from step to step: some two solves in a step.
+// kept up to date by Broyden's (1965) updates, from step to step: some two solves in a step. Beside pockets of air the
+// pressures of these are found in each pass, with the motion of that pass; what the gas adds to the derivative is
+// known.
 #pragma once
 
 #include <limits>
@@ -57,6 +59,10 @@ class BodyCoupling {
   double size(const Eigen::VectorXd& force) const;
   void measure_inertia(const Eigen::VectorXd& g, double tolerance, SolveReport& report);
   Eigen::Map<Eigen::MatrixXd> inertia();
+  Eigen::VectorXd on_freedoms(const std::vector<Twist<Dim>>& forces) const;
+  std::vector<Twist<Dim>> forces_of(std::vector<double> pressure, const std::vector<double>& air) const;
+  void meet_air();
+  void balance_air();
 
   Flow<Dim>& flow_;
   const StepStart<Dim>& start_;
@@ -71,6 +77,7 @@ class BodyCoupling {
   std::vector<Twist<Dim>> loads_;  ///< on each body: all but pressure, contacts and lines; the same in all passes
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
   Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom
+  Eigen::MatrixXd air_;                   ///< force per acceleration that the air of pockets adds to the inertia
   double largest_force_ = 0.0;            ///< size of the largest force in the last residual
 };
 

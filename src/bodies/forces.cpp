@@ -1,6 +1,7 @@
 #include "bodies/forces.h"
 
 #include "pressure/operators.h"
+#include "pressure/pockets.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -94,6 +95,16 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_gaps(const std::vector<double>& 
   gaps.visit_forces(pressure, [&](int body, const Vec<Dim>& x, const Vec<Dim>& force) {
     if (is_root) sums.add(body, x, force);
   });
+  return sums.gather();
+}
+
+template <int Dim>
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_air(std::span<const double> pressures) const {
+  ForceSums<Dim> sums(flow_, time_);
+  for (const PocketWall<Dim>& wall : flow_.sides.walls) {
+    if (!flow_.setup.ranks.is_root()) break;
+    sums.add(flow_.setup.body_of_wall[wall.wall], wall.x, pressure_at<Dim>(wall, pressures) * wall.area);
+  }
   return sums.gather();
 }
 

@@ -21,6 +21,8 @@ class ForcesOnBodies {
                                       const std::vector<CoveredParticle<Dim>>& covered) const;
   /// By the water in gaps that are too narrow for particles, in a pressure field that is up to date. Collective.
   std::vector<Twist<Dim>> of_gaps(const std::vector<double>& pressure, const NarrowGaps<Dim>& gaps) const;
+  /// By the air of pockets with these pressures [Pa], whose part has been taken out of the other two.
+  std::vector<Twist<Dim>> of_air(std::span<const double> pressures) const;
   /// By the friction that the present step has found. Collective.
   std::vector<Twist<Dim>> of_friction() const;
   /// By what the last guard took from the water in front of bodies. Collective.

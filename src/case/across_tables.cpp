@@ -178,12 +178,6 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
                       name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust),
                       name_of(AirPockets::none)));
   }
-  if (!spec.bodies.empty()) {
-    wrong(
-        fmt::format("is not possible with floating bodies yet, whose motion is found with the pressure; give their "
-                    "walls a motion, or choose \"{}\"",
-                    name_of(AirPockets::none)));
-  }
 }
 
 /// Studies change parts of the robust formulations; the published ones have none of these.

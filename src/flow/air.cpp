@@ -29,7 +29,7 @@ void watch_air(Flow<Dim>& flow, double dt) {
   }
   const double time = flow.state.time;
   state.displacement += std::max(dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow)),
-                        flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion));
+                                 flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion));
 }
 
 TAILWATER_IN_2D_AND_3D(watch_air);

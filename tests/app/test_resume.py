@@ -38,7 +38,9 @@ BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull'
          "centre=[0.6, 0.6], inertia=[17]}]", "--set", "mooring=[{body='barge', at=[0.2, 0.3], anchor=[0, 0], "
          "stiffness=100}]", "--set", "probe=[{name='barge', type='motion', body='barge'}, {name='energy', "
          "type='energy'}]")
-POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}]", "--set", "air={pockets='adiabatic', pressure=1000}",
+POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}, {name='hull', shape='box', min=[0.2, 0.3], "
+          "max=[1, 1.1], fluid_side='outside'}]", "--set", "body=[{name='barge', walls=['hull'], mass=160, "
+          "centre=[0.6, 0.6], inertia=[17]}]", "--set", "air={pockets='adiabatic', pressure=1000}",
           "--set", "pocket=[{at=[2.9, 1.9], overpressure=-50}]", "--set", "vent=[{at=[2.9, 1.9], area=0.01}]", "--set",
           "probe=[{name='air', type='pockets'}, {name='seldom', type='pockets', interval=0.03}]",
           "--set", "fluid[0].velocity=[1, 0]")
@@ -59,7 +61,7 @@ FEATURES = {
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,
     "three dimensions and multigrid": (*CUBE, "--set", "pressure_solver.preconditioner=gamg"),
-    "a pocket of air that leaves through a vent": POCKET,
+    "a pocket of air that leaves through a vent, and a body beside it": POCKET,
     "a published formulation": ("--set", "scheme.name=farmani2020", "--set", "scheme.formulation=published"),
 }
 WARN = ("--set", "limits.volume_warning=1e-9")
