@@ -62,11 +62,7 @@ FlowFormulation<Dim> robust_farmani(const CaseSpec& spec) {
   return formulation;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                   \
-  template FlowFormulation<Dim> robust_farzin<Dim>(const CaseSpec&); \
-  template FlowFormulation<Dim> robust_farmani<Dim>(const CaseSpec&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(robust_farzin);
+TAILWATER_IN_2D_AND_3D(robust_farmani);
 
 }  // namespace tailwater

@@ -69,7 +69,6 @@ void see_water_in_front(const WallScene<Dim>& scene, double spacing, std::span<d
   for_each(raised.size(), [&](std::size_t i) { interior[i] = std::max(interior[i], raised[i]); });
 }
 
-template void see_water_in_front<2>(const WallScene<2>&, double, std::span<double>);
-template void see_water_in_front<3>(const WallScene<3>&, double, std::span<double>);
+TAILWATER_IN_2D_AND_3D(see_water_in_front);
 
 }  // namespace tailwater
