@@ -26,7 +26,7 @@ test("a case: what was measured, an error at its place, the time it takes, and r
     assert.equal(await page.$eval(".cm-lintRange-error", (e) => e.textContent), "-0.04");
     assert.match((await page.$eval(".found .error", (e) => e.textContent)) ?? "", /line 4: particles.spacing = -0.04/);
     await put("spacing = -0.04", "spacing = 0.05");
-    await put("end = 1.0", "end = 0.3");
+    await put("end = 1.0", "end = 0.6");
     await page.waitForFunction("!document.querySelector('.found .error') && !document.querySelector('button.primary').disabled");
     await page.focus("[aria-label=Ranks]");
     await page.keyboard.press("ArrowUp");
