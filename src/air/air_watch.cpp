@@ -71,7 +71,8 @@ void AirWatch<Dim>::forget() {
   forget_responses();
 }
 
-/// Whether another wall is less than dx/2 in front of a face, near a place on it: neither water nor air gets through.
+/// Whether another wall is less than dx/2 in front of x, the centre of a cell within dx/4 of a face. This closes all
+/// gaps of less than dx/4 to air.
 template <int Dim>
 bool AirWatch<Dim>::is_in_gap(const Boundary<Dim>& boundary, int face, const Vec<Dim>& x) const {
   const Vec<Dim> in_front = x + 0.5 * spacing_ * boundary.faces[face].normal;
