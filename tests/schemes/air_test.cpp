@@ -14,6 +14,7 @@
 #include "flow/measure.h"
 #include "flow/verbs.h"
 #include "schemes/cases.h"
+#include "schemes/oscillation.h"
 #include "support/dimensions.h"
 #include "support/record.h"
 
@@ -137,10 +138,7 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
   const double omega = std::sqrt(1.4 * atmosphere / (density * water_height * air_height));
   const double dt = 2.0 * std::numbers::pi / omega / steps_per_period;
   Flow<Dim> flow = make_flow<Dim>(spec);
-  std::vector<double> turns;
-  std::vector<double> largest;  // velocity between them
-  double before = mean_velocity(flow);
-  double most = std::abs(before);
+  Oscillation oscillation(mean_velocity(flow));
   Motion found;
   double first_energy = 0.0;
   double least_energy = 0.0;
@@ -153,22 +151,14 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
     if (n == 1) first_energy = least_energy = energy;  // the first step finds the pocket
     if (n > 1) found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
     if (n > 1) least_energy = std::min(least_energy, energy);
-    const double now = mean_velocity(flow);
     const double pressure = measure_air(flow).pressure;
     found.largest_pressure = std::max(found.largest_pressure, pressure);
-    if (turns.size() < 2 && pressure > half_pressure) found.impulse_time += dt;
-    if (before < 0.0 && now >= 0.0) {
-      turns.push_back(flow.state.time - dt * now / (now - before));
-      largest.push_back(most);
-      most = 0.0;
-    }
-    most = std::max(most, std::abs(now));
-    before = now;
+    if (oscillation.turns() < 2 && pressure > half_pressure) found.impulse_time += dt;
+    oscillation.add(flow.state.time, dt, mean_velocity(flow));
   }
-  if (turns.size() < 3) return found;
-  const auto rounds = static_cast<double>(turns.size() - 1);
-  found.period = (turns.back() - turns.front()) / rounds;
-  found.kept = std::pow(largest.back() / largest[1], 1.0 / (rounds - 1.0));
+  if (oscillation.turns() < 3) return found;
+  found.period = oscillation.period();
+  found.kept = oscillation.kept();
   return found;
 }
 
