@@ -48,8 +48,9 @@ def joined(entries):
 
 
 def without_instantiations(source):
-    """The source, with empty lines for `template class Name<2>;` and its like."""
-    return re.sub(r"^template (?!<)[^;{]*;", lambda found: "\n" * found[0].count("\n"), source, flags=re.MULTILINE)
+    """The source, with empty lines for `template class Name<2>;`, `TAILWATER_IN_2D_AND_3D(name);` and their like."""
+    return re.sub(r"^(template (?!<)|TAILWATER_IN_2D_AND_3D\()[^;{]*;", lambda found: "\n" * found[0].count("\n"),
+                  source, flags=re.MULTILINE)
 
 
 def copied(source, root, folder):
