@@ -165,17 +165,21 @@ std::filesystem::path FrameSeries<Dim>::file_of(std::size_t index) const {
 }
 
 template <int Dim>
-void FrameSeries<Dim>::make_folder() const {
+void FrameSeries<Dim>::write_into_folder(const std::filesystem::path& path, const std::string& text) const {
   std::error_code ignored;  // the file that is written next tells what is wrong
   std::filesystem::create_directory(folder_, ignored);
+  try {
+    write_text_file(path, text);
+  } catch (const IoError&) {
+    const bool is_gone = std::filesystem::create_directory(folder_, ignored);
+    if (!is_gone) throw;
+    write_text_file(path, text);
+  }
 }
 
 template <int Dim>
 void FrameSeries<Dim>::write_beside(std::string_view name, const std::string& text, const Communicator& ranks) const {
-  do_on_root(ranks, [&] {
-    make_folder();
-    write_text_file(folder_ / name, text);
-  });
+  do_on_root(ranks, [&] { write_into_folder(folder_ / name, text); });
 }
 
 template <int Dim>
@@ -240,10 +244,7 @@ void FrameSeries<Dim>::write(const WaterNow<Dim>& water, const Communicator& ran
                .poses = {}},
               gather(water, ranks)};
   for (const AffineMap<Dim>& pose : water.poses) frame.head.poses.push_back(numbers_of(pose));
-  do_on_root(ranks, [&] {
-    make_folder();
-    write_text_file(file_of(count_), encode_frame(frame, before_));
-  });
+  do_on_root(ranks, [&] { write_into_folder(file_of(count_), encode_frame(frame, before_)); });
   before_.last_but_one = std::exchange(before_.last, std::move(frame.particles));
   ++count_;
 }

@@ -46,7 +46,8 @@ class FrameSeries {
 
  private:
   std::filesystem::path file_of(std::size_t index) const;
-  void make_folder() const;
+  /// Writes a file of the stream. Whoever needs no more of it may remove the folder at any time: it is made anew.
+  void write_into_folder(const std::filesystem::path& path, const std::string& text) const;
   FrameScale scale_for(std::span<const double> extremes, std::size_t scalars) const;
   FrameParticles gather(const WaterNow<Dim>& water, const Communicator& ranks) const;
   std::optional<Frame> read_back(std::size_t count);
