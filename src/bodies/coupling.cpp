@@ -112,8 +112,8 @@ void BodyCoupling<Dim>::balance_air() {
   }
 }
 
-/// G, the force of 1 Pa in each pocket on each degree of freedom, is by how much an acceleration makes the pocket grow,
-/// too: the gas adds dt^2 G S G^T to the inertia, with its stiffness S.
+/// G, the force of 1 Pa in each pocket on each degree of freedom, times dt^2/2 is by how much an acceleration makes the
+/// pocket grow: the gas adds dt^2/2 G S G^T to the inertia, with its stiffness S.
 template <int Dim>
 void BodyCoupling<Dim>::meet_air() {
   air_ = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
@@ -131,7 +131,7 @@ void BodyCoupling<Dim>::meet_air() {
   const Eigen::MatrixXd answer = dt_ * G.transpose() * resisting.fullPivLu().solve(G);
   std::vector<double>& mobility = flow_.sides.mobility;
   for (Eigen::Index k = 0; k < pockets; ++k) mobility.push_back(std::max(0.0, answer(k, k)));
-  air_ = dt_ * dt_ * G * stiffness_of_air(flow_, dt_) * G.transpose();
+  air_ = 0.5 * dt_ * dt_ * G * stiffness_of_air(flow_, dt_) * G.transpose();
 }
 
 template <int Dim>

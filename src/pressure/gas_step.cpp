@@ -13,25 +13,22 @@ namespace {
 constexpr int most_steps = 50;
 constexpr double settled = 1e-10;  // of the atmosphere
 
+/// Share of the velocity at the end of a step in that with which pockets grow, and of the pressure at the end with
+/// which a slow pulsation keeps its energy.
+constexpr double half = 0.5;
+
 }  // namespace
 
 GasStep::GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings,
-                 const std::vector<double>& mobility, const Eigen::MatrixXd& answers, bool with_mean, double dt)
-    : law_(law),
-      pockets_(pockets),
-      openings_(openings),
-      mobility_(mobility),
-      dt_(dt),
-      share_(with_mean ? 0.5 : 1.0),
-      mean_(with_mean ? 0.5 : 0.0),
-      answers_(dt * share_ * answers) {}
+                 const std::vector<double>& mobility, const Eigen::MatrixXd& answers, double dt)
+    : law_(law), pockets_(pockets), openings_(openings), mobility_(mobility), dt_(dt), answers_(half * dt * answers) {}
 
 void GasStep::set_flow(const std::vector<double>& now, const std::vector<double>& before,
                        const std::vector<double>& walls) {
   const auto count = static_cast<Eigen::Index>(now.size());
   constant_.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    constant_[k] = dt_ * (share_ * now[k] + (1.0 - share_) * before[k] + walls[k]);
+    constant_[k] = dt_ * (half * (now[k] + before[k]) + walls[k]);
   }
 }
 
@@ -75,14 +72,14 @@ double GasStep::slope_after(Eigen::Index k, double volume) const {
   return (pressure_after(k, volume + little) - pressure_after(k, volume - little)) / (2.0 * little);
 }
 
-/// How much of the pressure is that at the end of the step. With the square s of a pulsation's frequency times dt,
-/// s/(4 + s) is enough damping for any s, and damps what is resolved by some s^1.5 per period.
+/// How much of the pressure is that at the end of the step: with the square s of a pulsation's frequency times dt, half
+/// and s/(8 + 2s), which damps what is resolved by some s^1.5 per period.
 Eigen::VectorXd GasStep::blend() const {
   Eigen::VectorXd theta(answers_.rows());
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const double answer = std::max(0.0, answers_(k, k)) / share_ + (mobility_.empty() ? 0.0 : dt_ * mobility_[k]);
+    const double answer = std::max(0.0, answers_(k, k)) / half + (mobility_.empty() ? 0.0 : dt_ * mobility_[k]);
     const double square = -law_.slope(pockets_[k].gas, pockets_[k].volume) * answer;
-    theta[k] = mean_ + (1.0 - mean_) * square / (4.0 + square);
+    theta[k] = half + half * square / (4.0 + square);
   }
   return theta;
 }

@@ -15,14 +15,14 @@ class GasStep {
   /// Of pockets whose growth answers the pressures, by water [m^Dim/s per Pa] with `answers` of each (row) to each, and
   /// by bodies that float with `mobility` of each to its own, empty without bodies. All are kept by reference.
   GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings,
-          const std::vector<double>& mobility, const Eigen::MatrixXd& answers, bool with_mean, double dt);
+          const std::vector<double>& mobility, const Eigen::MatrixXd& answers, double dt);
 
   /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
   void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls);
 
-  /// The pressures [Pa] with which gas and water agree. The pressure in the step is between that of the gas at its
-  /// start and at its end: at the start (or in the middle, if the water moves with the mean of its old and new
-  /// velocity) a pulsation keeps its energy. The stiffer the gas, the nearer it is to that at the end.
+  /// The pressures [Pa] with which gas and water agree. Pockets grow with the mean of the water's velocities at both
+  /// ends of the step, so the mean of the gas's pressures at both ends does as much work on the water as the gas loses.
+  /// The stiffer the gas, the nearer the pressure is to that at the end.
   std::vector<double> solve() const;
 
   /// By how much [Pa] the pressures (rows) fall for each m^Dim that walls leave the pockets (columns) in the step.
@@ -39,8 +39,6 @@ class GasStep {
   const std::vector<double>& openings_;
   const std::vector<double>& mobility_;
   double dt_;
-  double share_;  ///< of the new velocity in that which moves the water
-  double mean_;   ///< share of the pressure at the end with which a slow pulsation keeps its energy
   Eigen::MatrixXd answers_;
   Eigen::VectorXd constant_;
 };

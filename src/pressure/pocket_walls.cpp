@@ -19,7 +19,8 @@ std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
   std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
   if (dt == 0.0) return growth;
   const double time = flow.state.time;
-  const MotionState<Dim>& state = flow.state.motion;
+  MotionState<Dim> state = flow.state.motion;
+  for (BodyState<Dim>& body : state.bodies.each) body.velocity -= 0.5 * dt * body.acceleration;
   for (const auto& moving : flow.setup.wall_motion.moving()) {
     const AffineMap<Dim> now = moving.at(time, state);
     const AffineMap<Dim> velocity = moving.mean_velocity(time, time + dt, state);

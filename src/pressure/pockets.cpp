@@ -211,13 +211,7 @@ double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double
 
 template <int Dim>
 GasStep gas_step_of(const Flow<Dim>& flow, double dt) {
-  return {flow.air.law(),
-          flow.state.air.pockets,
-          flow.air.openings(),
-          flow.sides.mobility,
-          flow.sides.answers,
-          flow.setup.formulation.moves_with_mean_velocity,
-          dt};
+  return {flow.air.law(), flow.state.air.pockets, flow.air.openings(), flow.sides.mobility, flow.sides.answers, dt};
 }
 
 }  // namespace
@@ -305,11 +299,10 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
     velocity[side.particle] += dt / flow.setup.density * sides.pressure_at(side) * side.push;
   });
   const std::vector<double> flow_after = growth(flow, [&](std::size_t n) { return velocity[sides.water[n].particle]; });
-  const double share = flow.setup.formulation.moves_with_mean_velocity ? 0.5 : 1.0;
   const std::vector<double> by_walls = growth_by_walls(flow, dt);
   for (std::size_t k = 0; k < flow_after.size(); ++k) {
     AirPocket& pocket = flow.state.air.pockets[k];
-    const double rate = share * flow_after[k] + (1.0 - share) * sides.flow_before[k] + by_walls[k];
+    const double rate = 0.5 * (sides.flow_before[k] + flow_after[k]) + by_walls[k];
     const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
     sides.work += change_pocket(pocket, volume, flow.air.law(), flow.air.openings()[k], dt, flow.state.air);
   }

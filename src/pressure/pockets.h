@@ -49,12 +49,13 @@ void add_air_of(Flow<Dim>& flow, std::span<const double> pressures, std::vector<
 template <int Dim>
 void add_air(Flow<Dim>& flow, double dt);
 
-/// The force of the pockets on the water during dt, after that of the water's pressure; the pockets grow with the new
-/// velocity, or with the mean of the old and the new, as the water moves. Collective.
+/// The force of the pockets on the water during dt, after that of the water's pressure; the pockets grow with the mean
+/// of the water's old and new velocity. Collective.
 template <int Dim>
 void push_by_pockets(Flow<Dim>& flow, double dt);
 
-/// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on.
+/// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on: those that are driven by their
+/// way, bodies by the mean of their velocities at both ends of the step.
 template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt);
 

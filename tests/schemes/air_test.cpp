@@ -114,22 +114,20 @@ Exact exact_motion(double speed) {
 struct Motion {
   double period = 0.0;            ///< s
   double kept = 0.0;              ///< of the largest velocity, per period
-  double energy_rise = 0.0;       ///< of water and gas at one moment, over what they had after the first step
+  double energy_rise = 0.0;       ///< of water and gas, over what they had at the start
+  double rise_until_turn = 0.0;   ///< the same until the water moves upwards
   double largest_pressure = 0.0;  ///< Pa
   double impulse_time = 0.0;      ///< s; with more than `half_pressure`
 };
 
-/// The kinetic energy of the water at the start of a step. Where its velocity is that between two places, it is that of
-/// the middle of a step; the product with the one before is what oscillations keep.
+/// J; of water and gas, with what was lost in vents and without what setting volumes right has brought. Where water
+/// moves with its new velocity, its place is half a step of dt ahead: the potential energy is that of half a step ago.
 template <int Dim>
-double energy_at_start(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& velocity_before) {
-  return sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
-    if (!flow.state.particles.is_fluid(i)) return 0.0;
-    const Vec<Dim>& before = velocity_before[i];
-    const bool is_between = !flow.setup.formulation.moves_with_mean_velocity;
-    const Vec<Dim>& after = is_between ? flow.state.particles.velocity[i] : before;
-    return 0.5 * density * flow.state.particles.volume[i] * before.dot(after);
-  });
+double energy_of_all(const Flow<Dim>& flow, double dt) {
+  const double ahead = flow.setup.formulation.moves_with_mean_velocity ? 0.0 : 0.5 * dt * mean_velocity(flow);
+  const double weight = -fluid_sums_of_rank(flow).mass * flow.setup.gravity[Dim - 1];
+  const AirState& air = flow.state.air;
+  return measure(flow).energy() - weight * ahead + measure_air(flow).energy + air.energy_vented - air.energy_set;
 }
 
 /// Moves the column for a number of small oscillations, in steps of a fraction of one.
@@ -140,17 +138,15 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
   Flow<Dim> flow = make_flow<Dim>(spec);
   Oscillation oscillation(mean_velocity(flow));
   Motion found;
-  double first_energy = 0.0;
-  double least_energy = 0.0;
+  const double first_energy = energy_of_all(flow, dt);
+  double least_energy = first_energy;
   for (int n = 0; n < periods * steps_per_period; ++n) {
     if (n % 10 == 0) sort_particles(flow);
-    const std::vector<Vec<Dim>> velocity_before = flow.state.particles.velocity;
-    const double gas = measure_air(flow).energy;
     advance(flow, dt);
-    const double energy = gas + energy_at_start(flow, velocity_before);
-    if (n == 1) first_energy = least_energy = energy;  // the first step finds the pocket
-    if (n > 1) found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
-    if (n > 1) least_energy = std::min(least_energy, energy);
+    const double energy = energy_of_all(flow, dt);
+    found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
+    least_energy = std::min(least_energy, energy);
+    if (oscillation.turns() == 0) found.rise_until_turn = found.energy_rise;
     const double pressure = measure_air(flow).pressure;
     found.largest_pressure = std::max(found.largest_pressure, pressure);
     if (oscillation.turns() < 2 && pressure > half_pressure) found.impulse_time += dt;
@@ -201,7 +197,8 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
   }
 }
 
-// Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. The fastest is
+// Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. A pocket that begins
+// while water closes it at full speed may bring no energy: water and gas gain nothing until they turn. The fastest is
 // thrown back at 65 g, at which any disturbance grows; walls make one, and the pressure lasts longer, with the two-step
 // scheme from 6 m/s on (docs/theory/air.md).
 TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
@@ -219,6 +216,8 @@ TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
       const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(found.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(found.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
+      EXPECT_LT(found.rise_until_turn, 1e-4) << speed;
+      record_error("air_cushion_energy_rise", 2, speed, found.rise_until_turn);
       record_error("air_cushion_pressure", 2, speed, found.largest_pressure / exact.largest_pressure - 1.0);
     }
   }
@@ -256,7 +255,7 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
     spec.vents = {vent};
     Flow<2> flow = make_flow<2>(spec);
     start(flow);
-    const double energy = measure(flow).energy();
+    const double energy = energy_of_all(flow, dt);
     Fall exact;
     double error_of_velocity = 0.0;
     double error_of_pressure = 0.0;
@@ -266,11 +265,9 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
     double energy_rise = 0.0;
     while (flow.state.time < 0.3) {
       if (flow.state.step % 10 == 0) sort_particles(flow);
-      const std::vector<Vec<2>> velocity_before = flow.state.particles.velocity;
-      const double others = measure(flow).potential_energy + measure_air(flow).energy + flow.state.air.energy_vented;
       advance(flow, dt);
-      const double energy_now = others + energy_at_start(flow, velocity_before);
-      if (flow.state.step > 1) energy_rise = std::max(energy_rise, energy_now - least_energy);
+      const double energy_now = energy_of_all(flow, dt);
+      energy_rise = std::max(energy_rise, energy_now - least_energy);
       least_energy = std::min(least_energy, energy_now);
       for (int n = 0; n < 200; ++n) exact.go_on(dt / 200.0, area / std::sqrt(vent.loss) / width);
       largest_velocity = std::max(largest_velocity, std::abs(exact.velocity));
