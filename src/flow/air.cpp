@@ -27,6 +27,7 @@ void watch_air(Flow<Dim>& flow, double dt) {
   if (flow.air.is_due(state)) {
     flow.air.look(flow.walls, places_of_vents(flow), flow.state.particles, flow.setup.ranks, state);
   }
+  if (!state.pockets.empty()) return;  // what is beside them is known in the step (push_by_pockets)
   const double time = flow.state.time;
   state.displacement += std::max(dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow)),
                                  flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion));
