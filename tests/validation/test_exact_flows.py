@@ -456,6 +456,16 @@ spacing = 0.1
             self.assertAlmostEqual(late["front_error"], 0, delta=self.DX)
             self.assertGreater(late["profile_error"], 1e-3)
 
+    def test_place_of_a_bore_and_its_splash(self):
+        x = np.arange(0.005, 10, 0.01)
+        bore = np.where(x < 4, 0.5, 0.2)
+        self.assertAlmostEqual(shallow_water.place_of_bore(x, bore, 0.2, 0.0), 4, places=9)
+        self.assertAlmostEqual(shallow_water.place_of_bore(x, bore, 0.2, 1.0), 4, places=9)
+        # Water 0.1 thick that has been thrown 0.3 ahead adds its volume, 0.03/0.3, at most twice.
+        splash = np.where((x > 4) & (x < 4.3), 0.3, bore)
+        self.assertLess(shallow_water.place_of_bore(x, splash, 0.2, 0.0) - 4, 2 * 0.03 / 0.3)
+        self.assertGreater(shallow_water.place_of_bore(x, splash, 0.2, 0.0), 4)
+
     def test_known_errors_come_back(self):
         numbers = shallow_water.ritter_dam_break(self.run_with(lambda x, T: 1.02 * shallow_water.ritter(x / T)))
         self.assertAlmostEqual(numbers["discharge_error"], 0.02, delta=self.DX)

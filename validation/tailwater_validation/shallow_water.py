@@ -179,14 +179,22 @@ def last_place(x, depth, level):
     return x[k] + (depth[k] - level) / (depth[k] - depth[k + 1]) * (x[k + 1] - x[k])
 
 
+def place_of_bore(x, depth, still, start):
+    """Of a bore onto water of the depth `still`, behind which the depth is even from x = `start` on: twice as far from
+    there as the middle of the water that it has brought. The splashes of its roller hardly move that."""
+    above = np.where(x > start, depth - still, 0.0)
+    return start + 2 * float((x - start) @ above) / float(above.sum())
+
+
 def volume_ahead(x, depth, still):
     """Water that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
     return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
 
 
-def shallow_dam_break(run, exact, still, discharge, level, speed):
-    """Numbers that both dam breaks have. A real dam break needs the time sqrt(h0/g) to become shallow: it lags behind by
-    a length that stays, so speeds and the discharge are slopes over T, and the profile is the last one's."""
+def shallow_dam_break(run, exact, still, discharge, front, speed):
+    """Numbers that both dam breaks have; `speed` is that of the place front(x, depth). A real dam break needs the time
+    sqrt(h0/g) to become shallow: it lags behind by a length that stays, so speeds and the discharge are slopes over T,
+    and the profile is the last one's."""
     profiles = late_profiles(run)
     if len(profiles) < 3:
         raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
@@ -194,7 +202,7 @@ def shallow_dam_break(run, exact, still, discharge, level, speed):
     inside = (x > -1.2 * T) & (x < 2.0 * T)
     return {
         "discharge_error": speed_of(profiles, partial(volume_ahead, still=still)) / discharge - 1,
-        "front_error": speed_of(profiles, partial(last_place, level=level)) / speed - 1,
+        "front_error": speed_of(profiles, front) / speed - 1,
         "profile_error": rms(depth[inside] - exact(x[inside] / T)),
     }
 
@@ -204,19 +212,21 @@ def ritter_dam_break(run):
     at the last profile. front_error: of the speed of the place where the depth is TIP, relative. profile_error: rms over
     h0 of the last profile."""
     _, x, depth = late_profiles(run)[-1]
-    return shallow_dam_break(run, ritter, 0.0, 8 / 27, TIP, 2 - 3 * math.sqrt(TIP)) | {
+    front = partial(last_place, level=TIP)
+    return shallow_dam_break(run, ritter, 0.0, 8 / 27, front, 2 - 3 * math.sqrt(TIP)) | {
         "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
 
 
 def stoker_dam_break(run):
-    """discharge_error and profile_error as for Ritter's; front_error: of the speed of the bore, where the depth is halfway;
-    plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile, relative."""
+    """discharge_error and profile_error as for Ritter's; front_error: of the speed of the bore, whose place is that of its
+    mass; plateau_error: of the mean depth over the middle half between rarefaction and bore, at the last profile."""
     still = run.parameters["h1"] / run.parameters["h0"]
     level, speed, bore = stoker_state(still)
     T, x, depth = late_profiles(run)[-1]
     tail = speed - math.sqrt(level)
     middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
-    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, 0.5 * (level + still), bore) | {
+    front = partial(place_of_bore, still=still, start=max(tail, 0.0) * T)
+    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, front, bore) | {
         "plateau_error": float(depth[middle].mean()) / level - 1}
 
 
