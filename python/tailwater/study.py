@@ -9,6 +9,8 @@ import math
 import os
 from pathlib import Path
 
+import numpy as np
+
 from . import uncertainty
 from .errors import DataError, InputError
 from .sweep import sweep
@@ -16,9 +18,11 @@ from .sweep import sweep
 __all__ = ["Study", "study"]
 
 COARSEST = 2.0  # times the spacing of the case, or of the finest run
-SPACINGS = 4
+SPACINGS = 5
 STARTS = 3
 JITTER = 0.01  # of dx: enough for what is chance to take another course
+FITS = 0.001  # of the water: what a start may have more or less than another spacing gives
+MISFIT = 0.01  # of the water: from here on it is told
 LEAST_RANGE = 1.5  # the least that the finest run must be finer than the coarsest one
 # A run's cost grows with 1/spacing: particles to the power of the dimension, steps, and a little for the solver.
 COST_POWER = 1.3
@@ -112,6 +116,10 @@ class Study:
         if self.step:
             told += "; half of the time step"
         lines = [told + (f", at {self._base.spacing:.4g} m" if self._base else "")]
+        off, spacing = max((misfit(run.spacing, lengths_of_water(run.case)), run.spacing) for run in self.runs)
+        if off > MISFIT:
+            lines.append(f"rows of {spacing:.4g} m do not fit the water, of which there is up to {100 * off:.1f} % more or "
+                         "less than the case says: spacings that divide its lengths narrow the intervals")
         for row in self.rows:
             parts = ", ".join(f"{name} {number(row[name])}" for name in ("discretisation", "chance", "step"))
             lines.append(f"{row['probe']}, {row['quantity']}: {number(row['value'])} +- {number(row['uncertainty'])} "
@@ -151,6 +159,46 @@ def ladder(coarsest, finest, count=SPACINGS):
     return [float(f"{coarsest * ratio**k:.4g}") for k in range(1, count)]
 
 
+def lengths_of_water(case):
+    """Of the blocks that a run starts with, in m: their edges, and the depths of what is filled up to a level. `case` is
+    that of a run. A block has whole rows of particles, each with the volume of a cell: if the rows do not fit, the run
+    has more or less water than the case says. None where water comes and goes: there the ends say how much there is."""
+    if case.get("inlet") or case.get("outlet"):
+        return np.zeros(0)
+    heights = [point[-1] for wall in case.get("wall", []) for point in wall.get("points", [])]
+    found = []
+    for fluid in case.get("fluid", []):
+        if fluid["shape"] == "box":
+            found += [high - low for low, high in zip(fluid["min"], fluid["max"])]
+        elif fluid["shape"] == "fill" and heights:
+            found.append(fluid["level"] - min(heights))
+    return np.array([length for length in found if length > 0])
+
+
+def misfit(spacing, lengths):
+    """By how much of itself the water is too long, or too short, in the worst direction of the worst block."""
+    rows = lengths / spacing
+    return float(np.abs(np.round(rows) / rows - 1).max(initial=0.0))
+
+
+def fitting(spacing, lengths, within):
+    """The spacing nearest to this one, and not further from it than the share `within`, that fits the water as well as
+    any there, to 0.1 %."""
+    rows = range(1, math.ceil(lengths.max(initial=0.0) / (spacing * (1 - within))) + 1)
+    near = [spacing, *(length / n for length in lengths for n in rows if abs(length / n / spacing - 1) <= within)]
+    least = min(misfit(one, lengths) for one in near)
+    return min((one for one in near if misfit(one, lengths) <= least + FITS), key=lambda one: abs(math.log(one / spacing)))
+
+
+def fitted_ladder(coarsest, finest, case, keeps_finest):
+    """The ladder below `coarsest`, whose spacings, but the last if it is to be kept, give way to ones that fit the water of
+    `case`."""
+    below = ladder(coarsest, finest)
+    lengths, within = lengths_of_water(case), 0.35 * (coarsest / below[0] - 1)
+    fitted = [float(f"{fitting(spacing, lengths, within):.6g}") for spacing in below]
+    return [*fitted[:-1], below[-1]] if keeps_finest else fitted
+
+
 def finest_within(coarsest, seconds, budget, dimension, extra):
     """The finest spacing with which the whole study, of which the coarsest run took `seconds`, takes `budget`."""
     def cost(finest):
@@ -183,8 +231,9 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
     NAME_study; called again it goes on with what is not done.
 
-    `spacings`: three or more, in m. Without them they are four, from twice the case's own down to that; with a `budget`
-    in seconds of computing time (of one process), down to what fits it. `starts` runs with other random displacements
+    `spacings`: three or more, in m. Without them they are five, from twice the case's own down to that; with a `budget`
+    in seconds of computing time (of one process), down to what fits it. Those between are such that whole rows of
+    particles fit the water, where that is near. `starts` runs with other random displacements
     of the particles at the start, and one with half of the time step if `step`, are of the second coarsest spacing.
     `quantities(run)` are numbers of your own, as {(name, quantity): (value, unit)}, in place of what probes have found.
     Throws InputError before anything is run; DataError if a run fails."""
@@ -207,7 +256,8 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
         if budget is not None:
             finest = finest_within(coarsest, coarse[0].summary["cost"]["cpu_s"], budget, coarse[0].dimension,
                                    starts + 2 * step)
-        finer = sweep(case, {"particles.spacing": ladder(coarsest, finest)}, out=out / "spacings", **runner)
+        below = fitted_ladder(coarsest, finest, coarse[0].case, keeps_finest=budget is None)
+        finer = sweep(case, {"particles.spacing": below}, out=out / "spacings", **runner)
         runs = [*coarse, *done(finer, "a coarser one")]
     base = sorted(runs, key=lambda run: run.spacing)[-2]
     at_base = case.copy().update({"particles.spacing": base.spacing})

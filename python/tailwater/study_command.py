@@ -56,7 +56,7 @@ def change(text):
 def parser():
     command = Parser("tailwater study")
     command.description = ("Run a case at several spacings, from other starts and with half of the time step, and say "
-                           "for each number of its probes how well it is known: value, interval, limit, order "
+                           "for each number of its probes how well it is known: value, limit with its interval, order "
                            "(docs/theory/uncertainty.md).")
     command.epilog = ("Called again it goes on with what is not done. DIR/study.csv, study.json and study.txt have the "
                       "table. Example: tailwater study my.toml --out my_study --budget 20min --jobs 2")
@@ -65,7 +65,7 @@ def parser():
     command.add_argument("--set", action="append", type=change, default=[], metavar="KEY=VALUE",
                          help="change a value of the case")
     command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three spacings or more, in m (default: "
-                         "four, from twice that of the case down to it)")
+                         "five, from twice that of the case down to it)")
     command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, as in 90, 20min or 1.5h, that "
                          "chooses the finest spacing")
     command.add_argument("--starts", type=count, default=3, metavar="N", help="runs from other starts (3)")

@@ -5,10 +5,11 @@ import json
 import unittest
 from pathlib import Path
 
+import numpy as np
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import study_command
-from tailwater.study import finest_within, ladder
+from tailwater.study import finest_within, fitting, ladder, misfit
 from tailwater.uncertainty import estimate
 
 
@@ -64,7 +65,14 @@ class Studies(PackageTest):
 
 class Budgets(unittest.TestCase):
     def test_ladder_goes_down_by_one_factor(self):
-        self.assertEqual(ladder(0.2, 0.025), [0.1, 0.05, 0.025])
+        self.assertEqual(ladder(0.2, 0.025, 4), [0.1, 0.05, 0.025])
+
+    def test_spacings_fit_the_water(self):
+        block = np.array([1.0, 0.2])
+        self.assertAlmostEqual(misfit(0.0625, block), 1 - 3 * 0.0625 / 0.2)
+        self.assertAlmostEqual(fitting(0.0625, block, 0.1), 1 / 15)
+        self.assertEqual(fitting(0.05, block, 0.1), 0.05)
+        self.assertEqual(fitting(0.0625, np.zeros(0), 0.1), 0.0625)
 
     def test_budget_is_what_all_runs_take(self):
         finest = finest_within(0.1, 2.0, 1000.0, 2, extra=5)
