@@ -27,7 +27,7 @@ LEAST_RANGE = 1.5  # the least that the finest run must be finer than the coarse
 # A run's cost grows with 1/spacing: particles to the power of the dimension, steps, and a little for the solver.
 COST_POWER = 1.3
 COLUMNS = ("probe", "quantity", "unit", "value", "low", "high", "limit", "order", "uncertainty", "discretisation",
-           "chance", "step", "form", "notes")
+           "chance", "step", "eca_hoekstra", "notes")
 
 
 def quantities_of(run) -> dict:
@@ -56,8 +56,8 @@ def cell(value) -> str:
     return "" if value is None else value
 
 
-def number(value) -> str:
-    return "-" if value is None or math.isnan(value) else f"{value:.4g}"
+def number(value, digits=4) -> str:
+    return "-" if value is None or math.isnan(value) else f"{value:.{digits}g}"
 
 
 class Study:
@@ -84,32 +84,32 @@ class Study:
     def _rows(self, quantities):
         of_runs = [quantities(run) for run in self.runs]
         of_starts = [quantities(run) for run in ([self._base, *self.starts] if self.starts else [])]
-        of_step = [quantities(run) for run in ([self._base, self.step] if self.step else [])]
+        of_step = quantities(self.step) if self.step else {}
         rows = []
         for key, (_, unit) in of_runs[0].items():
-            if not all(key in found for found in [*of_runs, *of_starts, *of_step]):
+            if not all(key in found for found in [*of_runs, *of_starts, *([of_step] if self.step else [])]):
                 continue  # of a probe that has no reading in one of the runs there is nothing to compare
             values = [found[key][0] for found in of_runs]
-            found = uncertainty.estimate(self.spacings, values, starts=[found[key][0] for found in of_starts],
-                                         step=tuple(found[key][0] for found in of_step) or None)
-            rows.append({"probe": key[0], "quantity": key[1], "unit": unit, "value": found.value, "low": found.low,
-                         "high": found.high, "limit": found.limit, "order": found.order,
-                         "uncertainty": found.uncertainty, "discretisation": found.discretisation,
-                         "chance": found.chance, "step": found.step, "form": found.form,
-                         "notes": "; ".join(found.notes), "values": values})
+            starts = {self._base.spacing: [found[key][0] for found in of_starts]} if of_starts else {}
+            found = uncertainty.estimate(self.spacings, values, starts=starts,
+                                         step=(self._base.spacing, of_step[key][0]) if of_step else None)
+            told = {name: getattr(found, name) for name in COLUMNS[3:-1]}
+            rows.append({"probe": key[0], "quantity": key[1], "unit": unit, **told, "notes": "; ".join(found.notes),
+                         "values": values})
         return rows
 
     def table(self):
-        """A pandas.DataFrame over probe and quantity: `value` (that of the finest run) with `low` and `high`; `limit`
-        and `order`; of the interval's half width, `uncertainty`, what `discretisation`, `chance` and the time `step`
-        are of it; `notes` on what to make of it."""
+        """A pandas.DataFrame over probe and quantity: `value` (that of the finest run); `limit`, which is between `low`
+        and `high` 95 times of 100; `order`; of the interval's half width, `uncertainty`, what `discretisation` and
+        `chance` are of it; what half of the time `step` changes; `eca_hoekstra`, the uncertainty of the value by the
+        method of Eca & Hoekstra; `notes` on what narrows the interval."""
         import pandas
 
         return pandas.DataFrame([{name: row[name] for name in COLUMNS} for row in self.rows],
                                 columns=COLUMNS).set_index(["probe", "quantity"])
 
     def text(self) -> str:
-        """The table in words, a line or two for each number."""
+        """The table in words, two or three lines for each number."""
         told = f"spacings {', '.join(f'{spacing:.4g}' for spacing in self.spacings)} m"
         if self.starts:
             told += f"; {len(self.starts)} other starts"
@@ -121,9 +121,12 @@ class Study:
             lines.append(f"rows of {spacing:.4g} m do not fit the water, of which there is up to {100 * off:.1f} % more or "
                          "less than the case says: spacings that divide its lengths narrow the intervals")
         for row in self.rows:
-            parts = ", ".join(f"{name} {number(row[name])}" for name in ("discretisation", "chance", "step"))
-            lines.append(f"{row['probe']}, {row['quantity']}: {number(row['value'])} +- {number(row['uncertainty'])} "
-                         f"{row['unit']} (limit {number(row['limit'])}, order {number(row['order'])}; {parts})")
+            share = row["uncertainty"] / abs(row["limit"]) if row["limit"] else math.inf
+            percent = f" (+- {100 * share:.2g} %)" if share < 1 else ""
+            lines.append(f"{row['probe']}, {row['quantity']}: {number(row['value'])} {row['unit']}; limit "
+                         f"{number(row['limit'])}, within {number(row['low'])} to {number(row['high'])}{percent}")
+            parts = ", ".join(f"{name} {number(row[name], 2)}" for name in ("discretisation", "chance", "step"))
+            lines.append(f"    {parts}; order {number(row['order'], 2)}; Eca & Hoekstra +- {number(row['eca_hoekstra'], 2)}")
             if row["notes"]:
                 lines.append(f"    {row['notes']}")
         return "\n".join(lines) + "\n"

@@ -1,23 +1,35 @@
 """How well a number is known that was computed at several spacings: its limit, its order, and an interval.
 
-The method is that of L. Eca and M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD
-calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130, for values that scatter about their
-trend; docs/theory/uncertainty.md has it, with what it cannot do."""
+`estimate` is a probabilistic Richardson extrapolation (Oates, Karvonen, Teckentrup, Strocchi, Niederer 2024, Probabilistic
+Richardson extrapolation, arXiv:2401.07562) with chance in the values (Oliver, Malaya, Ulerich, Moser 2014, Estimating
+uncertainties in statistics computed from direct numerical simulation, Phys. Fluids 26, 035101). `extrapolate` is the
+method of L. Eca and M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD calculations based on
+grid refinement studies, J. Comput. Phys. 262 (2014) 104-130. docs/theory/uncertainty.md has both, with what they cannot
+do."""
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import product
 
 import numpy as np
 
 from .errors import DataError
 
-__all__ = ["Estimate", "Extrapolation", "chance_of", "estimate", "extrapolate"]
+__all__ = ["Estimate", "Extrapolation", "estimate", "extrapolate"]
 
 LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0  # of an error that can be believed to go on so
 SAFE, UNSAFE = 1.25, 3.0  # factors on the error that was found
 ORDERS = np.linspace(0.05, 8.0, 160)  # that are looked through, before the best is made precise
-# Of Student's distribution, by degrees of freedom: within how many standard deviations the mean is, 95 times of 100.
-STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
+# What `estimate` thinks possible before it sees values, all of it alike. An error begins with the first or the half
+# power of the spacing and has TERMS powers, each higher by 1.
+FIRST_POWERS, TERMS = (0.5, 1.0), 3
+SIZES = np.geomspace(0.3, 30.0, 9)  # of the terms at the coarsest spacing, over the spread of the values
+STEPS = (0.01, 0.1, 1.0)  # of the error of the time step there, over that size
+SCATTERS = (0.02, 0.06, 0.2)  # of values about such an error, over its size: of how the particles lie at walls
+CHANCES = np.geomspace(1e-3, 2.0, 10)  # standard deviation of one run, over the spread
+HIDDEN = 3.9  # standard deviations: five values that differ by chance alone differ by less, 95 times of 100
+CERTAIN = 0.95  # that the limit is inside the interval
 ROUNDING = 1e-12  # of the values: what spreads less is one number
 
 
@@ -109,67 +121,143 @@ def extrapolate(spacings, values) -> Extrapolation:
     return Extrapolation(limit, order, error, scatter, spread, uncertainty, form)
 
 
-def chance_of(values) -> float:
-    """Within how much of it one value is of the mean of all such, 95 times of 100, from a few that differ by chance
-    alone; nan of less than two."""
-    values = np.asarray(values, dtype=float)
-    if values.size < 2:
-        return math.nan
-    factor = STUDENT[min(values.size - 1, len(STUDENT)) - 1]
-    return factor * float(values.std(ddof=1))
+@dataclass(frozen=True)
+class Hypotheses:
+    """What may be behind values at some spacings, one entry each: for each the mean of the limit is `weights @ values`."""
+
+    weights: np.ndarray  # [entry, spacing]
+    deviation: np.ndarray  # of the limit
+    misfit: np.ndarray  # [entry, spacing, spacing]: values @ misfit @ values is the sum of the squares that is left
+    evidence: np.ndarray  # logarithm of their likelihood but for the misfit
+    chance: np.ndarray  # standard deviation of one run
+    of_chance: np.ndarray  # what it does to the limit
 
 
-def amplification(spacings) -> float:
-    """By how much chance in values at these spacings is larger in the limit of a straight line through them."""
-    h = np.asarray(spacings, dtype=float)
-    away = h - h.mean()
-    weights = 1 / h.size - h.mean() * away / (away @ away)
-    return max(1.0, float(np.linalg.norm(weights)))
+@lru_cache(maxsize=8)
+def hypotheses(h, steps, counts):
+    """For values that are means of `counts` runs at the spacings `h` with these `steps` in time over the usual one, and
+    spread by about 1. The prior of the limit is flat; all else is Gaussian."""
+    x = np.array(h) / max(h)
+    of_step, is_same = np.outer(x * steps, x * steps), x[:, None] == x
+    covariances, chances = [], []
+    for first, size, step, scatter, chance in product(FIRST_POWERS, SIZES, STEPS, SCATTERS, CHANCES):
+        terms = x[:, None] ** (first + np.arange(TERMS))
+        covariances.append(size**2 * (terms @ terms.T + step**2 * of_step + scatter**2 * is_same)
+                           + chance**2 * np.diag(1 / np.array(counts)))
+        chances.append(chance)
+    covariance, chance = np.array(covariances), np.array(chances)
+    inverse = np.linalg.inv(covariance)
+    row = inverse.sum(axis=1)
+    total = row.sum(axis=1)
+    weights = row / total[:, None]
+    return Hypotheses(weights, 1 / np.sqrt(total), inverse - row[:, :, None] * weights[:, None, :],
+                      -0.5 * (np.linalg.slogdet(covariance)[1] + np.log(total)), chance,
+                      chance * np.sqrt(weights**2 @ (1 / np.array(counts))))
+
+
+def quantile(share, weights, means, deviations):
+    """Of a sum of normal distributions, by bisection."""
+    low, high = float((means - 9 * deviations).min()), float((means + 9 * deviations).max())
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        below = weights @ [0.5 * math.erfc(z) for z in (means - middle) / (math.sqrt(2) * deviations)]
+        low, high = (middle, high) if below < share else (low, middle)
+    return 0.5 * (low + high)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Where the limit of several values is."""
+
+    mean: float
+    low: float
+    high: float
+    chance: float  # of (high - low)/2, with squares that add up; nan if no values from other starts tell it
+    discretisation: float  # the rest
+
+
+def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
+    """Of the means of `counts` runs at each of the spacings `h` and these `steps` over the usual ones. One run's `variance`
+    was found with so many degrees of freedom, which may be 0."""
+    scale = max(float(np.ptp(means)), math.sqrt(variance))
+    if scale <= ROUNDING * float(abs(means).max()):
+        return Limit(float(means[0]), float(means[0]), float(means[0]), 0.0 if freedom else math.nan, 0.0)
+    known = hypotheses(tuple(h), tuple(steps), tuple(counts))
+    value, squares = (means - means[0]) / scale, variance / scale**2
+    evidence = (known.evidence - 0.5 * np.einsum("i,kij,j->k", value, known.misfit, value)
+                - 0.5 * freedom * (2 * np.log(known.chance) + squares / known.chance**2))
+    weights = np.exp(evidence - evidence.max())
+    kept = weights > 1e-5
+    weights = weights[kept] / weights[kept].sum()
+    at, deviation, of_chance = known.weights[kept] @ value, known.deviation[kept], known.of_chance[kept]
+    mean = float(weights @ at)
+    low, high = (quantile(share, weights, at, deviation) for share in (0.5 - 0.5 * CERTAIN, 0.5 + 0.5 * CERTAIN))
+    share = float(weights @ of_chance**2) / float(weights @ (deviation**2 + (at - mean)**2)) if freedom else 0.0
+    half = 0.5 * scale * (high - low)
+    return Limit(float(means[0]) + scale * mean, float(means[0]) + scale * low, float(means[0]) + scale * high,
+                 half * math.sqrt(share) if freedom else math.nan, half * math.sqrt(max(0.0, 1 - share)))
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """One number with an interval: `value` is that of the finest spacing."""
+    """One number with an interval that has its limit in it, 95 times of 100."""
 
-    value: float
-    uncertainty: float  # either way: the root of the sum of the squares of the three
-    limit: float
-    order: float
-    discretisation: float
+    value: float  # of the finest spacing
+    low: float
+    high: float
+    limit: float  # the mean of what it may be
+    order: float  # that was observed; nan if none
+    discretisation: float  # of half the width of the interval; the root of the sum of its squares and those of chance
     chance: float  # nan where no run from another start says it
-    step: float  # likewise, by half of the time step
-    form: str
+    step: float  # what half of the time step changes; nan where no run says it. A part of the discretisation
+    eca_hoekstra: float  # the uncertainty of `value`, either way, by the method of Eca & Hoekstra
     notes: list = field(default_factory=list)
 
     @property
-    def low(self) -> float:
-        return self.value - self.uncertainty
-
-    @property
-    def high(self) -> float:
-        return self.value + self.uncertainty
+    def uncertainty(self) -> float:
+        """Half of the width of the interval."""
+        return 0.5 * (self.high - self.low)
 
 
-def estimate(spacings, values, *, starts=(), step=None) -> Estimate:
-    """`values` at `spacings`; `starts`, the values of one spacing from several starts; `step`, the two at one spacing
-    with the time step and half of it. What chance does to a value it does more to a limit. Throws as `extrapolate`."""
-    found = extrapolate(spacings, values)
-    chance = chance_of(starts) * amplification(spacings)
-    of_step = abs(step[0] - step[1]) if step else math.nan
-    parts = [found.uncertainty, *(part for part in (chance, of_step) if not math.isnan(part))]
-    value = float(np.asarray(values, dtype=float)[int(np.argmin(spacings))])
-    notes = []
-    if found.form == "none":
-        notes.append("all spacings give one value")
-    elif math.isnan(found.order):
-        notes.append("no order: the values do not come nearer to a limit")
-    elif found.form != "h^p":
-        notes.append(f"the observed order is not between {LEAST_ORDER:g} and {LARGEST_ORDER:g}: {found.form} is taken")
-    if found.scatter >= found.spread > 0:
-        notes.append("the values scatter as much as they change with the spacing")
-    if len(values) == 3 and found.form == "h^p":
-        notes.append("three spacings give an order that nothing confirms")
-    if not math.isnan(chance) and found.spread > 0 and chance > abs(found.error) + found.scatter:
-        notes.append("chance is more than the spacing does: longer means help, finer spacings do not")
-    return Estimate(value, math.hypot(*parts), found.limit, found.order, found.uncertainty, chance, of_step, found.form,
-                    notes)
+def notes_on(found, order, is_hidden, step):
+    """What to make of a Limit; `is_hidden` if chance may be all that the values differ by."""
+    half = 0.5 * (found.high - found.low)
+    if half == 0:
+        return ["all spacings give one value"]
+    notes = ["no order: the values do not come nearer to a limit"] if math.isnan(order) else []
+    if is_hidden:
+        notes.append("the values differ by no more than chance: longer means and more starts narrow the interval")
+    elif found.chance > found.discretisation:
+        notes.append("mostly chance: longer means and more starts narrow the interval")
+    else:
+        notes.append("mostly discretisation: finer spacings narrow the interval")
+    if step > 0.5 * half:
+        notes.append("half of the time step changes the value by much of it: a smaller scheme.courant narrows it, too")
+    return notes
+
+
+def estimate(spacings, values, *, starts=None, step=None) -> Estimate:
+    """`values` at `spacings`; `starts`, {spacing: values of that spacing from several starts, all that there are};
+    `step`, (spacing, value with half of the time step). Throws DataError as `extrapolate`, and for starts or a step at
+    another spacing."""
+    starts = {spacing: np.asarray(each, dtype=float) for spacing, each in (starts or {}).items()}
+    if others := {*starts, *(step[:1] if step else ())} - set(spacings):
+        raise DataError(f"starts or a step at {min(others):g}, a spacing that has no value")
+    means = np.array([starts[h].mean() if h in starts else value for h, value in zip(spacings, values)], dtype=float)
+    eca_hoekstra = extrapolate(spacings, means)
+    freedom = sum(len(each) - 1 for each in starts.values())
+    variance = sum(float(each.var()) * len(each) for each in starts.values()) / freedom if freedom else 0.0
+    # The finest first, the one with half of the step last.
+    members = [(float(h), 1.0, mean, len(starts.get(h, [0]))) for h, mean in sorted(zip(spacings, means))]
+    of_step = math.nan
+    if step:
+        of_step = abs(float(means[list(spacings).index(step[0])]) - step[1])
+        if not math.isfinite(of_step):
+            raise DataError("the value with half of the time step is not a finite number")
+        members.append((float(step[0]), 0.5, step[1], 1))
+    h, steps, of_members, counts = zip(*members)
+    found = limit_of(h, steps, np.array(of_members), counts, variance, freedom)
+    is_hidden = np.ptp(means) < HIDDEN * math.sqrt(variance)
+    return Estimate(float(values[int(np.argmin(spacings))]), found.low, found.high, found.mean, eca_hoekstra.order,
+                    found.discretisation, found.chance, of_step, eca_hoekstra.uncertainty,
+                    notes_on(found, eca_hoekstra.order, is_hidden, of_step))

@@ -111,7 +111,7 @@ export interface StudyRow {
   probe: string;
   quantity: string;
   unit: string;
-  /** Of the finest run; `uncertainty` is half the width of its interval, `low` to `high`. */
+  /** Of the finest run; `uncertainty` is half the width of the interval of the limit, `low` to `high`. */
   value: number;
   low: number;
   high: number;

@@ -9,7 +9,7 @@ import { Table } from "./tables.tsx";
 /** The columns of study.csv, with their digits. */
 const numbers = [["value", 4], ["uncertainty", 2], ["low", 4], ["high", 4], ["limit", 4], ["order", 2], ["discretisation", 2], ["chance", 2], ["step", 2]] as const;
 
-/** Values by spacing, their limit at 0, and the interval of the finest. */
+/** Values by spacing, and their limit at 0 with its interval. */
 function panel({ spacings_m: x }: SpacingStudy, row: StudyRow): Panel {
   const level = (label: string, y: number | null, kind: "exact" | "aside" = "aside") => ({ label, kind, x: [0, Math.max(...x)], y: [y, y] });
   return {
@@ -22,7 +22,7 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
   const ways = app.state!.runs.map(({ id, name }) => <button onClick={() => void app.watch(id, 0)}>{name}</button>);
   return (
     <Paper away={away} label="Runs" ways={<p class="see">{ways}</p>}>
-      <p class="faint">Spacings of {study.spacings_m.map((dx) => number(dx)).join(", ")} m; a value is that of the finest.</p>
+      <p class="faint">Spacings of {study.spacings_m.map((dx) => number(dx)).join(", ")} m; a value is that of the finest, and its limit is between low and high 95 times of 100.</p>
       <Table head={[["probe"], ["quantity"], ["unit"], ...numbers.map(([word]): [string, boolean] => [word, true])]}>
         {study.results.map((row) => (
           <>
