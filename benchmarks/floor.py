@@ -52,9 +52,9 @@ def pair_vector(d):
 # At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
 # to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
-    Pass("search", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 3 * d * candidates(d) + SLOPE),
+    Pass("search", lambda d: INDEX, lambda d: INDEX, lambda d: 3 * d * candidates(d) + SLOPE),
     # With what shifts go by: the crowding here, the mean of `interior` with the moment correction.
-    Pass("kernel sums", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 5 * d + 8),
+    Pass("kernel sums", lambda d: INDEX, lambda d: 0, lambda d: 2 * d**2 + 5 * d + 8),
     Pass("interior", lambda d: INDEX, lambda d: INDEX, lambda d: 4),
     Pass("moment correction", lambda d: INDEX, lambda d: INDEX, lambda d: 2 * d**2 + 2 * d + 15),
     Pass("closing: pose", lambda d: INDEX + SINGLE, lambda d: INDEX,
@@ -62,13 +62,13 @@ PASSES = (
     Pass("closing: two sweeps", lambda d: 2 * (INDEX + SINGLE), lambda d: 2 * INDEX, lambda d: 2 * (2 * d + 1)),
     Pass("closing: close", lambda d: INDEX + SINGLE, lambda d: INDEX,
          lambda d: 5 * d + pair_vector(d)),
-    Pass("velocity gradient", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
-    Pass("viscosity and noise", lambda d: INDEX + SINGLE, lambda d: INDEX,
+    Pass("velocity gradient", lambda d: INDEX, lambda d: 0, lambda d: 2 * d**2 + 2 * d),
+    Pass("viscosity and noise", lambda d: INDEX, lambda d: INDEX,
          lambda d: 5 * d**2 + 18 * d + 11 + pair_vector(d)),
-    Pass("divergence, source; weights", lambda d: 2 * INDEX + 3 * SINGLE,
+    Pass("divergence, source; weights", lambda d: 2 * INDEX + SINGLE,
          lambda d: INDEX + SINGLE, lambda d: 5 * d + 4 + pair_vector(d)),
-    Pass("gradient", lambda d: INDEX + SINGLE, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
-    Pass("divergence, reported", lambda d: INDEX + SINGLE, lambda d: 0, lambda d: 3 * d + 1 + pair_vector(d), 0.2),
+    Pass("gradient", lambda d: INDEX, lambda d: INDEX, lambda d: 2 * d + 2 + pair_vector(d)),
+    Pass("divergence, reported", lambda d: INDEX, lambda d: 0, lambda d: 3 * d + 1 + pair_vector(d), 0.2),
 )
 AT_BEST_NEVER = "divergence, reported"
 

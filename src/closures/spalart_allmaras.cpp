@@ -14,7 +14,7 @@ double diffusion(const Pairs<Dim>& pairs, const Particles<Dim>& particles, doubl
     if (!particles.is_fluid(j)) continue;
     const double mean = molecular + 0.5 * (nu[i] + nu[j]);
     const double weight = (1.0 + c_b2) * mean - c_b2 * (molecular + nu[i]);
-    sum += weight * morris_laplacian_weight(particles.volume[j], pairs.F[k], pairs.d(i, k).squaredNorm(), spacing) *
+    sum += weight * morris_laplacian_weight(particles.volume[j], pairs.F(i, k), pairs.d(i, k).squaredNorm(), spacing) *
            (nu[j] - nu[i]);
   }
   return sum / sigma;

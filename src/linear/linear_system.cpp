@@ -22,7 +22,6 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  // At first, and in one piece of the size of the pairs' slopes, which may have left such a place free (find_pairs.h).
   make_room(weights_, columns.size());
   weights_.resize(columns.size());
   const std::size_t rows = row_begin.size() - 1;
@@ -54,9 +53,11 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   has_ghosts_ = ranks_.any(has_ghosts);
 }
 
-void LinearSystem::forget_weights() {
-  columns_ = {};
-  UnwrittenArray<float>().swap(weights_);
+std::span<float> LinearSystem::room_of_weights(std::size_t count) {
+  TAILWATER_ASSERT(columns_.empty(), "there are no weights");
+  make_room(weights_, count);
+  weights_.resize(count);
+  return weights_;
 }
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {

@@ -84,8 +84,12 @@ class LinearSystem {
   /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
-  /// Frees all weights. Only the right-hand sides stay, until the next pattern is set.
-  void forget_weights();
+  /// Forgets all weights. Only the right-hand sides stay, until the next pattern is set.
+  void forget_weights() { columns_ = {}; }
+
+  /// The room of the weights, for so many numbers of somebody else. There must be no weights; a new pattern takes it
+  /// back. Two arrays of this size that came and went would leave holes in memory that other arrays divide.
+  std::span<float> room_of_weights(std::size_t count);
 
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
   void set_cells(Cells cells) { cells_ = std::move(cells); }

@@ -114,6 +114,13 @@ class IndexList {
   std::size_t count_ = 0;
 };
 
+/// What a search finds of a row.
+struct Row {
+  std::size_t size;
+  bool sees_wall;
+  bool is_crowded;  ///< some neighbours are nearer than the least distance
+};
+
 /// All that may be neighbours of the particles of a group, number by number, so that they are read in lanes. They have
 /// the order of a row: indices below the group, the group, indices above it, ghosts.
 template <int Dim>
@@ -155,12 +162,11 @@ class Candidates {
 
   std::size_t size() const { return count_; }
 
-  /// Writes the neighbours of particle i of the group to `j` and the squares of their distances [m^2] to `squared`, and
-  /// up to a batch beyond both. Returns how many there are.
-  std::size_t write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j, float* squared,
-                               std::uint8_t& sees_wall) const {
+  /// Writes the neighbours of particle i of the group to `j`, and up to a batch beyond them.
+  Row write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) const {
     const double radius = kernel_radius(pairs.kernel);
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
+    const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
     const Place<Dim> own = pairs.place[i];
     const std::array<float, Dim> unit = pairs.unit;
     // Out of the vectors, so that a loop that writes keeps the addresses in registers.
@@ -171,6 +177,7 @@ class Candidates {
     const std::size_t count = count_;
     std::int32_t* end = j;
     IndexBatch walls{};
+    IndexBatch crowd{};
     for (std::size_t n = 0; n < count; n += batch) {
       FloatBatch distances;
       for (int m = 0; m < batch; m += lane_count) {
@@ -185,12 +192,10 @@ class Candidates {
       }
       const IndexBatch is_near = (distances < radius_squared) & (batch_at<IndexBatch>(index + n) != i);
       walls |= is_near & (batch_at<FloatBatch>(signed_volume + n) < 0.0F);
-      const unsigned near = bits_of(is_near);
-      write_chosen(reinterpret_cast<const float*>(&distances), near, squared + (end - j));
-      end = write_chosen(index + n, near, end);
+      crowd |= is_near & (distances < too_near);
+      end = write_chosen(index + n, bits_of(is_near), end);
     }
-    sees_wall = bits_of(walls != 0) != 0 ? 1 : 0;
-    return end - j;
+    return {static_cast<std::size_t>(end - j), bits_of(walls != 0) != 0, bits_of(crowd != 0) != 0};
   }
 
  private:
@@ -228,29 +233,12 @@ class Candidates {
   std::size_t count_ = 0;
 };
 
-/// Of row i finds F from the squares of distances [m^2]. Returns whether some are less than the least one's.
-template <int Dim>
-bool find_steepness(Pairs<Dim>& pairs, std::size_t i, const float* squared_distances) {
-  const Lanes least_squared = in_all_lanes(pairs.least_distance * pairs.least_distance);
-  const Lanes too_near = in_all_lanes(1.0 - parted_tolerance) * least_squared;
-  float* const F = pairs.F.data() + pairs.begin(i);
-  return with_kernel(pairs.kernel_in_lanes, [&](const auto& kernel) {
-    Lanes nearer{};
-    for_each_lanes(0, pairs.end(i) - pairs.begin(i), [&](auto range) {
-      const Lanes squared = range.load(squared_distances);
-      range.store(kernel.steepness(sqrt_of(max_of(squared, least_squared))), F + range.begin);
-      nearer = max_of(nearer, range.only(too_near - squared));
-    });
-    return any_of(nearer > Lanes{});
-  });
-}
-
 /// Of each two neighbours that are too near puts the one with the larger id where Pairs::d sees it, so that loops in
 /// lanes need not ask. A particle that sees both as ghosts sees them at one place.
 template <int Dim>
 void part_coinciding(Pairs<Dim>& pairs) {
   const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
-  // More than find_steepness finds too near, whatever was rounded there: what it finds again has moved.
+  // More than the search finds too near, whatever was rounded there: what it finds again has moved.
   const double too_near = (1.0 - 0.5 * parted_tolerance) * pairs.least_distance * pairs.least_distance;
   const auto squared_distance = [&](const Place<Dim>& a, const Place<Dim>& b) {
     double squared = 0.0;
@@ -290,39 +278,33 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
       for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(i);
     }
   };
-  const auto write_row = [&](std::size_t i, std::int32_t* j, float* squared) {
-    return candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j, squared, pairs.sees_wall[i]);
+  const auto write_row = [&](std::size_t i, std::int32_t* j) {
+    return candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j);
   };
   pairs.row_begin.resize(particles.owned + 1);
   pairs.row_begin[0] = 0;
   pairs.sees_wall.resize(particles.owned);
   // The first pairs are counted before they are kept; later ones are about as many as the last.
   std::size_t expected = pairs.j.size();
-  std::vector<float> squared;  // distances of a row
   if (expected == 0) {
     std::vector<std::int32_t> j;
     for_each_row([&](std::size_t i) {
       j.resize(std::max(j.size(), candidates.size() + batch));
-      squared.resize(j.size());
-      expected += write_row(i, j.data(), squared.data());
+      expected += write_row(i, j.data()).size;
     });
   }
   make_room(pairs.j, expected);
-  make_room(pairs.F, expected);
   std::size_t crowded = 0;
   for_each_row([&](std::size_t i) {  // in order: rows are put one behind the other
     const std::size_t begin = pairs.row_begin[i];
     const std::size_t most = begin + candidates.size() + batch;
-    if (most > pairs.j.size()) {
-      pairs.j.resize(std::max(most, pairs.j.capacity()));
-      pairs.F.resize(pairs.j.size());
-    }
-    if (candidates.size() + batch > squared.size()) squared.resize(candidates.size() + batch);
-    pairs.row_begin[i + 1] = begin + write_row(i, pairs.j.data() + begin, squared.data());
-    crowded += find_steepness(pairs, i, squared.data()) ? 1 : 0;
+    if (most > pairs.j.size()) pairs.j.resize(std::max(most, pairs.j.capacity()));
+    const Row row = write_row(i, pairs.j.data() + begin);
+    pairs.row_begin[i + 1] = begin + row.size;
+    pairs.sees_wall[i] = row.sees_wall ? 1 : 0;
+    crowded += row.is_crowded ? 1 : 0;
   });
   pairs.j.resize(pairs.row_begin.back());
-  pairs.F.resize(pairs.row_begin.back());
   return crowded;
 }
 
@@ -334,6 +316,7 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.position = particles.position;
   pairs.id = particles.id;
   pairs.least_distance = least_distance;
+  pairs.least_squared = static_cast<float>(least_distance * least_distance);
   pairs.kernel = kernel;
   pairs.kernel_in_lanes = in_single_precision(kernel);
   const FluidGrid<Dim> fluid(particles, kernel_radius(kernel));

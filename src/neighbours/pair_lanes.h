@@ -55,10 +55,14 @@ struct SeveralPairs {
     return lanes;
   }
 
-  /// 1/m^(Dim+2); of the kernel, 0 in lanes left over.
-  Lanes F() const { return range.load(pairs.F.data()); }  // NOLINT(readability-identifier-naming): as in formulas
+  /// m; between the particles, never 0.
+  Lanes distance(const VecLanes<Dim>& d) const { return sqrt_of(max_of(d.dot(d), Lanes{} + pairs.least_squared)); }
+  /// 1/m^(Dim+2); F = -(dW/dr)/r at these differences, 0 in lanes left over.
+  Lanes F(const VecLanes<Dim>& d) const {  // NOLINT(readability-identifier-naming): as in formulas
+    return range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d)));
+  }
   /// 1/m^Dim; W at these differences.
-  Lanes kernel_at(const VecLanes<Dim>& d) const { return kernel_value(pairs.kernel_in_lanes, sqrt_of(d.dot(d))); }
+  Lanes kernel_at(const VecLanes<Dim>& d) const { return kernel_value(pairs.kernel_in_lanes, distance(d)); }
   /// 1/m^Dim; W_ij, and 0 with walls and in lanes left over.
   Lanes kernel_of_fluid() const {
     const PlaceLanes<Dim> where = place();
@@ -75,6 +79,12 @@ template <int Dim>
 SeveralPairs<Dim, false> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
   const LaneRange<false> range{k, 1};
   return {pairs, i, range, range.neighbours(pairs.j.data())};
+}
+
+template <int Dim>
+float Pairs<Dim>::F(std::size_t i, std::size_t k) const {
+  const SeveralPairs<Dim, false> pair = one_pair(*this, i, k);
+  return pair.F(pair.place().d)[0];
 }
 
 /// Calls body(several), of SeveralPairs, for the pairs of particle i, in their order. What the body adds up stays in

@@ -1,5 +1,5 @@
-// The interacting pairs: compact neighbour rows, and for each pair the kernel's slope, which nearly every loop needs.
-// Nothing else is kept by pair: neighbours' places are in the cache, and an array with an entry per pair is not.
+// The interacting pairs: compact neighbour rows. Nothing else is kept by pair. Neighbours' places, from which all else
+// follows, are in the cache, and an array with an entry per pair is not.
 //
 // Loops over pairs compute in single precision (base/lanes.h). A position in single precision would not do: in a long
 // channel its rounding is a share of dx. Places are integers modulo 2^32 instead, in units so small that differences of
@@ -29,13 +29,13 @@ template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;   ///< owned + 1 entries
   UnwrittenArray<std::int32_t> j;       ///< neighbour: in each row those below i, those above it, then ghosts
-  UnwrittenArray<float> F;              ///< 1/m^(Dim+2); -(dW/dr)/r, never negative, so grad_i W_ij = -F d
   std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
   std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found; no two neighbours have the same
   std::array<float, Dim> unit{};        ///< m; of places
   std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;         ///< of all particles
   double least_distance = 0.0;          ///< m; two particles nearer than this count as this far apart
+  float least_squared = 0.0F;           ///< m^2; its square
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
   Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 
@@ -49,8 +49,11 @@ struct Pairs {
   double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }          ///< m; |r_ij|
   Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }  ///< unit vector along r_ij
   double value(std::size_t i, std::size_t k) const { return kernel_value(kernel, r(i, k)); }  ///< 1/m^Dim
-  double slope(std::size_t i, std::size_t k) const { return -F[k] * r(i, k); }                ///< 1/m^(Dim+1); dW/dr
-  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F[k] * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
+  /// 1/m^(Dim+2); F = -(dW/dr)/r as loops in lanes have it, never negative, so that grad_i W_ij = -F d. To call it,
+  /// and what follows, include pair_lanes.h.
+  float F(std::size_t i, std::size_t k) const;  // NOLINT(readability-identifier-naming): as in formulas
+  double slope(std::size_t i, std::size_t k) const { return -F(i, k) * r(i, k); }       ///< 1/m^(Dim+1); dW/dr
+  Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F(i, k) * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
 
   std::size_t begin(std::size_t i) const { return row_begin[i]; }
   std::size_t end(std::size_t i) const { return row_begin[i + 1]; }
@@ -69,14 +72,12 @@ void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
       if (!keep(i, k)) continue;
       if (pairs.place[pairs.j[k]].signed_volume < 0.0F) pairs.sees_wall[i] = 1;
       pairs.j[n] = pairs.j[k];
-      pairs.F[n] = pairs.F[k];
       ++n;
     }
     begin = end;
     pairs.row_begin[i + 1] = n;
   }
   pairs.j.resize(n);
-  pairs.F.resize(n);
 }
 
 }  // namespace tailwater

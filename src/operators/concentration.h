@@ -41,7 +41,7 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
     const Lanes W = several.kernel_at(place.d);
     const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
     const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
-    const VecLanes<Dim> weights = place.volume() * several.F() * place.d;
+    const VecLanes<Dim> weights = place.volume() * several.F(place.d) * place.d;
     concentration += place.volume() * W;
     gradient -= weights;
     crowding -= pairing * weights;

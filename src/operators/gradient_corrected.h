@@ -43,7 +43,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   MatLanes<Dim> sums{};
   for_each_pair(pairs, i, [&](const auto& several) {
     const PlaceLanes<Dim> place = several.place();
-    const Lanes weight = place.volume() * several.F();
+    const Lanes weight = place.volume() * several.F(place.d);
     const VecLanes<Dim> difference = several.of(field) - field[i];
     for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
   });
@@ -59,7 +59,7 @@ Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<con
   MatLanes<Dim> moments{};
   for_each_pair(pairs, i, [&](const auto& several) {
     const PlaceLanes<Dim> place = several.place();
-    const Lanes weight = place.volume_of_fluid() * several.F();
+    const Lanes weight = place.volume_of_fluid() * several.F(place.d);
     const VecLanes<Dim> difference = several.of(field) - field[i];
     for (int b = 0; b < Dim; ++b) {
       sums.column[b] -= weight * place.d.at[b] * difference;

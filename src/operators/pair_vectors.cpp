@@ -86,21 +86,24 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
 /// The equation for l, row by row.
 template <int Dim>
 struct ClosingEquation {
+  std::span<float> F;           ///< 1/m^(Dim+2); of each pair of a row with an equation, kept for the sweeps
   std::vector<double> weights;  ///< 1/m^2; sum_j w_j F_ij; 0: no equation
   std::vector<double> share;    ///< of l; the divisor is `weights` over it
   std::vector<Vec<Dim>> open;   ///< 1/m; b = -sum_j w_j a_ij with l = 0
   std::vector<Vec<Dim>> rhs;    ///< 1/m
 
-  explicit ClosingEquation(std::size_t count) : weights(count, 0.0), share(count), open(count), rhs(count) {}
+  ClosingEquation(std::size_t count, std::span<float> room)
+      : F(room), weights(count, 0.0), share(count), open(count), rhs(count) {}
 };
 
 /// Poses the equation for l. With b = -sum_j w_j a_ij of a_ij = -F (B_i + B_j)/2 d_ij, half of the faces are closed by
 /// the right-hand side b/2, and the force of the kernel's gradients is found by b - sum_j w_j F_ij d_ij.
 template <int Dim>
 ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input,
-                                           CorrectionReach reach, const PairVectorField<Dim>& unclosed) {
+                                           CorrectionReach reach, const PairVectorField<Dim>& unclosed,
+                                           std::span<float> room) {
   const bool to_surface = reach == CorrectionReach::surface;
-  ClosingEquation<Dim> equation(pairs.owned());
+  ClosingEquation<Dim> equation(pairs.owned(), room);
   for_each(pairs.owned(), [&](std::size_t i) {
     const double share = input.interior[i];
     equation.open[i].setZero();
@@ -112,7 +115,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     for_each_pair(pairs, i, [&](const auto& several) {
       const PairVectorLanes<Dim> pair = unclosed(several);
       const Lanes volume_j = pair.place.volume();
-      const Lanes weight = volume_j * pair.F;
+      const Lanes weight = volume_j * several.store(pair.F, equation.F.data() + pairs.begin(i));
       sums -= volume_j * pair.a;
       if (is_near_surface) kernel_sums += weight * pair.place.d;
       weights += weight;
@@ -129,9 +132,12 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
 
 /// sum_j w_j F_ij l_j [1/m], of w_j l_j
 template <int Dim>
-Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, std::span<const Four> weighted_l, std::size_t i) {
+Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, const ClosingEquation<Dim>& equation,
+                             std::span<const Four> weighted_l, std::size_t i) {
   VecLanes<Dim> sums{};
-  for_each_pair(pairs, i, [&](const auto& several) { sums += several.F() * several.of(weighted_l); });
+  for_each_pair(pairs, i, [&](const auto& several) {
+    sums += several.range.load(equation.F.data()) * several.of(weighted_l);
+  });
   return sum_of(sums);
 }
 
@@ -156,14 +162,15 @@ void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_v
 
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
-                                 CorrectionReach reach, int sweeps, PairVectorField<Dim>& pair_vectors,
-                                 std::vector<Vec<Dim>>& open_faces, std::span<double> mean_interior) {
+                                 CorrectionReach reach, int sweeps, std::span<float> room,
+                                 PairVectorField<Dim>& pair_vectors, std::vector<Vec<Dim>>& open_faces,
+                                 std::span<double> mean_interior) {
   const std::size_t size = input.volume.size();
   std::vector<Packed<Dim>> correction(size);
   find_moment_corrections<Dim>(pairs, input, reach, correction, mean_interior);
   halo.exchange(correction);
   begin(pairs, pair_vectors, [&](std::size_t i) { return correction[i]; });
-  const ClosingEquation<Dim> equation = pose_closing_equation<Dim>(pairs, input, reach, pair_vectors);
+  const ClosingEquation<Dim> equation = pose_closing_equation<Dim>(pairs, input, reach, pair_vectors, room);
 
   // Jacobi; the first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(size, Vec<Dim>::Zero());
@@ -173,7 +180,7 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
     for_each(pairs.owned(), [&](std::size_t i) {
       if (equation.weights[i] == 0.0) return;
       next[i] = equation.rhs[i];
-      if (n > 0) next[i] += sum_over_neighbours<Dim>(pairs, weighted_l, i);
+      if (n > 0) next[i] += sum_over_neighbours<Dim>(pairs, equation, weighted_l, i);
       next[i] *= equation.share[i] / equation.weights[i];
     });
     halo.exchange(next);
@@ -189,7 +196,7 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   for_each(pairs.owned(), [&](std::size_t i) {
     open_faces[i].setZero();
     if (equation.weights[i] == 0.0) return;
-    open_faces[i] = equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, weighted_l, i);
+    open_faces[i] = equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, equation, weighted_l, i);
   });
 }
 

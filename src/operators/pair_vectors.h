@@ -91,7 +91,8 @@ struct PairVectorField {
     constexpr std::size_t correction = offsetof(End, correction) / sizeof(float);
     const auto other = several.j.numbers(ends.data());
     const End& own = ends[several.i];
-    PairVectorLanes<Dim> pair{several.place_of(other), several.F(), {}};
+    PairVectorLanes<Dim> pair{several.place_of(other), {}, {}};
+    pair.F = several.F(pair.place.d);
     SymmetricLanes<Dim> corrections;
     for (int n = 0; n < symmetric_size<Dim>; ++n) corrections.packed[n] = own.correction[n] + other[correction + n];
     const VecLanes<Dim> corrected = corrections.times(pair.place.d);
@@ -112,10 +113,12 @@ void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_v
 
 /// The corrected vectors, and of each owned particle what they leave open of its faces, sum_j w_j a_ij [1/m], after so
 /// many sweeps; with the reach `inside` only where `interior` is not 0, elsewhere 0. Found on the way, where `interior`
-/// is not 0: its mean over the fluid neighbours, weighted with the kernel. Collective.
+/// is not 0: its mean over the fluid neighbours, weighted with the kernel. `room` has an entry per pair, of which
+/// nothing is read but what was written here. Collective.
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
-                                 CorrectionReach reach, int sweeps, PairVectorField<Dim>& pair_vectors,
-                                 std::vector<Vec<Dim>>& open_faces, std::span<double> mean_interior);
+                                 CorrectionReach reach, int sweeps, std::span<float> room,
+                                 PairVectorField<Dim>& pair_vectors, std::vector<Vec<Dim>>& open_faces,
+                                 std::span<double> mean_interior);
 
 }  // namespace tailwater

@@ -36,7 +36,7 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
     for_each_pair(pairs, i, [&](const auto& several) {
       const VecLanes<Dim> d = several.place().d;
       const Lanes share = share_of_morris_weight(d.dot(d), spacing);
-      sums += several.store(2.0F * share * several.of(volume_taking_part) * several.F(), weights);
+      sums += several.store(2.0F * share * several.of(volume_taking_part) * several.F(d), weights);
     });
     return sums.total();
   });

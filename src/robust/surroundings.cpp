@@ -37,7 +37,8 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
   find_corrected_pair_vectors<Dim>(
       flow.pairs(), flow.halo(),
       {kernel_radius(flow.setup.kernel), particles.volume, particles.kind, here.interior, here.first_moment}, reach,
-      closing_sweeps(reach), here.pair_vectors, here.open_faces, here.mean_interior);
+      closing_sweeps(reach), flow.pressure_rows.room_of_weights(flow.pairs().j.size()), here.pair_vectors,
+      here.open_faces, here.mean_interior);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                         \

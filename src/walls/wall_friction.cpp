@@ -17,7 +17,7 @@ template <int Dim>
 double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double volume, std::size_t i, std::size_t k,
                        double spacing) {
   return scene.walls.friction[row] *
-         morris_laplacian_weight(volume, scene.pairs.F[k], scene.pairs.d(i, k).squaredNorm(), spacing);
+         morris_laplacian_weight(volume, scene.pairs.F(i, k), scene.pairs.d(i, k).squaredNorm(), spacing);
 }
 
 /// Calls visit(j, row, weight, k) for each particle of walls with friction in reach of fluid particle i.

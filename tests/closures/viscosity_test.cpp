@@ -55,7 +55,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       const double weight =
-          w_i * morris_laplacian_weight(set.particles.volume[j], pairs.F[k], pairs.d(i, k).squaredNorm(), dx) * 0.5 *
+          w_i * morris_laplacian_weight(set.particles.volume[j], pairs.F(i, k), pairs.d(i, k).squaredNorm(), dx) * 0.5 *
           (viscosity[i] + viscosity[j]);
       pair_power -= 0.5 * weight * (velocity[i] - velocity[j]).squaredNorm();
       forces += weight * (velocity[i] - velocity[j]).norm();

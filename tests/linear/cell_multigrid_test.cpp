@@ -42,7 +42,7 @@ struct Tank {
       weights.emplace_back(pairs.end(i) - pairs.begin(i), 0.0);
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         if (!is_water[i] && !is_water[pairs.j[k]]) continue;  // walls look at water only
-        weights[i][k - pairs.begin(i)] = static_cast<float>(is_water[i] ? pairs.F[k] : pairs.value(i, k));
+        weights[i][k - pairs.begin(i)] = static_cast<float>(is_water[i] ? pairs.F(i, k) : pairs.value(i, k));
         sum[i] += weights[i][k - pairs.begin(i)];
       }
     }

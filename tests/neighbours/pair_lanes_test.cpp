@@ -32,10 +32,7 @@ struct Rows {
     particles.resize(count);
     pairs.row_begin.push_back(0);
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        pairs.j.push_back(static_cast<std::int32_t>(j));
-        pairs.F.push_back(single());
-      }
+      for (std::size_t j = 0; j < i; ++j) pairs.j.push_back(static_cast<std::int32_t>(j));
       pairs.row_begin.push_back(pairs.j.size());
       particles.position[i] = Vec<Dim>::NullaryExpr([&] { return origin + number(random); });
       particles.volume[i] = single();
@@ -76,7 +73,7 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
       const auto& range = several.range;
       const PlaceLanes<Dim> place = several.place();
       const Lanes W = several.kernel_at(place.d);
-      const Lanes F = several.F();
+      const Lanes F = several.F(place.d);
       const std::array<Lanes, 16> record = several.j.numbers(rows.records.data());
       const Lanes field = several.of(rows.field);
       const VecLanes<Dim> vectors = several.of(fours);
@@ -90,7 +87,9 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
         const bool is_fluid = neighbour % 3 != 0;
         ++visits[k];
         EXPECT_NEAR(W[n], pairs.value(i, k), 16.0 * single_eps * kernel_value(pairs.kernel, 0.0));
-        EXPECT_EQ(F[n], pairs.F[k]);
+        EXPECT_EQ(F[n], pairs.F(i, k));
+        EXPECT_NEAR(F[n], kernel_steepness(pairs.kernel, pairs.r(i, k)),
+                    64.0 * single_eps * kernel_value(pairs.kernel, 0.0));
         for (int m = 0; m < 16; ++m) EXPECT_EQ(record[m][n], rows.records[neighbour].at[m]);
         EXPECT_EQ(field[n], static_cast<float>(rows.field[neighbour]));
         EXPECT_EQ(place.volume()[n], volume);
@@ -112,9 +111,11 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
       several.store(F, stored.data() + pairs.begin(i));
     });
   }
-  for (std::size_t k = 0; k < visits.size(); ++k) {
-    EXPECT_EQ(visits[k], 1);
-    EXPECT_EQ(stored[k], pairs.F[k]);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      EXPECT_EQ(visits[k], 1);
+      EXPECT_EQ(stored[k], pairs.F(i, k));
+    }
   }
   for (std::size_t k = visits.size(); k < stored.size(); ++k) EXPECT_EQ(stored[k], -1.0F);
 }

@@ -243,7 +243,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       double morris = 0.0;
       double first_moment = 0.0;
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-        morris += morris_laplacian_weight(set.particles.volume[i], pairs.F[k], pairs.d(i, k).squaredNorm(), dx);
+        morris += morris_laplacian_weight(set.particles.volume[i], pairs.F(i, k), pairs.d(i, k).squaredNorm(), dx);
         first_moment -= set.particles.volume[i] * pairs.slope(i, k) * pairs.r(i, k) / Dim;
       }
       const double in_single = 10.0 * single_eps;

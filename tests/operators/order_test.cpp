@@ -50,7 +50,7 @@ double morris_laplacian(const ParticleSet<Dim>& set, std::size_t i, const std::v
   double sum = 0.0;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = pairs.j[k];
-    sum += morris_laplacian_weight(set.particles.volume[j], pairs.F[k], pairs.d(i, k).squaredNorm(), set.spacing) *
+    sum += morris_laplacian_weight(set.particles.volume[j], pairs.F(i, k), pairs.d(i, k).squaredNorm(), set.spacing) *
            (field[j] - field[i]);
   }
   return sum;

@@ -39,11 +39,12 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
   }
   halo.exchange(moment);
   CorrectedPairVectors<Dim> found;
+  std::vector<float> room(pairs.j.size());
   const double radius = kernel_radius(set.neighbourhood.kernel());
   found.mean_interior.resize(pairs.owned());
   find_corrected_pair_vectors<Dim>(pairs, halo, {radius, set.particles.volume, set.particles.kind, interior, moment},
-                                   reach, sweeps.value_or(closing_sweeps(reach)), found.vectors, found.open_faces,
-                                   found.mean_interior);
+                                   reach, sweeps.value_or(closing_sweeps(reach)), room, found.vectors,
+                                   found.open_faces, found.mean_interior);
   return found;
 }
 
