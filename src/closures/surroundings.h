@@ -14,7 +14,7 @@ template <int Dim>
 struct Surroundings {
   std::vector<double> concentration;             ///< C/C_0, which is rho/rho_0 (B6); 1 for dummies; ghosts too
   std::vector<Vec<Dim>> concentration_gradient;  ///< 1/m; only where something asks for it
-  std::vector<Mat<Dim>> first_moment;            ///< M of concentration.h; I for walls; ghosts too
+  std::vector<Packed<Dim>> first_moment;         ///< M of concentration.h; I for walls; ghosts too
   std::vector<double> wall_fluid_weight;         ///< 1/m^Dim; of wall particles: sum of W over the fluid in reach
   std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
   std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too

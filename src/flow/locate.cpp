@@ -17,13 +17,13 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
   for_each(particles.owned, [&](std::size_t i) {
     here.concentration[i] = 1.0;
     if (with_gradient) here.concentration_gradient[i].setZero();
-    here.first_moment[i].setIdentity();
+    here.first_moment[i] = packed_identity<Dim>();
     if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
     here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;
     if (with_gradient) here.concentration_gradient[i] = sums.gradient;
-    here.first_moment[i] = sums.first_moment;
+    here.first_moment[i] = packed<Dim>(sums.first_moment);
     here.crowding[i] = sums.crowding;
   });
 }

@@ -71,7 +71,7 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
     if (!particles.is_fluid(i)) return;
     gradient[i] = particles.wall_distance[i] < kernel_radius(flow.setup.kernel)
                       ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
-                      : corrected_gradient<Dim>(flow.pairs(), i, flow.here.first_moment[i], velocity);
+                      : corrected_gradient<Dim>(flow.pairs(), i, unpacked<Dim>(flow.here.first_moment[i]), velocity);
   });
   flow.halo().exchange(gradient);
   return gradient;

@@ -41,8 +41,9 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
   std::vector<InteriorMoment<Dim>> moments(input.interior.size());
   for_each(moments.size(), [&](std::size_t i) {
     moments[i].interior = static_cast<float>(input.interior[i]);
-    const Packed<Dim> moment = packed<Dim>(input.first_moment[i]);
-    for (int n = 0; n < symmetric_size<Dim>; ++n) moments[i].first_moment[n] = static_cast<float>(moment[n]);
+    for (int n = 0; n < symmetric_size<Dim>; ++n) {
+      moments[i].first_moment[n] = static_cast<float>(input.first_moment[i][n]);
+    }
   });
   using Moment = InteriorMoment<Dim>;
   static_assert(offsetof(Moment, interior) == 0);
@@ -52,7 +53,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     const double share = input.interior[i];
     Mat<Dim> at_surface = Mat<Dim>::Identity();
     if (reach == CorrectionReach::surface && share < 1.0) {
-      at_surface = equalising_correction<Dim>(input.first_moment[i]);
+      at_surface = equalising_correction<Dim>(unpacked<Dim>(input.first_moment[i]));
     }
     correction[i] = (1.0 - share) * packed<Dim>(at_surface);
     if (share == 0.0) return;
@@ -75,7 +76,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     });
     const double kernel_sum = sum_of(kernel_sums);
     mean_interior[i] = kernel_sum > 0.0 ? sum_of(interiors) / kernel_sum : 0.0;
-    Packed<Dim> sum = share * packed<Dim>(input.first_moment[i]);
+    Packed<Dim> sum = share * input.first_moment[i];
     for (int n = 0; n < symmetric_size<Dim>; ++n) sum[n] += sum_of(sums[n]);
     const double weights = share + sum_of(weight_sums);
     const Mat<Dim> mean = unpacked<Dim>(sum / weights);

@@ -54,11 +54,11 @@ constexpr int closing_sweeps(CorrectionReach reach) { return reach == Correction
 /// What the corrections go by. All arrays have an entry per particle, ghosts included and up to date.
 template <int Dim>
 struct CorrectionInput {
-  double radius;                           ///< m; of the support
-  std::span<const double> volume;          ///< m^Dim
-  std::span<const ParticleKind> kind;      ///< only fluid has an l
-  std::span<const double> interior;        ///< 0 at the surface and at walls, 1 inside
-  std::span<const Mat<Dim>> first_moment;  ///< M; I at walls
+  double radius;                              ///< m; of the support
+  std::span<const double> volume;             ///< m^Dim
+  std::span<const ParticleKind> kind;         ///< only fluid has an l
+  std::span<const double> interior;           ///< 0 at the surface and at walls, 1 inside
+  std::span<const Packed<Dim>> first_moment;  ///< M; I at walls
 };
 
 /// What a particle brings to its pair vectors, in one piece, so that a neighbour is read in one place.

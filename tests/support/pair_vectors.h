@@ -33,9 +33,9 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
                                                            std::optional<int> sweeps = {}) {
   const Pairs<Dim>& pairs = set.pairs();
   const Halo<Dim>& halo = set.neighbourhood.halo();
-  std::vector<Mat<Dim>> moment(set.size());
+  std::vector<Packed<Dim>> moment(set.size());
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    moment[i] = kernel_sums<Dim>(pairs, i, {0.0, 1.0}).first_moment;
+    moment[i] = packed<Dim>(kernel_sums<Dim>(pairs, i, {0.0, 1.0}).first_moment);
   }
   halo.exchange(moment);
   CorrectedPairVectors<Dim> found;
