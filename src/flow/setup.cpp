@@ -62,6 +62,7 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   }
   walls.curvature = find_curvature(walls, spec.particles.spacing, reach);
   walls.is_curved = ranks.any(std::ranges::any_of(walls.curvature, [](const Mat<Dim>& S) { return !S.isZero(0.0); }));
+  if (!walls.is_curved) std::vector<Mat<Dim>>().swap(walls.curvature);
   return walls;
 }
 

@@ -77,7 +77,7 @@ bool may_be_curved(const Boundary<Dim>& boundary) {
 /// By how much the normal at a row turns until mid-step, in the wall's frame.
 template <int Dim>
 Vec<Dim> turn_of_normal(const Walls<Dim>& walls, const WallTurns<Dim>& turns, std::size_t row, const Vec<Dim>& t) {
-  const Mat<Dim>& S = walls.curvature[row];
+  const Mat<Dim> S = walls.is_curved ? walls.curvature[row] : Mat<Dim>(Mat<Dim>::Zero());
   if (row >= walls.moving) return 0.5 * turns.dt * (S * t);
   const int wall = walls.particles.wall[row];
   const Mat<Dim>& from_drawn = turns.from_drawn[wall];
@@ -89,8 +89,8 @@ Vec<Dim> turn_of_normal(const Walls<Dim>& walls, const WallTurns<Dim>& turns, st
 
 template <int Dim>
 std::vector<Mat<Dim>> find_curvature(const Walls<Dim>& walls, double spacing, double reach) {
-  std::vector<Mat<Dim>> curvature(walls.particles.size(), Mat<Dim>::Zero());
-  if (!may_be_curved(walls.boundary)) return curvature;
+  if (!may_be_curved(walls.boundary)) return {};
+  std::vector<Mat<Dim>> curvature(walls.particles.size());
   for_each(curvature.size(), [&](std::size_t row) { curvature[row] = curvature_at(walls, row, spacing, reach); });
   return curvature;
 }
@@ -103,7 +103,7 @@ void follow_turning_walls(const WallScene<Dim>& scene, const WallTurns<Dim>& tur
     acceleration[i].setZero();
     if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(scene.particles.wall_row[i]);
-    if (row >= walls.moving && walls.curvature[row].isZero(0.0)) return;
+    if (row >= walls.moving && (!walls.is_curved || walls.curvature[row].isZero(0.0))) return;
     const Vec<Dim>& n = walls.particles.normal[row];
     const Vec<Dim> relative = velocity[i] - entry_of<Dim>(V, scene.particles.wall_row[i]);
     const Vec<Dim> t = relative - walls.particles.blocked[row] * relative;

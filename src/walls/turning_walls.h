@@ -23,7 +23,7 @@ namespace tailwater {
 
 /// The curvature S [1/m] at each row, of the wall as it is drawn: the mean over 2 dx, so that flat faces count by the
 /// angles between them. A turn of more than 40 degrees within dx/4 is a corner; beside corners and in front of other
-/// bodies S is 0. Finds walls up to `reach` [m] from their rows.
+/// bodies S is 0. Finds walls up to `reach` [m] from their rows. Empty where no wall can be curved.
 template <int Dim>
 std::vector<Mat<Dim>> find_curvature(const Walls<Dim>& walls, double spacing, double reach);
 

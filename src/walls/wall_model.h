@@ -25,7 +25,7 @@ struct Walls {
   std::vector<double> friction;        ///< lambda of each row of the table: 0 free slip, 1 no slip
   std::vector<double> roughness;       ///< m; k_s of each row
   std::vector<double> depth;           ///< m; of each row behind its wall, where it has friction
-  std::vector<Mat<Dim>> curvature;     ///< 1/m; of each row's wall as it is drawn (turning_walls.h)
+  std::vector<Mat<Dim>> curvature;     ///< 1/m; of each row's wall as it is drawn (turning_walls.h); empty if flat
   std::vector<double> share_of_water;  ///< of the force of a pair; for a force probe, as drawn (facing_walls.h)
   bool is_curved = false;              ///< whether any wall is; on all ranks the same
   std::size_t moving = 0;              ///< rows of walls that move
@@ -35,8 +35,13 @@ struct Walls {
   /// Calls body with references to all that rows have.
   template <class Body>
   void apply_to_rows(Body&& body) {
-    particles.apply_to_fields(
-        [&](auto&... field) { body(field..., friction, roughness, depth, curvature, share_of_water); });
+    particles.apply_to_fields([&](auto&... field) {
+      if (is_curved) {
+        body(field..., friction, roughness, depth, curvature, share_of_water);
+      } else {
+        body(field..., friction, roughness, depth, share_of_water);
+      }
+    });
   }
 };
 

@@ -25,6 +25,7 @@ Walls<Dim> made_by(const Communicator& ranks) {
   Walls<Dim> walls;
   walls.boundary.walls = {{.name = "bed"}, {.name = "gate", .body = 1}};
   walls.particles.numbers = resting;
+  walls.is_curved = true;
   for (std::int64_t k = 0; k < resting; ++k) {
     const std::int64_t number = k * 377 % resting;
     if (!exists(number) || !(moves(number) || number % ranks.size() == ranks.rank())) continue;
