@@ -29,10 +29,9 @@ void Simulation<Dim>::observe(RunObserver<Dim>& observer, const RunFolder& folde
 
 template <int Dim>
 void Simulation<Dim>::start() {
-  guard_.remember_good();
   locate(flow_);
   guard_.require_sound_step(next_time_step(flow_));
-  guard_.attempt([&] { tailwater::start(flow_); });
+  guard_.attempt(remember(flow_), [&] { tailwater::start(flow_); });
   if (observer_ != nullptr) observer_->started(flow_);
 }
 
@@ -40,7 +39,6 @@ template <int Dim>
 double Simulation<Dim>::prepare() {
   if (is_prepared()) return dt_;
   if (observer_ != nullptr) observer_->before_step(flow_);
-  guard_.remember_good();
   const double dt = next_time_step(flow_);
   guard_.require_sound_step(dt);
   rearrange();
@@ -61,7 +59,11 @@ template <int Dim>
 StepReport Simulation<Dim>::step() {
   prepare();
   StepReport report;
-  guard_.attempt([&] { report = advance(flow_, dt_); });
+  StepStart<Dim> start;
+  guard_.attempt(start, [&] {
+    start = begin_step(flow_, dt_);
+    report = advance(flow_, start, dt_);
+  });
   dt_ = 0.0;
   flow_.loads = {};
   if (observer_ != nullptr) observer_->stepped(flow_, report);
@@ -81,9 +83,8 @@ void Simulation<Dim>::rearrange() {
     }
     if (observer_ != nullptr) observer_->can_go_on(flow_, guard_.reference_step());
   }
-  const bool some_left = remove_outflow(flow_);
-  const bool some_came = add_inflow(flow_);
-  if (some_left || some_came || is_repartitioned) guard_.remember_good();
+  remove_outflow(flow_);
+  add_inflow(flow_);
 }
 
 template <int Dim>

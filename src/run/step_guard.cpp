@@ -51,34 +51,22 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
 
 }  // namespace
 
-template <int Dim>
-void StepGuard<Dim>::remember_good() {
-  const Particles<Dim>& particles = flow_.state.particles;
-  good_count_ = particles.owned;
-  const auto keep = [this](const auto& field, auto& kept) {
-    kept.assign(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(good_count_));
-  };
-  keep(particles.position, good_position_);
-  keep(particles.velocity, good_velocity_);
-  keep(particles.pressure, good_pressure_);
-  keep(particles.second_pressure, good_second_pressure_);
-  keep(particles.layer_viscosity, good_layer_viscosity_);
-  keep(particles.wall_distance, good_wall_distance_);
-  last_good_time_ = flow_.state.time;
-}
-
 /// Within a step particles only come, behind the others.
 template <int Dim>
 Particles<Dim> StepGuard<Dim>::last_good() const {
   Particles<Dim> particles = flow_.state.particles;
-  particles.resize(good_count_);
-  particles.owned = good_count_;
-  particles.position = good_position_;
-  particles.velocity = good_velocity_;
-  particles.pressure = good_pressure_;
-  particles.second_pressure = good_second_pressure_;
-  particles.layer_viscosity = good_layer_viscosity_;
-  particles.wall_distance = good_wall_distance_;
+  particles.owned = good_ ? good_->count : particles.owned;
+  particles.resize(particles.owned);
+  if (!good_) return particles;
+  const auto put_back = [&](const auto& kept, auto& field) {
+    if (!kept.empty()) field.assign(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(particles.owned));
+  };
+  put_back(good_->start.position, particles.position);
+  put_back(good_->start.velocity, particles.velocity);
+  put_back(good_->pressure, particles.pressure);
+  put_back(good_->second_pressure, particles.second_pressure);
+  put_back(good_->layer_viscosity, particles.layer_viscosity);
+  put_back(good_->wall_distance, particles.wall_distance);
   return particles;
 }
 
@@ -114,7 +102,22 @@ void StepGuard<Dim>::require_sound_step(double dt) {
 }
 
 template <int Dim>
-void StepGuard<Dim>::attempt(const std::function<void()>& work) {
+void StepGuard<Dim>::attempt(const StepStart<Dim>& start, const std::function<void()>& work) {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const auto kept = [&](const std::vector<double>& field) {
+    return std::vector<double>(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(particles.owned));
+  };
+  const struct Forgets {
+    std::optional<Good>& good;
+    ~Forgets() { good.reset(); }
+  } at_the_end{good_};
+  good_.emplace(Good{.start = start, .time = flow_.state.time, .count = particles.owned});
+  good_->pressure = kept(particles.pressure);
+  if (flow_.setup.formulation.has_second_projection) good_->second_pressure = kept(particles.second_pressure);
+  if (flow_.setup.has_boundary_layers) {
+    good_->layer_viscosity = kept(particles.layer_viscosity);
+    good_->wall_distance = kept(particles.wall_distance);
+  }
   std::string failure;
   try {
     work();
@@ -124,8 +127,9 @@ void StepGuard<Dim>::attempt(const std::function<void()>& work) {
   const std::optional<std::size_t> culprit = find_non_finite(flow_);
   if (flow_.setup.ranks.any(culprit.has_value())) {
     blame(culprit, [&](std::size_t i) {
-      return fmt::format("particle {}, which was at {}, has a value that is not finite", flow_.state.particles.id[i],
-                         place<Dim>(good_position_[i]));
+      const bool has_begun = i < start.position.size();
+      return fmt::format("particle {}, which was at {}, has a value that is not finite", particles.id[i],
+                         place<Dim>(has_begun ? start.position[i] : particles.position[i]));
     });
   }
   if (!failure.empty()) fail(failure, std::nullopt);
@@ -150,14 +154,15 @@ void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& d
 /// `culprit` is set on the rank that has it.
 template <int Dim>
 void StepGuard<Dim>::fail(const std::string& reason, std::optional<std::size_t> culprit) {
-  std::string message = fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, last_good_time_, reason);
+  const double time = good_ ? good_->time : flow_.state.time;
+  std::string message = fmt::format("step {} from t = {:.6g} s failed: {}", flow_.state.step, time, reason);
   Particles<Dim> particles = last_good();
   if (folder_ != nullptr) {
-    write_failure(*folder_, flow_, particles, last_good_time_, culprit, message);
+    write_failure(*folder_, flow_, particles, time, culprit, message);
     message += fmt::format(". The last good fields and a report are in {}", (folder_->path() / "failure").string());
   }
   flow_.state.particles = std::move(particles);
-  flow_.state.time = last_good_time_;
+  flow_.state.time = time;
   throw SolverError(message);
 }
 

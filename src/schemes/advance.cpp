@@ -3,15 +3,21 @@
 #include "bodies/verbs.h"
 
 namespace tailwater {
+
 template <int Dim>
-StepReport advance(Flow<Dim>& flow, double dt) {
+StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   assign_roles(flow);
   hold_open_ends(flow, dt);
   steer_wave_makers(flow);
   watch_air(flow, dt);
-  const StepStart<Dim> start = remember(flow);
+  StepStart<Dim> start = remember(flow);
   steer_bodies(flow, start, dt);
+  return start;
+}
+
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = flow.setup.formulation.take_step(flow, start, dt);
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity);
@@ -27,6 +33,8 @@ StepReport advance(Flow<Dim>& flow, double dt) {
   return report;
 }
 
-TAILWATER_IN_2D_AND_3D(advance);
+template StepReport advance<2>(Flow<2>&, const StepStart<2>&, double);
+template StepReport advance<3>(Flow<3>&, const StepStart<3>&, double);
+TAILWATER_IN_2D_AND_3D(begin_step);
 
 }  // namespace tailwater

@@ -10,8 +10,19 @@ namespace tailwater {
 template <int Dim>
 void start(Flow<Dim>& flow);
 
-/// Takes a step in the order of the formulation. Advances the time and the number of the step.
+/// Makes all that does not follow from the positions ready for a step of dt: walls, roles, open ends, wave makers, air,
+/// bodies. Returns where the step starts.
 template <int Dim>
-StepReport advance(Flow<Dim>& flow, double dt);
+StepStart<Dim> begin_step(Flow<Dim>& flow, double dt);
+
+/// Takes the step that has begun, in the order of the formulation. Advances the time and the number of the step.
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
+
+/// Both.
+template <int Dim>
+StepReport advance(Flow<Dim>& flow, double dt) {
+  return advance(flow, begin_step(flow, dt), dt);
+}
 
 }  // namespace tailwater

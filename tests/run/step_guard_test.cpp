@@ -26,14 +26,13 @@ class StepGuardTest : public testing::Test {
   void SetUp() override {
     guard.report_to(folder);
     locate(flow);
-    guard.remember_good();
   }
 };
 
 TYPED_TEST_SUITE(StepGuardTest, Dimensions);
 
 TYPED_TEST(StepGuardTest, LetsSoundStepsPass) {
-  this->guard.attempt([&] { this->flow.state.particles.velocity[5][0] = 1.0; });
+  this->guard.attempt(remember(this->flow), [&] { this->flow.state.particles.velocity[5][0] = 1.0; });
   EXPECT_EQ(this->flow.state.particles.velocity[5][0], 1.0);
 }
 
@@ -42,7 +41,7 @@ TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack
     this->flow.state.particles.velocity[5][0] = std::numeric_limits<double>::quiet_NaN();
     throw SolverError("the source of the pressure equation is not finite");  // it follows from the particle
   };
-  const std::string message = message_of<SolverError>([&] { this->guard.attempt(spoil); });
+  const std::string message = message_of<SolverError>([&] { this->guard.attempt(remember(this->flow), spoil); });
   EXPECT_NE(message.find("particle 5, which was at ("), std::string::npos) << message;
   EXPECT_NE(message.find("has a value that is not finite"), std::string::npos) << message;
   EXPECT_EQ(this->flow.state.particles.velocity[5][0], 0.0);
@@ -54,7 +53,6 @@ TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack
 TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
   this->flow.neighbourhood.forget(this->flow.state.particles);
   this->flow.state.particles.velocity[5][0] = 1e15;
-  this->guard.remember_good();
   const std::string message =
       message_of<SolverError>([&] { this->guard.require_sound_step(next_time_step(this->flow)); });
   EXPECT_NE(message.find("particle 5"), std::string::npos) << message;
@@ -64,8 +62,8 @@ TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
 }
 
 TYPED_TEST(StepGuardTest, PassesOnWhatTheSolverSays) {
-  const std::string message =
-      message_of<SolverError>([&] { this->guard.attempt([] { throw SolverError("it did not converge"); }); });
+  const std::string message = message_of<SolverError>(
+      [&] { this->guard.attempt(remember(this->flow), [] { throw SolverError("it did not converge"); }); });
   EXPECT_NE(message.find("it did not converge"), std::string::npos) << message;
 }
 
