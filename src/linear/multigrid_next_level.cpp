@@ -163,6 +163,7 @@ Matrix coarse_matrix(const Matrix& matrix, std::span<const int> rows, std::span<
     for (const Entry& share : followers.of(i)) sum.add(share.column, -entry.weight * share.weight);
   };
   Matrix coarse;
+  coarse.reserve(cells, matrix.entries.size() / 3);  // for more than there are; what is left over takes no memory
   std::vector<Entry> row;
   auto next_row = rows.begin();
   for (int cell = 0; cell < static_cast<int>(cells); ++cell) {

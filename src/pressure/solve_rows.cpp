@@ -8,10 +8,12 @@ template <int Dim>
 SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double tolerance) {
   const std::size_t owned = flow.state.particles.owned;
   flow.halo().exchange(pressure);
-  const std::vector<double> guess = pressure;  // some wall models' rows look at each other
-  for_each(owned, [&](std::size_t i) {
-    if (!has_equation(flow.role[i])) pressure[i] = flow.pressure_rows.answer(i, guess.data());
-  });
+  {
+    const std::vector<double> guess = pressure;  // some wall models' rows look at each other
+    for_each(owned, [&](std::size_t i) {
+      if (!has_equation(flow.role[i])) pressure[i] = flow.pressure_rows.answer(i, guess.data());
+    });
+  }
   return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
 }
 
