@@ -22,7 +22,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  make_room(weights_, columns.size());
+  if (weights_.capacity() < columns.size()) make_room(weights_, columns.size());
   weights_.resize(columns.size());
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
@@ -55,7 +55,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 
 std::span<float> LinearSystem::room_of_weights(std::size_t count) {
   TAILWATER_ASSERT(columns_.empty(), "there are no weights");
-  make_room(weights_, count);
+  if (weights_.capacity() < count) make_room(weights_, count + count / 4);  // as neighbours have (find_pairs.cpp)
   weights_.resize(count);
   return weights_;
 }

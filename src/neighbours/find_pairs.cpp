@@ -292,13 +292,15 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
       j.resize(std::max(j.size(), candidates.size() + batch));
       expected += write_row(i, j.data()).size;
     });
+    expected += expected / 4;  // of a lattice, as at the start: many may stand just beyond the rim
   }
   make_room(pairs.j, expected);
   std::size_t crowded = 0;
   for_each_row([&](std::size_t i) {  // in order: rows are put one behind the other
     const std::size_t begin = pairs.row_begin[i];
     const std::size_t most = begin + candidates.size() + batch;
-    if (most > pairs.j.size()) pairs.j.resize(std::max(most, pairs.j.capacity()));
+    if (most > pairs.j.capacity()) pairs.j.reserve(with_room(most * (particles.owned / (i + 1) + 1)));
+    if (most > pairs.j.size()) pairs.j.resize(pairs.j.capacity());
     const Row row = write_row(i, pairs.j.data() + begin);
     pairs.row_begin[i + 1] = begin + row.size;
     pairs.sees_wall[i] = row.sees_wall ? 1 : 0;
