@@ -4,6 +4,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/free_memory.h"
 #include "case/writer.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
@@ -67,6 +68,7 @@ bool CheckpointKeeper<Dim>::write(const Flow<Dim>& flow, const RunOutput<Dim>& o
     fs::create_directory(folder_.checkpoints(), error);
     if (error) throw_io_error("make the folder", folder_.checkpoints(), error.value());
   });
+  give_back_free_memory();
   write_checkpoint(folder_.checkpoint(last_->state.step), *last_, case_text_, ranks_);
   written_step_ = last_->state.step;
   written_at_ = Clock::now();

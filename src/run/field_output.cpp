@@ -15,6 +15,8 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
   // Before the first step there are no work fields: the start is a lattice without marks.
   const bool has_work_fields = !flow.here.concentration.empty();
+  const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
+  make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, id_);
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/free_memory.h"
 #include "case/writer.h"
 #include "flow/air_pressure.h"
 #include "io/messages.h"
@@ -190,6 +191,7 @@ template <int Dim>
 void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
   if (fields_schedule_.last() == flow.state.time && series_.size() > 0) return;
   fields_schedule_.set_last(flow.state.time);
+  give_back_free_memory();
   const FluidFields<Dim> fields(flow, flow.state.particles, spec_.output.fields);
   series_.write(flow.state.time, fields.view(), ranks_);
   // Walls at rest are written once, in 3D: a picture needs them, and no chain of points in the case tells of a mesh.
