@@ -136,9 +136,8 @@ template <int Dim>
 Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, const ClosingEquation<Dim>& equation,
                              std::span<const Four> weighted_l, std::size_t i) {
   VecLanes<Dim> sums{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    sums += several.range.load(equation.F.data()) * several.of(weighted_l);
-  });
+  for_each_pair(pairs, i,
+                [&](const auto& several) { sums += several.range.load(equation.F.data()) * several.of(weighted_l); });
   return sum_of(sums);
 }
 
@@ -197,7 +196,8 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   for_each(pairs.owned(), [&](std::size_t i) {
     open_faces[i].setZero();
     if (equation.weights[i] == 0.0) return;
-    open_faces[i] = equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, equation, weighted_l, i);
+    open_faces[i] =
+        equation.weights[i] * l[i] - equation.open[i] - sum_over_neighbours<Dim>(pairs, equation, weighted_l, i);
   });
 }
 

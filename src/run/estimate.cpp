@@ -89,15 +89,15 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
   // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
   constexpr double fields = 3.0 * (6 * Dim + 10) * number;
-  // Per pair: the neighbour's index, which is the matrix's column too, the kernel's slope and the matrix's weight.
-  constexpr double pair = index + single + single;
+  // Per pair: the neighbour's index, which is the matrix's column too, and the matrix's weight.
+  constexpr double pair = index + single;
   // Rows of dummies hold the fluid's half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
-  // The solver has vectors of its own, and memory has holes. The peak in summary.json after some steps, less the
-  // program, is 1.42 times the arrays for cases/zhou1999 at dx = 0.003 m with the implicit integrator (218 MB; explicit
-  // 211). Walls that stay dry take less: it is 0.96 times the arrays for benchmarks/dam_break_3d.toml at 0.015 m, where
-  // nearly half of the particles are of walls (721 MB; explicit 718). Long runs need a little more.
-  constexpr double slack = 1.5;
+  // The solver has vectors of its own, and memory has holes. The peak in summary.json after some steps, less that of a
+  // run of 200 particles (51 MB), is 1.20 times the arrays for cases/zhou1999 at dx = 0.003 m with the implicit
+  // integrator (130 MB; explicit 127). Walls that stay dry take less: it is 0.95 times the arrays for
+  // benchmarks/dam_break_3d.toml at 0.00969 m, where a third of the particles are of walls (1.59 GB).
+  constexpr double slack = 1.2;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }
 

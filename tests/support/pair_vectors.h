@@ -43,8 +43,8 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
   const double radius = kernel_radius(set.neighbourhood.kernel());
   found.mean_interior.resize(pairs.owned());
   find_corrected_pair_vectors<Dim>(pairs, halo, {radius, set.particles.volume, set.particles.kind, interior, moment},
-                                   reach, sweeps.value_or(closing_sweeps(reach)), room, found.vectors,
-                                   found.open_faces, found.mean_interior);
+                                   reach, sweeps.value_or(closing_sweeps(reach)), room, found.vectors, found.open_faces,
+                                   found.mean_interior);
   return found;
 }
 
