@@ -115,7 +115,7 @@ class IndexList {
 };
 
 /// What a search finds of a row.
-struct Row {
+struct FoundRow {
   std::size_t size;
   bool sees_wall;
   bool is_crowded;  ///< some neighbours are nearer than the least distance
@@ -163,7 +163,7 @@ class Candidates {
   std::size_t size() const { return count_; }
 
   /// Writes the neighbours of particle i of the group to `j`, and up to a batch beyond them.
-  Row write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) const {
+  FoundRow write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) const {
     const double radius = kernel_radius(pairs.kernel);
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
     const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
@@ -301,7 +301,7 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
     const std::size_t most = begin + candidates.size() + batch;
     if (most > pairs.j.capacity()) pairs.j.reserve(with_room(most * (particles.owned / (i + 1) + 1)));
     if (most > pairs.j.size()) pairs.j.resize(pairs.j.capacity());
-    const Row row = write_row(i, pairs.j.data() + begin);
+    const FoundRow row = write_row(i, pairs.j.data() + begin);
     pairs.row_begin[i + 1] = begin + row.size;
     pairs.sees_wall[i] = row.sees_wall ? 1 : 0;
     crowded += row.is_crowded ? 1 : 0;
