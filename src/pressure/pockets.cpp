@@ -214,7 +214,7 @@ double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double
 /// full, any other by a quarter, since new ones are looked for when it may have gone four times as far
 /// (AirWatch::is_due).
 template <int Dim>
-double way_in_step(const Flow<Dim>& flow, double dt) {
+double displacement_in_step(const Flow<Dim>& flow, double dt) {
   const std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
   const double beside = largest_over(flow.sides.water.size(), 0.0,
                                      [&](std::size_t n) { return velocity[flow.sides.water[n].particle].norm(); });
@@ -321,7 +321,7 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
     const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
     sides.work += change_pocket(pocket, volume, flow.air.law(), flow.air.openings()[k], dt, flow.state.air);
   }
-  flow.state.air.displacement += way_in_step(flow, dt);
+  flow.state.air.displacement += displacement_in_step(flow, dt);
 }
 
 TAILWATER_IN_2D_AND_3D(pose_pockets);

@@ -55,7 +55,7 @@ template <int Dim>
 void push_by_pockets(Flow<Dim>& flow, double dt);
 
 /// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on: those that are driven by their
-/// way, bodies by the mean of their velocities at both ends of the step.
+/// displacement, bodies by the mean of their velocities at both ends of the step.
 template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt);
 
