@@ -34,12 +34,11 @@ struct Drawing {
   FluidParticles<Dim> fluid;
 };
 
-/// Where a vent is drawn.
+/// Where a vent is drawn, and with which wall it goes.
 template <int Dim>
 struct VentPlace {
-  Vec<Dim> at;  ///< m
-  int wall =
-      -1;  ///< index into Boundary::walls of one within dx/2, with which it goes if that moves; -1: there is none
+  Vec<Dim> at;    ///< m
+  int wall = -1;  ///< index into Boundary::walls of one within dx/2; -1: there is none
 };
 
 template <int Dim>

@@ -1,8 +1,9 @@
 // Which water counts as lost.
 #include "run/water_balance.h"
-#include "formulations/make_flow.h"
 
 #include <gtest/gtest.h>
+
+#include "run/pond.h"
 
 namespace tailwater {
 namespace {
@@ -10,20 +11,12 @@ namespace {
 /// Water 0.4 m deep over a bed from x = 0 to `end` in a domain that repeats after 1 m.
 template <int Dim>
 CaseSpec periodic_channel(double end, double slope) {
-  CaseSpec spec;
-  spec.general.dimension = Dim;
+  CaseSpec spec = pond_case<Dim>();
   spec.particles.spacing = 0.04;
-  spec.physics.gravity.assign(Dim, 0.0);
   spec.physics.gravity.front() = slope * 9.81;
-  spec.physics.gravity.back() = -9.81;
   spec.domain.periodic_x = {0.0, 1.0};
-  spec.time.end = 1.0;
-  FluidTable water;
-  water.min.assign(Dim, 0.0);
-  water.max.assign(Dim, 0.4);
-  water.max[0] = 1.0;
-  water.velocity.assign(Dim, 0.0);
-  spec.fluid.push_back(water);
+  spec.fluid[0].max.assign(Dim, 0.4);
+  spec.fluid[0].max[0] = 1.0;
   WallTable bed;
   bed.displacement.assign(Dim, 0.0);
   if (Dim == 2) {
