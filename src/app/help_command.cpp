@@ -38,12 +38,12 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-CommandText text_of(const CLI::App& app) {
+CommandText command_text(const CLI::App& app) {
   CommandText text{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
   for (const CLI::Option* option : app.get_options()) {
     text.options.push_back({names_of(*option), option->get_description(), option->get_items_expected_max() > 0});
   }
-  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) text.subcommands.push_back(text_of(*subcommand));
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) text.subcommands.push_back(command_text(*subcommand));
   return text;
 }
 
@@ -189,7 +189,7 @@ std::string fish_completion(const CommandText& program) {
 
 void add_help_commands(CLI::App& app) {
   CLI::App* man = app.add_subcommand("man", "Print the manual page, as in: tailwater man | man -l -");
-  man->callback([&app] { fmt::print("{}", man_page(text_of(app))); });
+  man->callback([&app] { fmt::print("{}", man_page(command_text(app))); });
 
   CLI::App* completion = app.add_subcommand("completion", "Print what makes a shell complete commands and options");
   completion->footer(
@@ -201,7 +201,7 @@ void add_help_commands(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   completion->callback([&app, shell] {
-    const CommandText program = text_of(app);
+    const CommandText program = command_text(app);
     fmt::print("{}", *shell == "bash"  ? bash_completion(program)
                      : *shell == "zsh" ? zsh_completion(program)
                                        : fish_completion(program));

@@ -27,7 +27,7 @@ struct ResumeArguments {
   bool quiet = false;
 };
 
-ExitCode execute(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+ExitCode execute_resume(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (is_sweep(arguments.run.out)) {
@@ -83,7 +83,7 @@ void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks
       "files are cut back to it, so that the run leaves what it would have left without a break: bit for bit on the\n"
       "number of ranks that wrote the checkpoint. --set may change time.end, output.fields_interval,\n"
       "output.view_interval and output.checkpoint_interval.");
-  command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
+  command->callback([arguments, &code, ranks, words] { code = execute_resume(*arguments, ranks, words); });
 }
 
 }  // namespace tailwater

@@ -38,7 +38,7 @@ std::string help_on_cases(const std::string& format) {
   return format == "study" ? study_reference_markdown() : case_help();
 }
 
-ExitCode execute(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+ExitCode execute_run(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
     if (ranks.is_root()) fmt::print("{}", help_on_cases(arguments.help_case));
     return ExitCode::done;
@@ -120,7 +120,7 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       "seconds, at the end, and when there is a file DIR/CHECKPOINT, which is removed when that is done.\n"
       "A sweep has a folder for each member in DIR, and a table of all, DIR/sweep.csv. The same command again, or\n"
       "`tailwater resume DIR`, goes on with what is not done. A member that fails does not end the others.");
-  command->callback([arguments, &code, ranks, words] { code = execute(*arguments, ranks, words); });
+  command->callback([arguments, &code, ranks, words] { code = execute_run(*arguments, ranks, words); });
 }
 
 }  // namespace tailwater

@@ -81,7 +81,7 @@ bool share_a_point(const TriangleMesh& mesh, int a, int b) {
 }
 
 /// A place where an edge of one triangle of the boundary passes through another.
-std::optional<Vec<3>> crossing(const WallFace<3>& a, const WallFace<3>& b, double tolerance) {
+std::optional<Vec<3>> crossing_of_triangles(const WallFace<3>& a, const WallFace<3>& b, double tolerance) {
   for (const auto& [from, through] : {std::pair{&a, &b}, {&b, &a}}) {
     for (int c = 0; c < 3; ++c) {
       const Vec<3>& low = from->corners[c];
@@ -100,7 +100,7 @@ Findings check_self_crossing(const MeshSurface& surface, const std::string& labe
     std::optional<Finding> found;
     surface.visit_in(box.min(), box.max(), [&](int other) {
       if (other <= one || found || share_a_point(mesh, one, other)) return;
-      const auto where = crossing(face, face_of(mesh, other), tolerance);
+      const auto where = crossing_of_triangles(face, face_of(mesh, other), tolerance);
       if (!where) return;
       found = Finding::error(
           "{} crosses itself at {}, where triangles {} and {} pass through each other: unite the bodies of the file "

@@ -29,22 +29,22 @@ Handle own(hid_t id, herr_t (*close)(hid_t), std::string_view what) {
           }};
 }
 
-void require(herr_t status, std::string_view what) {
+void require_hdf5(herr_t status, std::string_view what) {
   if (status < 0) throw IoError("HDF5 cannot {}", what);
 }
 
 /// Errors are ours to tell, and HDF5 prints them by default.
 void begin_hdf5() {
   const SuspendFpTraps suspended;
-  require(H5open(), "start");
+  require_hdf5(H5open(), "start");
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 /// Access to a file that lives in memory, which it gets `room` bytes at a time, and never on disk.
 Handle in_memory(std::size_t room) {
   const Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list of properties");
-  require(H5Pset_fapl_core(*access, room, false), "work in memory");
-  require(H5Pset_fclose_degree(*access, H5F_CLOSE_STRONG), "work in memory");
+  require_hdf5(H5Pset_fapl_core(*access, room, false), "work in memory");
+  require_hdf5(H5Pset_fclose_degree(*access, H5F_CLOSE_STRONG), "work in memory");
   return access;
 }
 
@@ -89,7 +89,7 @@ void Hdf5Writer::put(const std::string& name, std::span<const Value> values, std
       own(H5Dcreate2(*file_, name.c_str(), type_of<Value>(), *space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
           what);
   if (values.empty()) return;
-  require(H5Dwrite(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+  require_hdf5(H5Dwrite(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
 }
 
 void Hdf5Writer::put(const std::string& name, std::string_view text) {
@@ -97,7 +97,7 @@ void Hdf5Writer::put(const std::string& name, std::string_view text) {
 }
 
 std::string_view Hdf5Writer::image() {
-  require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "finish a file");
+  require_hdf5(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "finish a file");
   const ssize_t size = H5Fget_file_image(*file_, nullptr, 0);
   void* held = nullptr;
   if (size < 0 || H5Fget_vfd_handle(*file_, H5P_DEFAULT, &held) < 0 || held == nullptr) {
@@ -113,7 +113,7 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   const SuspendFpTraps suspended;
   const Handle access = in_memory(image.size());
   // HDF5 copies the bytes, and its interface lacks a const.
-  require(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
+  require_hdf5(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
   size_ = image.size();
   file_ = own(H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, *access), H5Fclose, "read it as one of its files");
 }
@@ -130,7 +130,7 @@ std::vector<Value> Hdf5Reader::get(const std::string& name) const {
   const bool is_there = count >= 0 && static_cast<std::uint64_t>(count) <= size_ / sizeof(Value);
   if (!is_there || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError("HDF5 cannot {}", what);
   std::vector<Value> values(static_cast<std::size_t>(count));
-  if (count > 0) require(H5Dread(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+  if (count > 0) require_hdf5(H5Dread(*set, type_of<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
   return values;
 }
 

@@ -51,7 +51,7 @@ void take_list(const nlohmann::json& json, Numbers& numbers) {
 }
 
 template <int Dim>
-nlohmann::json json_of(const BodyState<Dim>& body) {
+nlohmann::json body_json(const BodyState<Dim>& body) {
   const auto& [time, placement, centre, velocity, acceleration, carried_over] = body;
   return {{"time", time},
           {"turn", list_of(placement.linear)},
@@ -96,7 +96,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
                       {"inertia", motion.bodies.inertia},
                       {"section_volumes", section_volumes},
                       {"output", checkpoint.output}};
-  for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(json_of(body));
+  for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(body_json(body));
   return json.dump(1);
 }
 

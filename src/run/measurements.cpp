@@ -105,7 +105,7 @@ std::optional<double> last_of(const std::vector<double>& time) {
   return time.empty() ? std::nullopt : std::optional(time.back());
 }
 
-nlohmann::ordered_json json_of(const Difference& difference, double scatter) {
+nlohmann::ordered_json difference_json(const Difference& difference, double scatter) {
   nlohmann::ordered_json json{{"rms", difference.rms}, {"bias", difference.bias}};
   if (scatter > 0.0) json["share_inside"] = difference.share_inside;
   return json;
@@ -185,11 +185,11 @@ nlohmann::ordered_json json_of(const std::vector<MeasurementScore>& scores) {
                                {"file", score.file},   {"samples", score.samples}, {"words", score.words()}};
     if (score.samples > 0) {
       one.update({{"from_s", score.from}, {"to_s", score.to}});
-      one.update(json_of(score.as_timed, score.scatter));
+      one.update(difference_json(score.as_timed, score.scatter));
       if (score.most_shift > 0.0) {
         one["most_shift_s"] = score.most_shift;
         one["best_shift_s"] = score.best_shift;
-        one["shifted"] = json_of(score.shifted, score.scatter);
+        one["shifted"] = difference_json(score.shifted, score.scatter);
       }
       if (score.scatter > 0.0) {
         one["scatter"] = score.scatter;

@@ -23,7 +23,7 @@ void for_each_cell(std::string_view line, const Take& take) {
   }
 }
 
-double number_of(std::string_view field) {
+double parsed_number(std::string_view field) {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(field.data(), field.data() + field.size(), value);
   return value;
@@ -50,9 +50,9 @@ std::string read_column(const std::filesystem::path& path, const std::function<b
     double second = time;
     double value = time;
     for_each_cell(line, [&](std::size_t k, std::string_view field) {
-      if (k == 0) time = number_of(field);
-      if (k == 1) second = number_of(field);
-      if (k == place) value = number_of(field);
+      if (k == 0) time = parsed_number(field);
+      if (k == 1) second = parsed_number(field);
+      if (k == place) value = parsed_number(field);
     });
     if (!std::isnan(time) && !std::isnan(value)) take(time, second, value);
   }
@@ -157,8 +157,8 @@ TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
     std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
     double time = 0.0;
     for_each_cell(line, [&](std::size_t k, std::string_view field) {
-      if (k == 0) time = number_of(field);
-      if (k > 0 && k <= own) row[k - 1] = number_of(field);
+      if (k == 0) time = parsed_number(field);
+      if (k > 0 && k <= own) row[k - 1] = parsed_number(field);
     });
     if (std::isnan(time)) continue;
     table.last_time = time;

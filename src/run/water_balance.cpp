@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-nlohmann::ordered_json json_of(const WaterAmount& water, double density) {
+nlohmann::ordered_json amount_json(const WaterAmount& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
@@ -151,7 +151,7 @@ template <int Dim>
 nlohmann::ordered_json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
   const double density = flow.setup.density;
   const auto json_of_passed = [&](const WaterAmount& passed) {
-    nlohmann::ordered_json json = json_of(passed, density);
+    nlohmann::ordered_json json = amount_json(passed, density);
     json["energy_J"] = passed.energy;
     return json;
   };
@@ -170,14 +170,14 @@ nlohmann::ordered_json water_balance(const WaterAmount& at_start, const Flow<Dim
     if (circuit >= 0 && is_inlet) json["steps_short_of_water"] = end.short_steps;
     if (flow.setup.open_ends[e].flow.feeds()) json["asked_for_m3"] = end.asked;
     if (flow.setup.open_ends[e].holds_level()) json["level_missed"] = json_of_miss(end.miss);
-    if (circuit == static_cast<int>(e)) json["waiting"] = json_of(sump_of(flow, circuit), density);
+    if (circuit == static_cast<int>(e)) json["waiting"] = amount_json(sump_of(flow, circuit), density);
     (is_inlet ? inlets : outlets).push_back(json);
   }
-  return {{"start", json_of(at_start, density)},
-          {"in", json_of(water_came(flow), density)},
-          {"inside", json_of(water_inside(flow), density)},
-          {"outside", json_of(water_outside(flow), density)},
-          {"out", json_of(water_out(flow), density)},
+  return {{"start", amount_json(at_start, density)},
+          {"in", amount_json(water_came(flow), density)},
+          {"inside", amount_json(water_inside(flow), density)},
+          {"outside", amount_json(water_outside(flow), density)},
+          {"out", amount_json(water_out(flow), density)},
           {"inlets", inlets},
           {"outlets", outlets}};
 }

@@ -1,7 +1,8 @@
 """What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, only notebooks
 name commits, loops over particles go through base/for_each.h or say on their line why they are plain loops
-(`// in order: appends`), and files and functions are short.
-Usage: text.py markdown|citations|loops|lengths ROOT"""
+(`// in order: appends`), files and functions are short, and local functions of a room, whose files are compiled as one,
+have names of their own.
+Usage: text.py markdown|citations|loops|lengths|locals ROOT"""
 import pathlib
 import re
 import sys
@@ -92,9 +93,23 @@ def lengths(root):
                 begins[indentation] = number
 
 
+def local_names(root):
+    """Of two local functions of one name and other arguments a call in either file may take the other's."""
+    for room in sorted(path for path in (root / "src").iterdir() if path.is_dir()):
+        seen = {}  # name: file
+        for file in sorted(room.glob("*.cpp")):
+            is_local = False
+            for number, line in numbered(file):
+                is_local = line == "namespace {" or is_local and line != "}  // namespace"
+                function = re.match(r"(?!return|template|struct|class)[A-Za-z][\w:<>,&*\s]*[\s&*>](\w+)\(", line)
+                if is_local and function and seen.setdefault(function[1], file) != file:
+                    yield file, number, f"{function[1]} is local to {seen[function[1]].name} too: give one another name"
+
+
 def main():
     root = pathlib.Path(sys.argv[2]).resolve()
-    found = list({"markdown": markdown, "citations": citations, "loops": loops, "lengths": lengths}[sys.argv[1]](root))
+    found = list({"markdown": markdown, "citations": citations, "loops": loops, "lengths": lengths,
+                  "locals": local_names}[sys.argv[1]](root))
     print("\n".join(f"{file.relative_to(root)}:{number}: {what}" for file, number, what in found))
     if found:
         sys.exit(f"{len(found)} findings")
