@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-const std::string text =
+const std::string two_blocks =
     "[parameters]\nH = 1.0\n"
     "[particles]\nspacing = 0.1\n[time]\nend = 1.0\n"
     "[[fluid]]\nmin = [0, 0]\nmax = [\"2*H\", \"H\"]\n"
@@ -13,42 +13,42 @@ const std::string text =
     "[[probe]]\nname = \"foot\"\ntype = \"energy\"\n";
 
 TEST(Overrides, ReplaceValues) {
-  const CaseSpec spec = read_text(text, {"particles.spacing=0.05", "time.end=2*H"});
+  const CaseSpec spec = read_text(two_blocks, {"particles.spacing=0.05", "time.end=2*H"});
   EXPECT_EQ(spec.particles.spacing, 0.05);
   EXPECT_EQ(spec.time.end, 2.0);
 }
 
 TEST(Overrides, OfParametersReachTheirExpressions) {
-  EXPECT_EQ(read_text(text, {"parameters.H=0.5"}).fluid[0].max, (Coordinates{1.0, 0.5}));
+  EXPECT_EQ(read_text(two_blocks, {"parameters.H=0.5"}).fluid[0].max, (Coordinates{1.0, 0.5}));
 }
 
 TEST(Overrides, MakeTablesThatTheFileDoesNotHave) {
-  const CaseSpec spec = read_text(text, {"scheme.integrator=implicit", "pressure_solver.max_iterations=7"});
+  const CaseSpec spec = read_text(two_blocks, {"scheme.integrator=implicit", "pressure_solver.max_iterations=7"});
   EXPECT_EQ(spec.scheme.integrator, Integrator::implicit_projection);
   EXPECT_EQ(spec.pressure_solver.max_iterations, 7);
 }
 
 TEST(Overrides, TakeWhatIsNotTomlAsText) {
-  EXPECT_EQ(read_text(text, {"case.title=a wave, and another"}).general.title, "a wave, and another");
-  EXPECT_EQ(read_text(text, {"case.title=\"in quotes\""}).general.title, "in quotes");
-  EXPECT_EQ(read_text(text, {"case.title=x=y"}).general.title, "x=y");
+  EXPECT_EQ(read_text(two_blocks, {"case.title=a wave, and another"}).general.title, "a wave, and another");
+  EXPECT_EQ(read_text(two_blocks, {"case.title=\"in quotes\""}).general.title, "in quotes");
+  EXPECT_EQ(read_text(two_blocks, {"case.title=x=y"}).general.title, "x=y");
 }
 
 TEST(Overrides, FindEntriesOfListsByNumber) {
-  const CaseSpec spec = read_text(text, {"fluid[1].max=[7, 8]", "fluid[0].max[1]=3"});
+  const CaseSpec spec = read_text(two_blocks, {"fluid[1].max=[7, 8]", "fluid[0].max[1]=3"});
   EXPECT_EQ(spec.fluid[1].max, (Coordinates{7.0, 8.0}));
   EXPECT_EQ(spec.fluid[0].max, (Coordinates{2.0, 3.0}));
 }
 
 TEST(Overrides, FindEntriesOfListsByTheirOwnOrDefaultName) {
   const CaseSpec spec =
-      read_text(text, {"probe.foot.interval=0.01", "fluid.drop.max=[7, 8]", "fluid.fluid1.max=[3, 3]"});
+      read_text(two_blocks, {"probe.foot.interval=0.01", "fluid.drop.max=[7, 8]", "fluid.fluid1.max=[3, 3]"});
   EXPECT_EQ(spec.probes[0].interval, 0.01);
   EXPECT_EQ(spec.fluid[1].max, (Coordinates{7.0, 8.0}));
   EXPECT_EQ(spec.fluid[0].max, (Coordinates{3.0, 3.0}));
 }
 
-TEST(Overrides, ApplyInTheirOrder) { EXPECT_EQ(read_text(text, {"time.end=2", "time.end=3"}).time.end, 3.0); }
+TEST(Overrides, ApplyInTheirOrder) { EXPECT_EQ(read_text(two_blocks, {"time.end=2", "time.end=3"}).time.end, 3.0); }
 
 TEST(Overrides, ThatAreWrongAreNamed) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> table{
@@ -72,7 +72,7 @@ TEST(Overrides, ThatAreWrongAreNamed) {
       {"parameters.dx=0.1", {"cannot be a parameter's name"}},
   };
   for (const auto& [override_text, parts] : table) {
-    const std::string message = message_of(text, {override_text});
+    const std::string message = message_of(two_blocks, {override_text});
     EXPECT_EQ(line_count(message), 1) << message;
     EXPECT_TRUE(message.starts_with("--set " + override_text + ": ")) << message;
     for (const std::string& part : parts) {

@@ -10,6 +10,7 @@
 #include "schemes/cases.h"
 
 namespace tailwater {
+namespace reproject_test {
 namespace {
 
 /// Jittered, so that nothing is even; periodic, so that there is no surface and every particle counts.
@@ -73,4 +74,5 @@ TEST(Reproject, LeavesAUniformVelocityAlone) {
 }
 
 }  // namespace
+}  // namespace reproject_test
 }  // namespace tailwater
