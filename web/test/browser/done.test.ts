@@ -6,7 +6,7 @@ import { pathToFileURL } from "node:url";
 import { allowed, camera, until } from "../support/browser.ts";
 import { measured, withProgram } from "../support/program.ts";
 
-test("a done run: no blank and no jump of the camera through all its frames; a probe is picked; sent as a file", async (context) => {
+test("a done run: no blank and no jump of the camera through every second frame; a probe is picked; sent as a file", async (context) => {
   await withProgram(context, async (place, open) => {
     place.call("run", "dam.toml", "--out", "run", "--quiet", "--set", "particles.spacing=0.03", "--set", "time.end=2", "--set", "output.view_interval=0.005");
     assert.ok(readdirSync(place.path("run/view")).length > 300, "400 frames");
@@ -30,7 +30,7 @@ test("a done run: no blank and no jump of the camera through all its frames; a p
         for (let p = 0; p < data.length; p += 4) if (data[p + 2] > data[p] + 40) ++water;
         return water < 23;
       };
-      for (let i = 0; i < list.length; ++i) {
+      for (let i = 0; i < list.length; i += 2) {
         tailwater.player.seek(list[(i * 151) % list.length].time);
         if (!tailwater.shownRuns()[0].frames.at(tailwater.player.time)) ++blanks;
         await new Promise(requestAnimationFrame);
