@@ -10,6 +10,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from tailwater.errors import DataError
+from tailwater.fields import list_frames, read_frame
 
 from .profiles import profile_at, profile_table, rms
 
@@ -165,9 +166,19 @@ def late_profiles(run):
             if profile.time > (LATE - 0.01) * scale]
 
 
-def speed_of(profiles, place):
-    """Slope of place(x, depth) over T, least squares."""
-    return float(np.polyfit([T for T, _, _ in profiles], [place(x, depth) for _, x, depth in profiles], 1)[0])
+def slope(times, values):
+    """Least squares."""
+    return float(np.polyfit(times, values, 1)[0])
+
+
+def water_passed(run):
+    """(T, water over h0^2 that has passed x = 0 since the start) of a run's frames. Particles are counted: depths of a profile
+    hold the air under a bore's roller, and miss what it throws."""
+    depth, dx, scale = run.parameters["h0"], run.spacing, time_unit(run)
+    frames = [read_frame(*entry) for entry in list_frames(run.path)]
+    # Each is a cell that is dx wide.
+    ahead = [np.clip(frame.position[:, 0] / dx + 0.5, 0.0, 1.0).sum() for frame in frames]
+    return np.array([frame.time for frame in frames]) / scale, (np.array(ahead) - ahead[0]) * (dx / depth) ** 2
 
 
 def last_place(x, depth, level):
@@ -187,22 +198,24 @@ def place_of_bore(x, depth, still, start):
 
 
 def volume_ahead(x, depth, still):
-    """Water that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
+    """Water of theory that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
     return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
 
 
-def shallow_dam_break(run, exact, still, discharge, front, speed):
+def shallow_dam_break(run, exact, discharge, front, speed):
     """Numbers that both dam breaks have; `speed` is that of the place front(x, depth). A real dam break needs the time
     sqrt(h0/g) to become shallow: it lags behind by a length that stays, so speeds and the discharge are slopes over T,
     and the profile is the last one's."""
     profiles = late_profiles(run)
-    if len(profiles) < 3:
-        raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
+    times, passed = water_passed(run)
+    late = times > LATE - 0.01
+    if min(len(profiles), late.sum()) < 3:
+        raise DataError(f"{run.path}: has {len(profiles)} profiles and {late.sum()} frames from T = {LATE:g} on, too few for a slope")
     T, x, depth = profiles[-1]
     inside = (x > -1.2 * T) & (x < 2.0 * T)
     return {
-        "discharge_error": speed_of(profiles, partial(volume_ahead, still=still)) / discharge - 1,
-        "front_error": speed_of(profiles, front) / speed - 1,
+        "discharge_error": slope(times[late], passed[late]) / discharge - 1,
+        "front_error": slope([T for T, _, _ in profiles], [front(x, depth) for _, x, depth in profiles]) / speed - 1,
         "profile_error": rms(depth[inside] - exact(x[inside] / T)),
     }
 
@@ -213,7 +226,7 @@ def ritter_dam_break(run):
     h0 of the last profile."""
     _, x, depth = late_profiles(run)[-1]
     front = partial(last_place, level=TIP)
-    return shallow_dam_break(run, ritter, 0.0, 8 / 27, front, 2 - 3 * math.sqrt(TIP)) | {
+    return shallow_dam_break(run, ritter, 8 / 27, front, 2 - 3 * math.sqrt(TIP)) | {
         "gate_error": float(np.interp(0.0, x, depth)) / (4 / 9) - 1}
 
 
@@ -226,7 +239,7 @@ def stoker_dam_break(run):
     tail = speed - math.sqrt(level)
     middle = np.abs(x / T - 0.5 * (tail + bore)) < 0.25 * (bore - tail)
     front = partial(place_of_bore, still=still, start=max(tail, 0.0) * T)
-    return shallow_dam_break(run, partial(stoker, ahead=still), still, speed * level, front, bore) | {
+    return shallow_dam_break(run, partial(stoker, ahead=still), speed * level, front, bore) | {
         "plateau_error": float(depth[middle].mean()) / level - 1}
 
 
@@ -284,15 +297,16 @@ def held_back(rough, free):
     """[(T, computed, that of theory)]: water (h0^2) that has not passed the gate because of the friction of a wet bed, by
     runs that differ only in that. The lag of the start, which theory has not, is the same in both."""
     still = rough.parameters["h1"] / rough.parameters["h0"]
-    pairs = list(zip(late_profiles(rough), late_profiles(free)))
-    states, free_states = rough_states(rough, [T for (T, _, _), _ in pairs])
-    return [(T, volume_ahead(free_x, free_h, still) - volume_ahead(x, h, still),
-             volume_ahead(*free_state[:2], still) - volume_ahead(*state[:2], still))
-            for ((T, x, h), (_, free_x, free_h)), state, free_state in zip(pairs, states, free_states)]
+    (times, passed), (free_times, free_passed) = water_passed(rough), water_passed(free)
+    late = np.minimum(times[times > LATE - 0.01], free_times[-1])  # their last frames are a step apart
+    states, free_states = rough_states(rough, late)
+    return [(T, found, volume_ahead(*free_state[:2], still) - volume_ahead(*state[:2], still))
+            for T, found, state, free_state in zip(
+                late, np.interp(late, free_times, free_passed) - np.interp(late, times, passed), states, free_states)]
 
 
 def held_back_error(rough, free):
-    """Of the water that the bed's friction has held back by the last profile, relative."""
+    """Of the water that the bed's friction has held back by the last frame, relative."""
     _, found, exact = held_back(rough, free)[-1]
     return found / exact - 1
 

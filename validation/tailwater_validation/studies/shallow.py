@@ -126,9 +126,9 @@ def rough_wet_bed(plan):
         "rough-wet-bed", "Decay of a bore over a rough bed", EXACT,
         "Stoker's dam break onto water 0.2 h0 deep over a bed of k_s = h0/50, for twice the time, beside the same without friction: how "
         "much water the friction has held back behind the gate, against the shallow-water equations with the logarithmic law.",
-        "The difference of two runs: what the theory leaves out is the same in both. It is 0.05 h0^2 of 3.4 that have passed the gate, "
-        "and the bore's undulations change the volumes by some 0.005.",
-        (Check(Metric("rough-wet-bed.held_back_error", "water held back by friction at T = 11.9, relative error", "",
+        "The difference of two runs: what the theory leaves out is the same in both. It is 0.05 h0^2 of 3.4 that have passed the gate; "
+        "particles are counted on both sides of it.",
+        (Check(Metric("rough-wet-bed.held_back_error", "water held back by friction at T = 12, relative error", "",
                       "shallow-water theory with friction", low=-0.15, high=0.15), runs[-2:], shallow_water.held_back_error),),
         (Plot("Water held back over time.", runs, draw_held_back),), shown=runs[-2],
         moments=tuple(T / math.sqrt(9.81) for T in (4, 8, 11.9)), time_scale=1 / math.sqrt(9.81))
