@@ -122,6 +122,20 @@ class Scores(synthetic_run.CaseTest):
         self.assertEqual(metrics["mean error H2"].verdict, "")
         self.assertAlmostEqual(metrics["impulse P1"].value, 0, places=9)
 
+    def test_water_that_leaves_over_the_rim_is_told_from_water_that_leaks(self):
+        run = Run(write_run(self.folder))
+        self.assertEqual(kleefsman2005.lost_through_walls(run), 0)  # nothing is outside, and no frame is read
+        (self.folder / "summary.json").write_text('{"volume": {"outside_the_walls_end": 3}}')
+        # 0.1 s after they passed y = 1 m: one 0.2 m above the rim, two below it; and one that was never out.
+        height, velocity = np.array([1.2, 0.6, 0.7, 0.3]), np.array([[0.1, 1.0, 2.0]] * 4)
+        position = np.column_stack([np.ones(4), [1.1, 1.1, 1.1, 0.5], height + 0.1 * 2.0 + 0.5 * 9.81 * 0.1**2])
+        ids = np.arange(1, 5)
+        for k, (out, there) in enumerate(((0.0, [0, 1, 2, 3]), (1.0, [0, 1, 2, 3]), (1.0, [1, 3]))):  # two fall below all walls
+            synthetic_run.write_frame(self.folder / "fields" / f"fields_{k:05}.vtp", (position * [1, out or 0.5, 1])[there],
+                                      velocity=velocity[there], id=ids[there])
+        synthetic_run.write_series(self.folder, "fields", (0.9, 1.0, 1.1))
+        self.assertEqual(kleefsman2005.lost_through_walls(Run(self.folder)), 2)
+
     def test_a_sensor_that_stays_dry_is_told(self):
         metrics = self.score(factor=0.0)
         self.assertIsNone(metrics["arrival P1"].value)
