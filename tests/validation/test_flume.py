@@ -56,6 +56,7 @@ class SteadyFlows(unittest.TestCase):
                                                               "crest": ("connected_m", 0.1, (q**2 / G) ** (1 / 3)),
                                                               "over_crest": ("volume_m3", 0.0, q)}))
         self.assertAlmostEqual(numbers["coefficient_error"], 0.0, places=9)
+        self.assertAlmostEqual(numbers["potential_error"], 1 / flume.BROAD_WEIR_COEFFICIENT - 1, places=9)
         self.assertAlmostEqual(numbers["crest_over_critical"], 1.0, places=9)
 
     def test_an_ogee_at_its_design_head_has_no_error(self):
