@@ -11,12 +11,13 @@ const dashes = [[], [7, 3], [2, 2], [9, 3, 2, 3]];
 
 function lines(panel: Panel, palette: string[]): Line[] {
   const c = colours();
-  let [run, measured, aside] = [0, 0, 0];
+  const asides = [...new Set(panel.curves.filter(({ kind }) => kind === "aside").map(({ label }) => label))];
+  let [run, measured] = [0, 0];
   return panel.curves.map(({ label, kind, x, y }): Line => {
     const line = { name: label, x, y: y as number[] };
     if (kind === "measured") return { ...line, colour: measured++ === 0 ? c.text : c.faint, points: true };
     if (kind === "exact") return { ...line, colour: c.text, dash: [3, 3], width: 1.2 };
-    if (kind === "aside") return { ...line, colour: c.faint, width: 1, ...(aside++ % 2 ? { dash: [2, 2] } : {}) };
+    if (kind === "aside") return { ...line, colour: c.faint, width: 1, ...(asides.indexOf(label) % 2 ? { dash: [2, 2] } : {}) };
     const colour = palette[run % palette.length]!;
     const dash = dashes[run++ % dashes.length]!;
     if (kind === "particles") return { ...line, colour, points: true };

@@ -19,10 +19,14 @@ function panel({ spacings_m: x }: SpacingStudy, row: StudyRow): Panel {
 }
 
 export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy; away: boolean }) {
-  const ways = app.state!.runs.map(({ id, name }) => <button onClick={() => void app.watch(id, 0)}>{name}</button>);
+  const runs = app.state!.runs, spacings = study.spacings_m.map((dx) => `${number(dx)} m`);
+  const words = runs.length === spacings.length ? spacings : runs.map(({ name }) => name);
+  const ways = runs.map(({ id, name }, i) => <button title={name} onClick={() => void app.watch(id, 0)}>{words[i]}</button>);
   return (
     <Paper away={away} label="Runs" ways={<p class="see">{ways}</p>}>
-      <p class="faint">Spacings of {study.spacings_m.map((dx) => number(dx)).join(", ")} m; a value is that of the finest, and its limit is between low and high 95 times of 100.</p>
+      <p class="faint">
+        A value is that of the finest of {spacings.length} spacings, {spacings[0]}; what it tends to, its limit, is between low and high 95 times of 100. Uncertainty is half of that interval, made of discretisation and of chance; step is what half of the time step changes.
+      </p>
       <Table head={[["probe"], ["quantity"], ["unit"], ...numbers.map(([word]): [string, boolean] => [word, true])]}>
         {study.results.map((row) => (
           <>
