@@ -187,7 +187,7 @@ void add_view_command(CLI::App& app, ExitCode&) {
   CLI::App* command = app.add_subcommand("view", "Look at runs, or edit and run a case, in a browser");
   command
       ->add_option("path", options->paths,
-                   "Folders of runs, going or done; the folder of a sweep or of a validation; or a case file")
+                   "Folders of runs, going or done; the folder of a sweep, a study or a validation; or a case file")
       ->required()
       ->type_name("");
   command->add_option("--port", options->port, "Port of 127.0.0.1 to listen to; default: one that is free")
