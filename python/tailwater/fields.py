@@ -12,7 +12,7 @@ from .vtp import read_points
 __all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "to_frame"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Frame:
     """Fluid particles at one time (s): positions (n, 3) in m, z = 0 in 2D, and fields by name, (n) or (n, 3), in SI
     units."""
@@ -20,6 +20,9 @@ class Frame:
     time: float
     position: np.ndarray
     fields: dict
+
+    def __repr__(self):
+        return f"Frame({self.time:.6g} s: {len(self.position)} particles, {', '.join(self.fields)})"
 
     def __getitem__(self, name: str) -> np.ndarray:
         try:

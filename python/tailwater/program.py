@@ -76,9 +76,11 @@ def call(*words, progress: bool = False, folder=None) -> str:
 
 
 def follow(child) -> tuple:
-    """Shows what the child tells; for commands that say little on standard output."""
+    """Shows what the child tells, but not its error, which the caller gets; for commands that say little on standard
+    output."""
     told = []
     for line in child.stderr:
         told.append(line)
-        print(line, end="", file=sys.stderr, flush=True)
+        if not line.startswith("error: "):
+            print(line, end="", file=sys.stderr, flush=True)
     return child.communicate()[0], "".join(told)

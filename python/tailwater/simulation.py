@@ -85,6 +85,11 @@ class Body:
         self._flow.push(self._number, np.concatenate([force, turns]))
 
 
+class Bodies(dict):
+    def __missing__(self, name):
+        raise KeyError(f"{name}; the case has {', '.join(self) or 'no bodies'}")
+
+
 class Step:
     """The moment before a step: `time` (s), `dt` (s) of the step, `number` of those taken.
 
@@ -95,6 +100,9 @@ class Step:
     def __init__(self, simulation):
         self._flow = simulation._flow
         self.time, self.dt, self.number = self._flow.time, self._flow.dt, self._flow.number
+
+    def __repr__(self):
+        return f"Step({self.number} from {self.time:.6g} s by {self.dt:.4g} s)"
 
     def _now(self):
         if self._flow.number != self.number:
@@ -144,7 +152,7 @@ class Step:
     @property
     def bodies(self) -> dict:
         """The floating bodies by name."""
-        return {name: Body(self._now(), k, name) for k, name in enumerate(self._now().bodies)}
+        return Bodies({name: Body(self._now(), k, name) for k, name in enumerate(self._now().bodies)})
 
     def set_discharge(self, inlet: str, discharge: float):
         """m^3/s, in 2D per metre of width; from this step on, in place of what the case says of an inlet that has a

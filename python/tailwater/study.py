@@ -246,8 +246,8 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
         raise InputError(f"starts = {starts}: give 0 or more")
     if spacings is not None:
         chosen = sorted({float(spacing) for spacing in spacings}, reverse=True)
-        if len(chosen) < 3:
-            raise InputError(f"spacings = {', '.join(map(str, spacings))}: give three or more that differ")
+        if len(chosen) < 3 or not chosen[-1] > 0:
+            raise InputError(f"spacings = {', '.join(map(str, spacings))}: give three or more that differ, in m")
         if budget is not None:
             raise InputError("spacings and a budget: give one of them")
         runs = done(sweep(case, {"particles.spacing": chosen}, out=out / "spacings", **runner), "other spacings")

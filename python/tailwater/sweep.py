@@ -4,7 +4,7 @@ import csv
 from pathlib import Path
 
 from . import case_text
-from .errors import DataError, Error
+from .errors import DataError, Error, InputError
 from .program import call
 from .run import Run
 
@@ -49,8 +49,12 @@ def sweep(case, values: dict, *, out=None, jobs: int = 1, ranks: int = 1, progre
     default NAME_sweep of the case file's name; called again it goes on with what is not done. A member that fails does
     not end the others: the table says how each ended. Throws InputError before anything is run."""
     out = Path(out or f"{case.file.stem}_sweep")
+    if not values:
+        raise InputError("values: give keys, each with a list of its values")
     words = []
     for key, each in values.items():
+        if isinstance(each, (str, int, float)):
+            raise InputError(f"{key} = {each}: give a list of values")
         words += ["--sweep", f"{key}={','.join(map(case_text.toml_value, each))}"]
     table = out / "sweep.csv"
     before = table.stat().st_mtime_ns if table.exists() else None

@@ -154,6 +154,8 @@ class OnBodies(PackageTest):
             self.assertLess(abs(turned - [-box.angular_velocity, 0]).max(), 1e-12)
             with self.assertRaisesRegex(tw.InputError, "2 components"):
                 box.push([1, 2, 3])
+            with self.assertRaisesRegex(KeyError, "the case has box"):
+                simulation.now().bodies["boat"]
 
 
 class AtInlets(PackageTest):

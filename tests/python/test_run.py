@@ -48,6 +48,7 @@ class Runs(PackageTest):
         self.assertEqual([last.position.shape, last["velocity"].shape, last["pressure"].shape],
                          [(50, 3), (50, 3), (50,)])
         self.assertLess(abs(run.at(0.0).position[:, :2].mean(axis=0) - [0.5, 0.25]).max(), 1e-6)
+        self.assertIn("50 particles, pressure", repr(last))
         with self.assertRaisesRegex(KeyError, "there are pressure"):
             last["speed"]
 
@@ -193,8 +194,9 @@ class Runs(PackageTest):
         self.assertEqual(list(table["status"]), ["failed", "done"])
 
     def test_sweep_that_cannot_begin(self):
-        with self.assertRaisesRegex(tw.InputError, "particles.spacing"):
-            tw.sweep(self.case, {"particles.spacing": [-1, 0.1]})
+        for values in ({"particles.spacing": [-1, 0.1]}, {"particles.spacing": 0.1}, {}):
+            with self.assertRaisesRegex(tw.InputError, "particles.spacing" if values else "values"):
+                tw.sweep(self.case, values)
 
     def test_page_of_a_run(self):
         view = self.case.run("out").view()

@@ -59,8 +59,9 @@ class Studies(PackageTest):
             tw.study(self.case, out="s", spacings=[0.16, 0.125, 0.1])
 
     def test_two_spacings_are_no_study(self):
-        with self.assertRaisesRegex(tw.InputError, "three or more"):
-            tw.study(self.case, spacings=[0.1, 0.2, 0.1])
+        for spacings in ([0.1, 0.2, 0.1], [0.1, 0.2, -0.1]):
+            with self.assertRaisesRegex(tw.InputError, "three or more"):
+                tw.study(self.case, spacings=spacings)
         self.assertFalse(Path("dam_study").exists())
 
 
