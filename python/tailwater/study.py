@@ -18,7 +18,7 @@ from .sweep import sweep
 __all__ = ["Study", "study"]
 
 COARSEST = 2.0  # times the spacing of the case, or of the finest run
-SPACINGS = 5
+SPACINGS = 7
 STARTS = 3
 JITTER = 0.01  # of dx: enough for what is chance to take another course
 FITS = 0.001  # of the water: what a start may have more or less than another spacing gives
@@ -234,7 +234,7 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
     NAME_study; called again it goes on with what is not done.
 
-    `spacings`: three or more, in m. Without them they are five, from twice the case's own down to that; with a `budget`
+    `spacings`: three or more, in m. Without them they are seven, from twice the case's own down to that; with a `budget`
     in seconds of computing time (of one process), down to what fits it. Those between are such that whole rows of
     particles fit the water, where that is near. `starts` runs with other random displacements
     of the particles at the start, and one with half of the time step if `step`, are of the second coarsest spacing.

@@ -65,7 +65,7 @@ def parser():
     command.add_argument("--set", action="append", type=change, default=[], metavar="KEY=VALUE",
                          help="change a value of the case")
     command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three spacings or more, in m (default: "
-                         "five, from twice that of the case down to it)")
+                         "seven, from twice that of the case down to it)")
     command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, as in 90, 20min or 1.5h, that "
                          "chooses the finest spacing")
     command.add_argument("--starts", type=count, default=3, metavar="N", help="runs from other starts (3)")

@@ -26,9 +26,9 @@ ORDERS = np.linspace(0.05, 8.0, 160)  # that are looked through, before the best
 FIRST_POWERS, TERMS = (0.5, 1.0), 3
 SIZES = np.geomspace(0.3, 30.0, 9)  # of the terms at the coarsest spacing, over the spread of the values
 STEPS = (0.01, 0.1, 1.0)  # of the error of the time step there, over that size
-SCATTERS = (0.02, 0.06, 0.2)  # of values about such an error, over its size: of how the particles lie at walls
+SCATTERS = (0.02, 0.06, 0.2, 0.6)  # of values about such an error, over its size: of how the particles lie at walls
 CHANCES = np.geomspace(1e-3, 2.0, 10)  # standard deviation of one run, over the spread
-HIDDEN = 3.9  # standard deviations: five values that differ by chance alone differ by less, 95 times of 100
+HIDDEN = 4.2  # standard deviations: seven values that differ by chance alone differ by less, 95 times of 100
 CERTAIN = 0.95  # that the limit is inside the interval
 ROUNDING = 1e-12  # of the values: what spreads less is one number
 

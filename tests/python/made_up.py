@@ -8,7 +8,7 @@ import sys
 import numpy as np
 from tailwater.uncertainty import estimate
 
-H = 0.01 * 2 ** np.linspace(0, 1, 5)  # the five spacings of a study
+H = 0.01 * 2 ** np.linspace(0, 1, 7)  # the seven spacings of a study
 STARTS = 3  # others, of the second coarsest
 
 
@@ -23,6 +23,8 @@ FAMILIES = {
     "x^p, p from 0.5 to 2.5": lambda x, random: sign(random) * x ** random.uniform(0.5, 2.5),
     "a x^2 + b x^3": lambda x, random: random.uniform(-1, 1) * x**2 + random.uniform(-1, 1) * x**3,
     "a x + b x^2 + c x^3, normal": lambda x, random: random.normal(size=3) @ [x, x**2, x**3],
+    "a x + b x^2 and scatter up to 0.3": lambda x, random: (random.uniform(-1, 1) * x + random.uniform(-1, 1) * x**2
+                                                            + random.uniform(0, 0.3) * random.normal(size=x.size)),
 }
 # At which it may fail.
 HARD = {
