@@ -28,6 +28,7 @@ SIZES = np.geomspace(0.3, 30.0, 9)  # of the terms at the coarsest spacing, over
 STEPS = (0.01, 0.1, 1.0)  # of the error of the time step there, over that size
 SCATTERS = (0.02, 0.06, 0.2, 0.6)  # of values about such an error, over its size: of how the particles lie at walls
 CHANCES = np.geomspace(1e-3, 2.0, 10)  # standard deviation of one run, over the spread
+UNEVEN = 0.4  # scatter over the size of an error from which on finer spacings are not what narrows the interval
 HIDDEN = 4.2  # standard deviations: seven values that differ by chance alone differ by less, 95 times of 100
 CERTAIN = 0.95  # that the limit is inside the interval
 ROUNDING = 1e-12  # of the values: what spreads less is one number
@@ -131,6 +132,7 @@ class Hypotheses:
     evidence: np.ndarray  # logarithm of their likelihood but for the misfit
     chance: np.ndarray  # standard deviation of one run
     of_chance: np.ndarray  # what it does to the limit
+    scatter: np.ndarray  # over the size of the error
 
 
 @lru_cache(maxsize=8)
@@ -139,12 +141,13 @@ def hypotheses(h, steps, counts):
     spread by about 1. The prior of the limit is flat; all else is Gaussian."""
     x = np.array(h) / max(h)
     of_step, is_same = np.outer(x * steps, x * steps), x[:, None] == x
-    covariances, chances = [], []
+    covariances, chances, scatters = [], [], []
     for first, size, step, scatter, chance in product(FIRST_POWERS, SIZES, STEPS, SCATTERS, CHANCES):
         terms = x[:, None] ** (first + np.arange(TERMS))
         covariances.append(size**2 * (terms @ terms.T + step**2 * of_step + scatter**2 * is_same)
                            + chance**2 * np.diag(1 / np.array(counts)))
         chances.append(chance)
+        scatters.append(scatter)
     covariance, chance = np.array(covariances), np.array(chances)
     inverse = np.linalg.inv(covariance)
     row = inverse.sum(axis=1)
@@ -152,7 +155,7 @@ def hypotheses(h, steps, counts):
     weights = row / total[:, None]
     return Hypotheses(weights, 1 / np.sqrt(total), inverse - row[:, :, None] * weights[:, None, :],
                       -0.5 * (np.linalg.slogdet(covariance)[1] + np.log(total)), chance,
-                      chance * np.sqrt(weights**2 @ (1 / np.array(counts))))
+                      chance * np.sqrt(weights**2 @ (1 / np.array(counts))), np.array(scatters))
 
 
 def quantile(share, weights, means, deviations):
@@ -174,6 +177,7 @@ class Limit:
     high: float
     chance: float  # of (high - low)/2, with squares that add up; nan if no values from other starts tell it
     discretisation: float  # the rest
+    scatter: float  # of the values from spacing to spacing, over the size of their error
 
 
 def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
@@ -181,7 +185,7 @@ def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
     was found with so many degrees of freedom, which may be 0."""
     scale = max(float(np.ptp(means)), math.sqrt(variance))
     if scale <= ROUNDING * float(abs(means).max()):
-        return Limit(float(means[0]), float(means[0]), float(means[0]), 0.0 if freedom else math.nan, 0.0)
+        return Limit(float(means[0]), float(means[0]), float(means[0]), 0.0 if freedom else math.nan, 0.0, 0.0)
     known = hypotheses(tuple(h), tuple(steps), tuple(counts))
     value, squares = (means - means[0]) / scale, variance / scale**2
     evidence = (known.evidence - 0.5 * np.einsum("i,kij,j->k", value, known.misfit, value)
@@ -195,7 +199,8 @@ def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
     share = float(weights @ of_chance**2) / float(weights @ (deviation**2 + (at - mean)**2)) if freedom else 0.0
     half = 0.5 * scale * (high - low)
     return Limit(float(means[0]) + scale * mean, float(means[0]) + scale * low, float(means[0]) + scale * high,
-                 half * math.sqrt(share) if freedom else math.nan, half * math.sqrt(max(0.0, 1 - share)))
+                 half * math.sqrt(share) if freedom else math.nan, half * math.sqrt(max(0.0, 1 - share)),
+                 float(weights @ known.scatter[kept]))
 
 
 @dataclass(frozen=True)
@@ -229,6 +234,9 @@ def notes_on(found, order, is_hidden, step):
         notes.append("the values differ by no more than chance: longer means and more starts narrow the interval")
     elif found.chance > found.discretisation:
         notes.append("mostly chance: longer means and more starts narrow the interval")
+    elif found.scatter > UNEVEN:
+        notes.append("the values scatter from spacing to spacing, more than from start to start: more spacings and longer "
+                     "means narrow the interval")
     else:
         notes.append("mostly discretisation: finer spacings narrow the interval")
     if step > 0.5 * half:

@@ -151,6 +151,8 @@ class Estimates(unittest.TestCase):
         self.assertIn("time step", " ".join(by_step.notes))
         self.assertIn("mostly discretisation", " ".join(estimate(list(H), list(2 + 3 * H)).notes))
         self.assertIn("no order", " ".join(estimate(list(H), [2, 2.1, 2, 2.1]).notes))
+        uneven = estimate(list(made_up.H), [2, 2.1, 2.05, 2, 2.1, 2, 2.06], starts={made_up.H[5]: [2, 2.001, 1.999]})
+        self.assertIn("more spacings", " ".join(uneven.notes))
 
 
 if __name__ == "__main__":
