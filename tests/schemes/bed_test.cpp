@@ -14,10 +14,10 @@ constexpr double crest = 0.08;
 constexpr double toe = 0.7;
 constexpr double half_width_at(double slope) { return crest / slope; }
 
-/// Channel with a symmetric triangular hump of this slope.
-CaseSpec channel_with_hump(double slope) {
+/// Channel with a symmetric triangular hump of this slope, which goes on for some metres behind it.
+CaseSpec channel_with_hump(double slope, double behind) {
   const double half = half_width_at(slope);
-  const double end = toe + 2.0 * half + 0.7;
+  const double end = toe + 2.0 * half + behind;
   CaseSpec spec;
   spec.particles.spacing = dx;
   WallTable bed;
@@ -31,7 +31,7 @@ class Hump : public testing::TestWithParam<double> {};
 
 TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
   const double depth = 0.2;
-  CaseSpec spec = channel_with_hump(GetParam());
+  CaseSpec spec = channel_with_hump(GetParam(), 0.7);
   FluidTable water;
   water.shape = BlockShape::polygon;
   water.points = spec.walls[0].points;
@@ -58,7 +58,8 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
 
 TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   const double depth = 0.3;
-  CaseSpec spec = channel_with_hump(GetParam());
+  // Nobody gets to the end: the first contact of a film with a wall is no bore.
+  CaseSpec spec = channel_with_hump(GetParam(), 5.0);
   FluidTable water;
   water.min = {0.0, 0.0};
   water.max = {0.4, depth};
