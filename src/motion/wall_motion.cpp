@@ -205,7 +205,8 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
   for (std::size_t row = 0; row < particles.size(); ++row) {
     const int wall = particles.wall[row];
     if (!boundary.walls[wall].moves()) continue;
-    drawn_particles_.push_back({row, wall, particles.position[row], particles.normal[row], particles.blocked[row]});
+    drawn_particles_.push_back({row, wall, particles.position[row], particles.normal[row], particles.blocked[row],
+                                particles.beyond_edges[row]});
   }
 }
 
@@ -223,6 +224,7 @@ void WallMotion<Dim>::place(double time, const MotionState<Dim>& state, Boundary
       particles.position[drawn.row] = motion(drawn.position);
       particles.normal[drawn.row] = motion.linear * drawn.normal;
       particles.blocked[drawn.row] = motion.linear * drawn.blocked * motion.linear.transpose();
+      particles.beyond_edges[drawn.row] = motion.linear * drawn.beyond_edges;
     });
   }
   if (!moving_.empty()) boundary.hang_screens();

@@ -185,6 +185,7 @@ class WallMotion {
     Vec<Dim> position;
     Vec<Dim> normal;
     Mat<Dim> blocked;
+    Mat<Dim> beyond_edges;
   };
 
   std::vector<MovingWall> moving_;

@@ -1,6 +1,7 @@
 #include "sampling/wall_layers.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "geometry/mesh_surface.h"
 
@@ -10,6 +11,8 @@ namespace {
 constexpr double least_distance = 0.5;     // dx, between wall particles
 constexpr double reach_over_depth = 2.0;   // most wall particles are nearer to their feet
 constexpr double seam_over_spacing = 2.0;  // four places may be in the way of each other
+constexpr double edge_cosine = 0.766;      // a wall that turns by 40 degrees
+constexpr double edge_width = 0.25;        // within this many dx has an edge there
 
 /// Projector onto the directions that walls with these normals block: the sum of n n^T, eigenvalues clipped at 1.
 template <int Dim>
@@ -21,6 +24,15 @@ Mat<Dim> blocked_by(const std::vector<Vec<Dim>>& normals) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMin(1.0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+/// Whether each of two faces is behind the other, as at a convex edge.
+template <int Dim>
+bool form_ridge(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolerance) {
+  const auto is_behind = [&](const WallFace<Dim>& face, const WallFace<Dim>& other) {
+    return std::ranges::all_of(face.corners, [&](const Vec<Dim>& x) { return other.height(x) < tolerance; });
+  };
+  return is_behind(a, b) && is_behind(b, a);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -29,6 +41,8 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       tolerance_(corner_tolerance * layers.spacing),
       share_(layers.share),
       seam_(seam_over_spacing * layers.spacing),
+      look_distance_(edge_width * layers.spacing),
+      reach_(layers.starts_on_wall ? 0.0 : layers.count * layers.spacing),
       taken_((least_distance - corner_tolerance) * layers.spacing),
       plain_(reach_over_depth * layers.count * layers.spacing) {
   body.visit_plain_faces([&](int f) {
@@ -51,14 +65,84 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
 }
 
 template <int Dim>
+std::vector<WallFace<Dim>> WallParticleCollector<Dim>::faces_in_front_of(const WallPlace<Dim>& place) const {
+  const Vec<Dim> x = place.stands_at();
+  std::vector<std::pair<double, WallFace<Dim>>> found;
+  const auto look_at = [&](const WallFace<Dim>& face) {
+    if (face.height(x) > -tolerance_) return;
+    const double distance = (closest_point(face, x) - x).norm();
+    if (distance < reach_) found.emplace_back(distance, face);
+  };
+  for (const int f : faces_between(place)) look_at(body_.faces[f]);
+  if constexpr (Dim == 3) {
+    const Vec<3> around = Vec<3>::Constant(reach_);
+    for (const WallMesh& mesh : body_.meshes) {
+      mesh.surface->visit_in(x - around, x + around,
+                             [&](int t) { look_at(face_of(mesh.surface->mesh(), t, mesh.wall)); });
+    }
+  }
+  std::ranges::stable_sort(found, {}, [](const auto& entry) { return entry.first; });
+  std::vector<WallFace<Dim>> faces;
+  for (auto& entry : found) faces.push_back(std::move(entry.second));
+  return faces;
+}
+
+template <int Dim>
+bool WallParticleCollector<Dim>::sees(const WallPlace<Dim>& place, const WallFace<Dim>& face) const {
+  WallPlace<Dim> through = place;
+  through.foot = closest_point(face, place.stands_at());
+  return !is_behind_mesh(through, nullptr) && std::ranges::none_of(faces_between(place), [&](int f) {
+    return crosses(body_.faces[f], place.stands_at(), through.foot, tolerance_);
+  });
+}
+
+template <int Dim>
+bool WallParticleCollector<Dim>::has_edge_between(const Vec<Dim>& x, const WallFace<Dim>& a,
+                                                  const WallFace<Dim>& b) const {
+  const Vec<Dim> from = closest_point(a, x);
+  const Vec<Dim> way = closest_point(b, x) - from;
+  const int looks = static_cast<int>(std::ceil(way.norm() / look_distance_));
+  Vec<Dim> normal = a.normal;
+  for (int look = 1; look <= looks; ++look) {
+    const int f = body_.nearest(from + static_cast<double>(look) / looks * way, reach_).face;
+    if (f < 0 || body_.faces[f].normal.dot(normal) < edge_cosine) return true;
+    normal = body_.faces[f].normal;
+  }
+  return false;
+}
+
+template <int Dim>
+Mat<Dim> WallParticleCollector<Dim>::normals_beyond_edges(const WallPlace<Dim>& place, const Vec<Dim>& sum) const {
+  Mat<Dim> beyond = Mat<Dim>::Zero();
+  const bool is_halfway_through = sum.norm() < corner_tolerance;  // a thin wall: it has no side
+  if (is_halfway_through || body_.walls[place.wall].is_plate) return beyond;
+  std::vector<WallFace<Dim>> meeting;  // at convex edges
+  for (const WallFace<Dim>& face : faces_in_front_of(place)) {
+    const auto turns_away = [&](const WallFace<Dim>& other) { return face.normal.dot(other.normal) < edge_cosine; };
+    if (!std::ranges::all_of(meeting, turns_away) || !sees(place, face)) continue;
+    const auto form_ridge_with = [&](const WallFace<Dim>& other) { return form_ridge(face, other, tolerance_); };
+    if (!std::ranges::all_of(meeting, form_ridge_with)) return beyond;
+    if (meeting.empty() || has_edge_between(place.stands_at(), meeting.front(), face)) meeting.push_back(face);
+  }
+  if (meeting.size() < 2) return beyond;
+  int column = 0;
+  for (const WallFace<Dim>& face : meeting) {
+    const bool is_own = face.normal.dot(sum.normalized()) > 1.0 - corner_tolerance;
+    if (!is_own && column < Dim) beyond.col(column++) = face.normal;
+  }
+  return beyond;
+}
+
+template <int Dim>
 void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place, std::int64_t number) {
   taken_.add(place.position);
   if (!share_.holds(place.position)) return;
-  Vec<Dim> mean = Vec<Dim>::Zero();
-  for (const Vec<Dim>& n : place.normals) mean += n;
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (const Vec<Dim>& n : place.normals) sum += n;
   particles_.position.push_back(place.stands_at());
-  particles_.normal.push_back(mean.normalized());
+  particles_.normal.push_back(sum.normalized());
   particles_.blocked.push_back(blocked_by<Dim>(place.normals));
+  particles_.beyond_edges.push_back(normals_beyond_edges(place, sum));
   particles_.share.push_back(place.share);
   particles_.wall.push_back(place.wall);
   particles_.number.push_back(number);

@@ -91,12 +91,22 @@ class WallParticleCollector {
   }
   /// Whether a mesh other than its own lies between a place and its foot.
   bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
+  /// The faces within reach behind whose planes a place is, the nearest first.
+  std::vector<WallFace<Dim>> faces_in_front_of(const WallPlace<Dim>& place) const;
+  /// Whether nothing is between a place and the point of the face nearest to it.
+  bool sees(const WallPlace<Dim>& place, const WallFace<Dim>& face) const;
+  /// Whether the wall turns sharply somewhere between the points of two faces that are nearest to x, behind them.
+  bool has_edge_between(const Vec<Dim>& x, const WallFace<Dim>& a, const WallFace<Dim>& b) const;
+  /// WallParticles::beyond_edges of a place, from the sum of its normals.
+  Mat<Dim> normals_beyond_edges(const WallPlace<Dim>& place, const Vec<Dim>& sum) const;
   void keep(const WallPlace<Dim>& place, std::int64_t number);
 
   const Boundary<Dim>& body_;
   double tolerance_;  ///< m
   SpaceShare share_;
-  double seam_;  ///< m
+  double seam_;           ///< m
+  double look_distance_;  ///< m
+  double reach_;          ///< m; over which dummies see water
   PointGrid<Dim> taken_;
   FaceGrid<Dim> plain_;         ///< faces of no mesh
   std::vector<int> all_plain_;  ///< the same

@@ -22,6 +22,8 @@ struct WallParticles {
   /// eigenvalues clipped at 1. It is n n^T at a flat wall, I at a right-angled corner, and changes continuously in
   /// between. A free-slip mirror image of velocity u is u - 2 M u.
   std::vector<Mat<Dim>> blocked;
+  /// Columns: normals of the walls beyond convex edges in reach, the nearest first; 0 where there are none.
+  std::vector<Mat<Dim>> beyond_edges;
   std::vector<double> share;  ///< its volume, over dx^Dim
   std::vector<int> wall;      ///< index into Boundary::walls
   /// Unique, whichever share of the walls was made: of its place among all that were looked at. Those of particles on
@@ -36,7 +38,7 @@ struct WallParticles {
   /// Calls body with references to the entries of the particles.
   template <class Body>
   void apply_to_fields(Body&& body) {
-    body(position, normal, blocked, share, wall, number);
+    body(position, normal, blocked, beyond_edges, share, wall, number);
   }
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/for_each.h"
+#include "walls/wet_walls.h"
 
 namespace tailwater {
 namespace {
@@ -74,14 +75,14 @@ bool may_be_curved(const Boundary<Dim>& boundary) {
          std::ranges::any_of(boundary.plates, [](const WallPlate& plate) { return plate.sheet != nullptr; });
 }
 
-/// By how much the normal at a row turns until mid-step, in the wall's frame.
+/// By how much a normal n at a row turns until mid-step, in the wall's frame.
 template <int Dim>
-Vec<Dim> turn_of_normal(const Walls<Dim>& walls, const WallTurns<Dim>& turns, std::size_t row, const Vec<Dim>& t) {
+Vec<Dim> turn_of_normal(const Walls<Dim>& walls, const WallTurns<Dim>& turns, std::size_t row, const Vec<Dim>& n,
+                        const Vec<Dim>& t) {
   const Mat<Dim> S = walls.is_curved ? walls.curvature[row] : Mat<Dim>(Mat<Dim>::Zero());
   if (row >= walls.moving) return 0.5 * turns.dt * (S * t);
   const int wall = walls.particles.wall[row];
   const Mat<Dim>& from_drawn = turns.from_drawn[wall];
-  const Vec<Dim>& n = walls.particles.normal[row];
   return 0.5 * turns.dt * (from_drawn * (S * (from_drawn.transpose() * t))) + turns.in_step[wall] * n - n;
 }
 
@@ -104,10 +105,11 @@ void follow_turning_walls(const WallScene<Dim>& scene, const WallTurns<Dim>& tur
     if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(scene.particles.wall_row[i]);
     if (row >= walls.moving && (!walls.is_curved || walls.curvature[row].isZero(0.0))) return;
-    const Vec<Dim>& n = walls.particles.normal[row];
+    const Mirror<Dim> mirror = mirror_at(scene, i);
+    const Vec<Dim>& n = mirror.normal;
     const Vec<Dim> relative = velocity[i] - entry_of<Dim>(V, scene.particles.wall_row[i]);
-    const Vec<Dim> t = relative - walls.particles.blocked[row] * relative;
-    const double c = t.dot(turn_of_normal(walls, turns, row, t));
+    const Vec<Dim> t = relative - mirror.blocked * relative;
+    const double c = t.dot(turn_of_normal(walls, turns, row, n, t));
     if (turns.comes_from_chord) acceleration[i] = -2.0 * c / turns.dt * n;
     velocity[i] += (turns.comes_from_chord ? 2.0 : -2.0) * c * n;  // mirrored at V + c n, at V - c n
   });

@@ -1,5 +1,7 @@
 #include "walls/wet_walls.h"
 
+#include <algorithm>
+
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -8,6 +10,36 @@ namespace {
 /// A wall particle is wet when its kernel sum over the fluid exceeds this share of W(0): some fluid particle is inside
 /// its support, not merely on the edge.
 constexpr double least_wet_weight = 1e-6;
+
+/// The part of `d` in the cone that the columns of `others` and `own` span: the nearest point of it. Exact where they
+/// are perpendicular to each other.
+template <int Dim>
+Vec<Dim> part_in_cone(const Vec<Dim>& d, const Mat<Dim>& others, const Vec<Dim>& own) {
+  constexpr int sweeps = 8;
+  Eigen::Matrix<double, Dim, Dim + 1> normals;
+  normals << others, own;
+  Eigen::Matrix<double, Dim + 1, 1> share = Eigen::Matrix<double, Dim + 1, 1>::Zero();
+  Vec<Dim> rest = d;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int k = 0; k <= Dim; ++k) {
+      const double more = std::max(-share[k], normals.col(k).dot(rest));
+      share[k] += more;
+      rest -= more * normals.col(k);
+    }
+  }
+  return d - rest;
+}
+
+/// Sum of W (r_f - r_i) over the fluid in reach of wall particle i.
+template <int Dim>
+Vec<Dim> towards_water(const Pairs<Dim>& pairs, std::size_t i) {
+  VecLanes<Dim> sum{};
+  for_each_pair(pairs, i, [&](const auto& several) {
+    const PlaceLanes<Dim> place = several.place();
+    sum += place.of_fluid(several.kernel_at(place.d)) * place.d;
+  });
+  return -sum_of(sum);
+}
 
 }  // namespace
 
@@ -25,6 +57,20 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
   });
 }
 
+template <int Dim>
+Mirror<Dim> mirror_at(const WallScene<Dim>& scene, std::size_t i) {
+  const WallParticles<Dim>& walls = scene.walls.particles;
+  const std::int32_t row = scene.particles.wall_row[i];
+  const Mat<Dim>& beyond = walls.beyond_edges[row];
+  const Mirror<Dim> own{walls.normal[row], walls.blocked[row]};
+  if (beyond.isZero(0.0)) return own;
+  const Vec<Dim> seen = part_in_cone<Dim>(towards_water(scene.pairs, i), beyond, own.normal);
+  if (seen.isZero(0.0)) return own;
+  const Vec<Dim> n = seen.normalized();
+  return {n, n * n.transpose()};
+}
+
 TAILWATER_IN_2D_AND_3D(find_wet_walls);
+TAILWATER_IN_2D_AND_3D(mirror_at);
 
 }  // namespace tailwater

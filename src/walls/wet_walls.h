@@ -24,6 +24,18 @@ Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double f
   return sum_of(sum) / fluid_weight;
 }
 
+/// The plane at which wet wall particle i mirrors the water.
+template <int Dim>
+struct Mirror {
+  Vec<Dim> normal;
+  Mat<Dim> blocked;  ///< directions that are reversed
+};
+
+/// That of its wall. Beside a convex edge it faces the mean place of the water in reach, as far as the normals of the
+/// walls that meet there let it: a wall without water in front of it blocks nothing.
+template <int Dim>
+Mirror<Dim> mirror_at(const WallScene<Dim>& scene, std::size_t i);
+
 /// Sets the entries of owned wall particles in `velocity` (WallModel::show_velocity): of wet ones to
 /// shown(row, V, tangential, normal), of the wall's own velocity and the parts of the water's mean relative to it; of
 /// dry ones to 0.
@@ -38,7 +50,7 @@ void show_water(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V, std::s
     const auto row = scene.particles.wall_row[i];
     const Vec<Dim> own = entry_of<Dim>(V, row);
     const Vec<Dim> relative = mean - own;
-    const Vec<Dim> normal_part = scene.walls.particles.blocked[row] * relative;
+    const Vec<Dim> normal_part = mirror_at(scene, i).blocked * relative;
     const Vec<Dim> tangential_part = relative - normal_part;
     velocity[i] = shown(row, own, tangential_part, normal_part);
   });

@@ -64,6 +64,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
     EXPECT_NEAR(boundary.nearest(particles.position[row], 1.0).signed_distance,
                 drawn.nearest(at_start.position[row], 1.0).signed_distance, 8.0 * eps);
     EXPECT_LT((particles.blocked[row] - turn * at_start.blocked[row] * turn.transpose()).norm(), 8.0 * eps);
+    EXPECT_LT((particles.beyond_edges[row] - turn * at_start.beyond_edges[row]).norm(), 8.0 * eps);
     // d/dt: 2t to the right, and -pi/2 about the pivot, which is at (t^2, 0.2).
     const Vec<2> arm = motion.moving()[0].path.at(0.5)(at_start.position[row]) - Vec<2>(0.25, 0.2);
     const Vec<2> expected(1.0 + std::numbers::pi / 2.0 * arm[1], -std::numbers::pi / 2.0 * arm[0]);

@@ -269,6 +269,28 @@ TEST(SurfaceParticles, CoverTheClosedFacesOfABoxIn3D) {
   EXPECT_LT((nodes.blocked[corner] - Mat<3>::Identity()).norm(), round_off);
 }
 
+// Of a block on a bed: its sides and its top see each other's normals over 3 dx from the edge on. In the corners
+// between bed and block, and in those of the tank, there is nothing to see; nor is there in a round body.
+TEST(Dummies, KnowTheWallsBeyondConvexEdges) {
+  CaseSpec spec = tank();
+  const double top = 0.5;
+  spec.walls.push_back(box_wall({0.4, 0.0}, {0.7, top}, {}, FluidSide::outside));
+  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const auto at = [&](double x, double z) { return dummies.beyond_edges[find_at<2>(dummies, {x, z})]; };
+  for (std::size_t i = 0; i < dummies.size(); ++i) {
+    const bool is_of_tank = dummies.wall[i] == 0;
+    EXPECT_TRUE(!is_of_tank || dummies.beyond_edges[i].isZero(0.0)) << dummies.position[i].transpose();
+  }
+  EXPECT_EQ(at(0.45, top - 0.15), (Mat<2>{{0.0, 1.0}, {1.0, 0.0}})) << "left, near the top: top, right";
+  const Vec<2> row = at(0.55, top - 0.05).col(0).cwiseAbs();
+  EXPECT_EQ(row, Vec<2>(1.0, 0.0)) << "top: a side";
+
+  spec.walls = {polygon(circle(24, 0.3), FluidSide::right)};
+  const WallParticles<2> round = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  ASSERT_GT(round.size(), 0u);
+  for (const Mat<2>& beyond : round.beyond_edges) EXPECT_TRUE(beyond.isZero(0.0));
+}
+
 // A crest of 60 degrees, whose first mitre is a whole dx behind it: water that stands dx/2 before the tip finds a
 // particle dx/2 behind it. A right angle keeps its lattice.
 TEST(Dummies, FillTheTipOfASharpCrest) {
@@ -313,6 +335,7 @@ void expect_shares_to_be_all(const Boundary<Dim>& boundary, double dx, bool star
       EXPECT_EQ(part.position[k], all.position[row]);
       EXPECT_EQ(part.normal[k], all.normal[row]);
       EXPECT_EQ(part.blocked[k], all.blocked[row]);
+      EXPECT_EQ(part.beyond_edges[k], all.beyond_edges[row]);
       EXPECT_EQ(part.share[k], all.share[row]);
       EXPECT_EQ(part.wall[k], all.wall[row]);
     }

@@ -33,6 +33,7 @@ Walls<Dim> made_by(const Communicator& ranks) {
     walls.particles.position.push_back(x * Vec<Dim>::UnitX());
     walls.particles.normal.push_back(Vec<Dim>::UnitY());
     walls.particles.blocked.push_back(x * Mat<Dim>::Identity());
+    walls.particles.beyond_edges.push_back(-x * Mat<Dim>::Identity());
     walls.particles.share.push_back(2.0 * x);
     walls.particles.wall.push_back(moves(number) ? 1 : 0);
     walls.particles.number.push_back(number);
@@ -53,6 +54,7 @@ void expect_row(const Walls<Dim>& walls, std::int32_t row, std::int64_t number) 
   EXPECT_EQ(walls.particles.position[row], Vec<Dim>(x * Vec<Dim>::UnitX()));
   EXPECT_EQ(walls.particles.normal[row], Vec<Dim>(Vec<Dim>::UnitY()));
   EXPECT_EQ(walls.particles.blocked[row], Mat<Dim>(x * Mat<Dim>::Identity()));
+  EXPECT_EQ(walls.particles.beyond_edges[row], Mat<Dim>(-x * Mat<Dim>::Identity()));
   EXPECT_EQ(walls.particles.share[row], 2.0 * x);
   EXPECT_EQ(walls.particles.wall[row], moves(number) ? 1 : 0);
   EXPECT_EQ(walls.friction[row], 3.0 * x);
