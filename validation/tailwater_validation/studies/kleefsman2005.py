@@ -186,7 +186,7 @@ def box_run(plan, count, end):
 
 
 def study(plan):
-    counts, end = plan.at((11,), (15, 30), (15, 30)), plan.at(1.0, END, END)
+    counts, end = plan.at((11,), (11, 15), (15, 30)), plan.at(1.0, END, END)
     return laboratory_study(
         NAME, "Dam break against a box in 3D: Kleefsman et al. (2005), SPHERIC 2", metrics, draw,
         "Water 0.55 m deep, 1.228 m long and 1 m wide runs against a box 0.161 m high in a tank 3.22 m long. Heights of the water "
