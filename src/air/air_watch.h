@@ -39,6 +39,13 @@ struct PocketWall {
   std::vector<PocketShare> shares;
 };
 
+/// The answer of the water to 1 Pa in a pocket, one entry per particle.
+template <int Dim>
+struct AirResponse {
+  std::vector<double> pressure;  ///< up to date on walls and ghosts
+  std::vector<Vec<Dim>> force;   ///< 1/m; on water, per volume, of what the pressure was before the last pass
+};
+
 /// The pockets in one step: where water looks into them, and what they do.
 template <int Dim>
 struct PocketSides {
@@ -97,8 +104,9 @@ class AirWatch {
     air_pressure_.clear();
   }
 
-  /// The answer of the pressure to 1 Pa in a pocket, one entry per particle: for a guess of the next.
-  std::vector<double>& response(std::int64_t pocket) { return responses_[pocket]; }
+  /// That to a pocket in the last step, from which it is found in the next; empty at first.
+  AirResponse<Dim>& response(std::int64_t pocket) { return responses_[pocket]; }
+  const AirResponse<Dim>& response(std::int64_t pocket) const { return responses_.at(pocket); }
   /// Pa; what the air alone makes of the pressure, one entry per particle at the last solve: of all pockets their
   /// pressure times the response.
   std::vector<double>& air_pressure() { return air_pressure_; }
@@ -125,7 +133,7 @@ class AirWatch {
   std::vector<PocketTable> starts_;
   std::vector<VentTable> vents_;
   std::vector<double> openings_;
-  std::map<std::int64_t, std::vector<double>> responses_;  ///< by the number of the pocket
+  std::map<std::int64_t, AirResponse<Dim>> responses_;  ///< by the number of the pocket
   std::vector<double> air_pressure_;
 };
 

@@ -124,7 +124,8 @@ void BodyCoupling<Dim>::meet_air() {
   for (Eigen::Index k = 0; k < pockets; ++k) {
     std::vector<double> unit(static_cast<std::size_t>(pockets), 0.0);
     unit[static_cast<std::size_t>(k)] = 1.0;
-    G.col(k) = on_freedoms(forces_of(flow_.air.response(flow_.state.air.pockets[k].number), unit));
+    const AirResponse<Dim>& response = flow_.air.response(flow_.state.air.pockets[k].number);
+    G.col(k) = on_freedoms(forces_of(response.pressure, unit));
   }
   const bool is_known = !flow_.state.motion.bodies.inertia.empty();
   const Eigen::MatrixXd resisting = is_known ? Eigen::MatrixXd(inertia()) : Eigen::MatrixXd(scale_.asDiagonal());

@@ -8,8 +8,7 @@
 #include "flow/air_pressure.h"
 #include "flow/measure.h"
 #include "pressure/gas_step.h"
-#include "pressure/solve_rows.h"
-#include "pressure/tolerance.h"
+#include "pressure/pocket_response.h"
 
 namespace tailwater {
 namespace {
@@ -40,30 +39,6 @@ std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
   }
   flow.setup.ranks.sum_of_each(growth);
   return growth;
-}
-
-/// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts what their owners have.
-template <int Dim>
-void spread(const Flow<Dim>& flow, std::vector<double>& field) {
-  flow.halo().exchange(field);
-  const LinearSystem& rows = flow.pressure_rows;
-  for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (flow.role[i] == Role::wall) field[i] = rows.scale(i) * rows.whole().sum(i, field.data());
-  });
-  flow.halo().exchange(field);
-}
-
-/// chi_k of all particles.
-template <int Dim>
-std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
-  std::vector<double> field(flow.state.particles.size(), 0.0);
-  for (const PocketSide<Dim>& side : flow.sides.water) {
-    for (const PocketShare& share : side.shares) {
-      if (share.pocket == pocket) field[side.particle] = share.share;
-    }
-  }
-  spread(flow, field);
-  return field;
 }
 
 /// The water that has a share of a pocket, or a neighbour that has.
@@ -141,7 +116,7 @@ std::vector<double> find_own_drop(Flow<Dim>& flow) {
   std::vector<double> pressure;
   for (const AirPocket& pocket : pockets) {
     pressure.push_back(pressure_of(flow, pocket));
-    const std::vector<double>& response = flow.air.response(pocket.number);
+    const std::vector<double>& response = flow.air.response(pocket.number).pressure;
     for_each(drop.size(), [&](std::size_t i) { drop[i] += pressure.back() * response[i]; });
   }
   for (const PocketSide<Dim>& side : flow.sides.water) {
@@ -153,28 +128,6 @@ std::vector<double> find_own_drop(Flow<Dim>& flow) {
   return drop;
 }
 
-/// q_k: the answer of the pressure to 1 Pa in pocket k, up to date on ghosts. Adds to `left` the right-hand side, as
-/// the rows have it, of what it leaves undone of the pressure that the pocket has at the start of the step.
-template <int Dim>
-void find_response(Flow<Dim>& flow, int pocket, std::vector<double>& left) {
-  LinearSystem& rows = flow.pressure_rows;
-  std::vector<double>& response = flow.air.response(flow.state.air.pockets[pocket].number);
-  const bool is_new = response.empty();
-  response.resize(flow.state.particles.size(), 0.0);
-  std::ranges::fill(rows.rhs(), 0.0);
-  for (const PocketSide<Dim>& side : flow.sides.water) {
-    for (const PocketShare& share : side.shares) {
-      if (share.pocket != pocket) continue;
-      rows.set_rhs(side.particle, share.share * side.weight);
-      if (is_new) response[side.particle] = share.share;
-    }
-  }
-  flow.sides.iterations += solve_rows(flow, response, rough_tolerance(flow.pressure_solver.tolerance())).iterations;
-  spread(flow, response);
-  const double pressure = pressure_of(flow, flow.state.air.pockets[pocket]);
-  for_each(left.size(), [&](std::size_t i) { left[i] += pressure * (rows.answer(i, response.data()) - response[i]); });
-}
-
 /// By how much [m^Dim/s per Pa] each pocket (row) grows within dt under the pressure of each (column). Collective.
 template <int Dim>
 Eigen::MatrixXd find_answers(Flow<Dim>& flow, double dt) {
@@ -182,7 +135,8 @@ Eigen::MatrixXd find_answers(Flow<Dim>& flow, double dt) {
   const double unit = dt / flow.setup.density;
   Eigen::MatrixXd answers(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, flow.air.response(flow.state.air.pockets[k].number));
+    const AirResponse<Dim>& response = flow.air.response(flow.state.air.pockets[k].number);
+    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, response.pressure);
     const std::vector<double> answer = growth(flow, [&](std::size_t n) {
       const PocketSide<Dim>& side = flow.sides.water[n];
       double seen = 0.0;
@@ -238,8 +192,8 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   const auto pockets = static_cast<int>(flow.state.air.pockets.size());
   if (pockets == 0) return;
   find_sides(flow);
-  std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
-  for (int k = 0; k < pockets; ++k) find_response(flow, k, rhs);
+  const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
+  for (int k = 0; k < pockets; ++k) find_response(flow, k);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
   sides.own_drop = find_own_drop(flow);
   sides.answers = find_answers(flow, dt);
@@ -285,7 +239,7 @@ Eigen::MatrixXd stiffness_of_air(const Flow<Dim>& flow, double dt) {
 template <int Dim>
 void add_air_of(Flow<Dim>& flow, std::span<const double> pressures, std::vector<double>& field) {
   for (std::size_t k = 0; k < pressures.size(); ++k) {
-    const std::vector<double>& response = flow.air.response(flow.state.air.pockets[k].number);
+    const std::vector<double>& response = flow.air.response(flow.state.air.pockets[k].number).pressure;
     for_each(field.size(), [&](std::size_t i) { field[i] += pressures[k] * response[i]; });
   }
 }

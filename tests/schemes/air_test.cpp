@@ -183,7 +183,8 @@ TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   }
 }
 
-// Where a wall meets the surface, dummies above the water have a pressure that accelerates the corner too little.
+// Where a wall meets the surface, dummies above the water have the air's pressure drawn on from the water below. Where
+// they have the mean of it, the corner is held back, and 1 % of the energy (3 % in 3D) comes and goes.
 TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
@@ -192,15 +193,19 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
     if (Dim == 3 && &order != &orders[0]) continue;
     const Motion found = move_column<Dim>(column<Dim>(dx, 0.2, order, speed), 3.0, 80, 0.0);
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
-    EXPECT_NEAR(found.period / exact_motion(speed).period, 1.0, 0.01) << which;
-    EXPECT_NEAR(found.kept, 1.0, Dim == 2 ? 0.003 : 0.006) << which;
+    const double error = found.period / exact_motion(speed).period - 1.0;
+    EXPECT_NEAR(error, 0.0, 0.002) << which;
+    EXPECT_NEAR(found.kept, 1.0, 0.002) << which;
+    EXPECT_LT(found.energy_rise, Dim == 2 ? 1.5e-3 : 3.5e-3) << which;
+    record_error("air_column_between_walls_period", Dim, dx, error);
+    record_error("air_column_between_walls_kept", Dim, dx, found.kept - 1.0);
+    record_error("air_column_between_walls_energy_rise", Dim, dx, found.energy_rise);
   }
 }
 
 // Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. A pocket that begins
 // while water closes it at full speed may bring no energy: water and gas gain nothing until they turn. The fastest is
-// thrown back at 65 g, at which any disturbance grows; walls make one, and the pressure lasts longer, with the two-step
-// scheme from 6 m/s on (docs/theory/air.md).
+// thrown back at 65 g, at which any disturbance grows (docs/theory/air.md).
 TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
   for (const double speed : {2.0, 6.0, 10.0}) {
     for (const Order& order : orders) {
@@ -209,16 +214,15 @@ TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
       const double half = 0.5 * exact.largest_pressure;
       const Motion between_walls = move_column<2>(column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(between_walls.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
-      if (speed < 10.0) {
-        const double grown = speed < 6.0 || order.name == SchemeName::farzin2014 ? 0.03 : 0.1;
-        EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, grown) << speed;
-      }
+      EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
+      record_error("air_cushion_between_walls_time", 2, speed, between_walls.impulse_time / exact.impulse_time - 1.0);
       const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(found.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(found.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
       EXPECT_LT(found.rise_until_turn, 1e-4) << speed;
       record_error("air_cushion_energy_rise", 2, speed, found.rise_until_turn);
       record_error("air_cushion_pressure", 2, speed, found.largest_pressure / exact.largest_pressure - 1.0);
+      record_error("air_cushion_time", 2, speed, found.impulse_time / exact.impulse_time - 1.0);
     }
   }
 }

@@ -1,0 +1,141 @@
+#include "pressure/pocket_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/for_each.h"
+#include "flow/verbs.h"
+#include "pressure/solve_rows.h"
+#include "pressure/tolerance.h"
+
+namespace tailwater {
+namespace {
+
+/// Of a response that begins.
+constexpr int passes_at_start = 2;
+
+/// By which a response may change in a pass. With more the air beside the water is another, since pockets have joined,
+/// parted or torn, and it begins anew: what is left of the old one would do work that no gas does.
+constexpr double largest_change = 0.2;
+
+/// Brings walls up to date. Above the surface a wall sees water on one side only, below: with its mean alone it would
+/// hold back the corner of the water. So it has what each of its neighbours would have at its place, grad q = -F there.
+template <int Dim>
+void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
+  spread(flow, response.pressure);
+  flow.halo().exchange(response.force);
+  const LinearSystem& rows = flow.pressure_rows;
+  const LinearSystem::Part part = rows.whole();
+  const std::vector<Vec<Dim>>& x = flow.state.particles.position;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::wall) return;
+    double excess = 0.0;
+    for (std::size_t k = part.begin[i]; k < part.end[i]; ++k) {
+      const auto j = static_cast<std::size_t>(part.column[k]);
+      excess += part.weight[k] * response.force[j].dot(x[j] - x[i]);
+    }
+    response.pressure[i] += rows.scale(i) * excess;
+  });
+  flow.halo().exchange(response.pressure);
+}
+
+/// F of the water, 0 of anything else.
+template <int Dim>
+std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, int pocket, const std::vector<double>& pressure) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<Vec<Dim>> force(particles.size(), Vec<Dim>::Zero());
+  flow.discretisation().find_gradient(flow, pressure, std::span(force).first(particles.owned));
+  for_each(particles.owned, [&](std::size_t i) {
+    force[i] = flow.role[i] == Role::water ? Vec<Dim>(-force[i]) : Vec<Dim>(Vec<Dim>::Zero());
+  });
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) {
+      if (share.pocket == pocket) force[side.particle] += share.share * side.push;
+    }
+  }
+  return force;
+}
+
+/// What is left is found in the next pass.
+template <int Dim>
+void solve_roughly(Flow<Dim>& flow, std::vector<double>& field) {
+  const double tolerance = rough_tolerance(flow.pressure_solver.tolerance());
+  flow.sides.iterations += solve_rows(flow, field, tolerance).iterations;
+}
+
+/// What the matrix makes of the pocket's pressure.
+template <int Dim>
+AirResponse<Dim> first_response(Flow<Dim>& flow, int pocket) {
+  LinearSystem& rows = flow.pressure_rows;
+  std::ranges::fill(rows.rhs(), 0.0);
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) {
+      if (share.pocket == pocket) rows.set_rhs(side.particle, share.share * side.weight);
+    }
+  }
+  AirResponse<Dim> response{shares_of(flow, pocket),
+                            std::vector(flow.state.particles.size(), Vec<Dim>(Vec<Dim>::Zero()))};
+  solve_roughly(flow, response.pressure);
+  return response;
+}
+
+/// One pass. Returns the largest change.
+template <int Dim>
+double come_nearer(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
+  show_to_walls(flow, response);
+  response.force = force_of(flow, pocket, response.pressure);
+  const std::vector<Vec<Dim>> at_rest(flow.state.wall_velocity.size(), Vec<Dim>::Zero());
+  show_walls<Dim>(flow, at_rest, response.force);
+  std::vector<double> divergence(flow.state.particles.owned, 0.0);
+  flow.discretisation().find_divergence(flow, response.force, divergence);
+  LinearSystem& rows = flow.pressure_rows;
+  for_each(divergence.size(), [&](std::size_t i) { rows.set_rhs(i, -divergence[i]); });
+  std::vector<double> change(response.pressure.size(), 0.0);
+  solve_roughly(flow, change);
+  spread(flow, change);
+  for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
+  return flow.setup.ranks.largest(
+      largest_over(divergence.size(), 0.0, [&](std::size_t i) { return std::abs(change[i]); }));
+}
+
+}  // namespace
+
+template <int Dim>
+void spread(const Flow<Dim>& flow, std::vector<double>& field) {
+  flow.halo().exchange(field);
+  const LinearSystem& rows = flow.pressure_rows;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] == Role::wall) field[i] = rows.scale(i) * rows.whole().sum(i, field.data());
+  });
+  flow.halo().exchange(field);
+}
+
+template <int Dim>
+std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
+  std::vector<double> field(flow.state.particles.size(), 0.0);
+  for (const PocketSide<Dim>& side : flow.sides.water) {
+    for (const PocketShare& share : side.shares) {
+      if (share.pocket == pocket) field[side.particle] = share.share;
+    }
+  }
+  spread(flow, field);
+  return field;
+}
+
+template <int Dim>
+void find_response(Flow<Dim>& flow, int pocket) {
+  AirResponse<Dim>& response = flow.air.response(flow.state.air.pockets[pocket].number);
+  if (!response.pressure.empty()) {
+    response.pressure.resize(flow.state.particles.size(), 0.0);
+    response.force.resize(flow.state.particles.size(), Vec<Dim>::Zero());
+    if (come_nearer(flow, pocket, response) <= largest_change) return;
+  }
+  response = first_response(flow, pocket);
+  for (int pass = 0; pass < passes_at_start; ++pass) come_nearer(flow, pocket, response);
+}
+
+TAILWATER_IN_2D_AND_3D(spread);
+TAILWATER_IN_2D_AND_3D(shares_of);
+TAILWATER_IN_2D_AND_3D(find_response);
+
+}  // namespace tailwater

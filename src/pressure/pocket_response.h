@@ -1,0 +1,31 @@
+// The answer q_k of the water's pressure to 1 Pa in pocket k (docs/theory/air.md): the pressure whose force on the
+// water,
+//
+//   F = -grad q + chi_k grad 1,
+//
+// makes no velocity with a divergence. Gradient and divergence are those of the particles, which the matrix B of the
+// pressure equation is near to and no more: what a step leaves would be mended in the next, one step behind the water,
+// and the pocket's pulsation would gain energy. So q_k is carried on from step to step, and each step brings it nearer:
+//
+//   q <- q + B^-1 (-div F).
+#pragma once
+
+#include "flow/flow.h"
+
+namespace tailwater {
+
+/// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts what their owners have.
+/// Collective.
+template <int Dim>
+void spread(const Flow<Dim>& flow, std::vector<double>& field);
+
+/// chi_k of all particles. Collective.
+template <int Dim>
+std::vector<double> shares_of(const Flow<Dim>& flow, int pocket);
+
+/// Brings the response of the water to a pocket up to date, with the matrix of the pressure equation. Overwrites its
+/// right-hand side. Collective.
+template <int Dim>
+void find_response(Flow<Dim>& flow, int pocket);
+
+}  // namespace tailwater
