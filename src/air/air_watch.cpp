@@ -16,9 +16,9 @@ namespace {
 /// holes then.
 constexpr double cover = 1.1;
 
-/// [dx]; how far water may go between two looks: a cell, and where there is no pocket yet the size of the least one.
-constexpr double distance_beside_pockets = 0.5;
-constexpr double distance_without = 2.0;
+/// [dx]; how far water beside pockets may go between two looks: a cell. Any other counts by a quarter
+/// (count_displacement_for_air), so it may go by the size of the least pocket.
+constexpr double distance_between_looks = 0.5;
 
 /// [dx]; edge of the pieces of walls that move: what they see of a pocket falls from 1 to 0 in two.
 constexpr double longest_piece = 0.75;
@@ -61,8 +61,7 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Di
 
 template <int Dim>
 bool AirWatch<Dim>::is_due(const AirState& state) const {
-  const double distance = state.pockets.empty() ? distance_without : distance_beside_pockets;
-  return is_on() && (!has_looked_ || state.displacement >= distance * spacing_);
+  return is_on() && (!has_looked_ || state.displacement >= distance_between_looks * spacing_);
 }
 
 template <int Dim>

@@ -69,10 +69,15 @@ void assign_roles(Flow<Dim>& flow);
 template <int Dim>
 void hold_open_ends(Flow<Dim>& flow, double dt);
 
-/// Looks for pockets of air, if water may have gone far since the last look, before a step of dt. Call once per step,
-/// at the positions where it starts. Collective.
+/// Looks for pockets of air, if water may have gone far since the last look. Call once per step, at the positions where
+/// it starts. Collective.
 template <int Dim>
-void watch_air(Flow<Dim>& flow, double dt);
+void watch_air(Flow<Dim>& flow);
+
+/// Counts how far water and walls go in a step of dt with their present velocity: what is beside pockets in full,
+/// anything else by a quarter, since new pockets are looked for when it may have gone four times as far. Collective.
+template <int Dim>
+void count_displacement_for_air(Flow<Dim>& flow, double dt);
 
 /// Finds the speed with which absorbing wave makers give way in this step to the waves that are not their own: the
 /// difference between the elevation in front of them and that of their own waves, times a gain (docs/theory/waves.md).

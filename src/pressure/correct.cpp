@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "flow/verbs.h"
 #include "pressure/pockets.h"
 #include "pressure/verbs.h"
 
@@ -16,6 +17,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
     particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
   });
   push_by_pockets(flow, dt);
+  count_displacement_for_air(flow, dt);
   flow.state.wall_velocity = drive.velocity;
   add_wall_forces(flow, particles.pressure);
 }

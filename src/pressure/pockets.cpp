@@ -6,7 +6,6 @@
 #include "air/vent.h"
 #include "base/for_each.h"
 #include "flow/air_pressure.h"
-#include "flow/measure.h"
 #include "pressure/gas_step.h"
 #include "pressure/pocket_response.h"
 
@@ -164,20 +163,6 @@ double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double
   return work;
 }
 
-/// How far [m] water and walls go in a step of dt, as it counts for the next look at pockets: water beside them in
-/// full, any other by a quarter, since new ones are looked for when it may have gone four times as far
-/// (AirWatch::is_due).
-template <int Dim>
-double displacement_in_step(const Flow<Dim>& flow, double dt) {
-  const std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
-  const double beside = largest_over(flow.sides.water.size(), 0.0,
-                                     [&](std::size_t n) { return velocity[flow.sides.water[n].particle].norm(); });
-  const double anywhere = flow.setup.time_step_rule.limiting_speed(largest_speed(flow));
-  const double time = flow.state.time;
-  return std::max(dt * std::max(flow.setup.ranks.largest(beside), 0.25 * anywhere),
-                  flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion));
-}
-
 template <int Dim>
 GasStep gas_step_of(const Flow<Dim>& flow, double dt) {
   return {flow.air.law(), flow.state.air.pockets, flow.air.openings(), flow.sides.mobility, flow.sides.answers, dt};
@@ -275,7 +260,6 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
     const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
     sides.work += change_pocket(pocket, volume, flow.air.law(), flow.air.openings()[k], dt, flow.state.air);
   }
-  flow.state.air.displacement += displacement_in_step(flow, dt);
 }
 
 TAILWATER_IN_2D_AND_3D(pose_pockets);

@@ -10,7 +10,7 @@ StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   assign_roles(flow);
   hold_open_ends(flow, dt);
   steer_wave_makers(flow);
-  watch_air(flow, dt);
+  watch_air(flow);
   StepStart<Dim> start = remember(flow);
   steer_bodies(flow, start, dt);
   return start;

@@ -39,7 +39,7 @@ void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
   assign_roles(flow);
   hold_open_ends(flow, 0.0);
-  watch_air(flow, 0.0);
+  watch_air(flow);
   const StepStart<Dim> start = remember(flow);
   locate(flow);
   flow.state.approach = largest_approach(flow);
