@@ -41,6 +41,12 @@ double cells_over(const Eigen::AlignedBox<double, Dim>& box, double spacing, con
   return cells;
 }
 
+std::vector<std::int64_t> numbers_of(const std::vector<AirPocket>& pockets) {
+  std::vector<std::int64_t> numbers;
+  for (const AirPocket& pocket : pockets) numbers.push_back(pocket.number);
+  return numbers;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -211,7 +217,9 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, law_, state);
   space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, found);
   const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
+  const std::vector<std::int64_t> before = numbers_of(state.pockets);
   take_over(std::move(found), volumes, spacing_, law_, state);
+  if (numbers_of(state.pockets) != before) forget_responses();  // what begins or ends changes what is beside others
   find_openings(vents, state.pockets.size());
   if (is_first) set_start_pressures(state);
   has_looked_ = true;
