@@ -100,11 +100,11 @@ template <int Dim>
 bool WallParticleCollector<Dim>::has_edge_between(const Vec<Dim>& x, const WallFace<Dim>& a,
                                                   const WallFace<Dim>& b) const {
   const Vec<Dim> from = closest_point(a, x);
-  const Vec<Dim> way = closest_point(b, x) - from;
-  const int looks = static_cast<int>(std::ceil(way.norm() / look_distance_));
+  const Vec<Dim> offset = closest_point(b, x) - from;
+  const int looks = static_cast<int>(std::ceil(offset.norm() / look_distance_));
   Vec<Dim> normal = a.normal;
   for (int look = 1; look <= looks; ++look) {
-    const int f = body_.nearest(from + static_cast<double>(look) / looks * way, reach_).face;
+    const int f = body_.nearest(from + static_cast<double>(look) / looks * offset, reach_).face;
     if (f < 0 || body_.faces[f].normal.dot(normal) < edge_cosine) return true;
     normal = body_.faces[f].normal;
   }
