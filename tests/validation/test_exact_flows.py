@@ -449,6 +449,21 @@ spacing = 0.02
             self.assertAlmostEqual(bore * speed * depth, speed**2 * depth + 0.5 * (depth**2 - ahead**2), places=12)
             self.assertAlmostEqual(speed + 2 * math.sqrt(depth), 2, places=12)  # the invariant of the rarefaction
 
+    def test_uneven_water_makes_a_bore_faster_by_its_momentum(self):
+        depth, speed, bore = shallow_water.stoker_state(0.2, 0.02)
+        self.assertAlmostEqual(bore * (depth - 0.2), speed * depth, places=12)
+        self.assertAlmostEqual(bore * speed * depth, speed**2 * depth + 0.5 * (depth**2 - 0.2**2) + 0.02, places=12)
+        self.assertGreater(bore, shallow_water.stoker_state(0.2)[2])
+
+    def test_momentum_of_uneven_water_comes_back(self):
+        """Water 0.5 h0 deep of which every other particle is 0.4 sqrt(g h0) faster: 0.5 times 0.2^2 more than even flow has."""
+        x = np.arange(0, 8, self.DX) + 0.5 * self.DX
+        place = self.columns(x, np.full(x.size, 0.5))
+        speed = (0.6 + 0.2 * (-1.0) ** np.arange(len(place))) * math.sqrt(2 * 9.81)
+        velocity = np.column_stack([speed, 0 * speed, 0 * speed]).astype(np.float32)
+        run = self.write_run(self.CASE, [(T * math.sqrt(2 / 9.81), place, {"velocity": velocity}) for T in self.TIMES])
+        self.assertAlmostEqual(shallow_water.uneven_momentum(run, 0.6, 0.8), 0.02, delta=0.02 * self.DX)
+
     def test_theory_has_no_error_and_a_lag_shows_in_the_profile_only(self):
         cases = ((shallow_water.ritter_dam_break, shallow_water.ritter, "gate_error"),
                  (shallow_water.stoker_dam_break, lambda xi: shallow_water.stoker(xi, 0.2), "plateau_error"))

@@ -29,13 +29,14 @@ def ritter(similarity):
     return np.where(similarity < -1, 1.0, np.where(similarity < 2, (2 - similarity) ** 2 / 9, 0.0))
 
 
-def stoker_state(ahead):
+def stoker_state(ahead, uneven=0.0):
     """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a depth
-    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. By bisection."""
+    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. `uneven` is the momentum
+    flux behind it, over g h0^2, beyond that of even flow. By bisection."""
     low, high = ahead, 1.0
     for _ in range(60):
         depth = 0.5 * (low + high)
-        bore = math.sqrt(0.5 * depth * (depth + ahead) / ahead)
+        bore = math.sqrt(depth * (0.5 * (depth + ahead) + uneven / (depth - ahead)) / ahead)
         if 2 * (1 - math.sqrt(depth)) > bore * (1 - ahead / depth):  # the rarefaction brings more than the bore takes
             low = depth
         else:
@@ -241,6 +242,34 @@ def stoker_dam_break(run):
     front = partial(place_of_bore, still=still, start=max(tail, 0.0) * T)
     return shallow_dam_break(run, partial(stoker, ahead=still), speed * level, front, bore) | {
         "plateau_error": float(depth[middle].mean()) / level - 1}
+
+
+def uneven_momentum(run, start, end):
+    """Of the water from x = start T to end T, in h0, from LATE on: its flux of momentum over g h0^2 beyond that of even flow
+    of the same depth and discharge, the mean over the frames and over pieces of the water half as long as h0."""
+    depth, scale = run.parameters["h0"], time_unit(run)
+    excess = []
+    for frame in (read_frame(*entry) for entry in list_frames(run.path)):
+        T = frame.time / scale
+        if T < LATE - 0.01:
+            continue
+        pieces = max(1, round(2 * (end - start) * T))
+        place = np.floor((frame.position[:, 0] / (depth * T) - start) / (end - start) * pieces)
+        speed = frame.fields["velocity"][:, 0].astype(float) * scale / depth
+        for piece in range(pieces):
+            inside = speed[place == piece]
+            excess.append(inside.var() * inside.size * (run.spacing / depth) ** 2 * pieces / ((end - start) * T))
+    return float(np.mean(excess))
+
+
+def bore_speed_error(run):
+    """Of Stoker's bore: its speed over that of mass and momentum for the velocities that are behind it, less 1. The water
+    between that of the reservoir and the bore has been through the roller, which leaves it uneven; the half that the bore
+    has left behind longest is read."""
+    still = run.parameters["h1"] / run.parameters["h0"]
+    _, speed, bore = stoker_state(still)
+    _, _, with_profile = stoker_state(still, uneven_momentum(run, speed, 0.5 * (speed + bore)))
+    return (1 + stoker_dam_break(run)["front_error"]) * bore / with_profile - 1
 
 
 # ------------------------------------------------------------------------------------------------ with friction
