@@ -84,7 +84,8 @@ class Case:
         case["parameters.q"]          # 0.06; of a key that the case does not give, the default, None if there is none
         run = case.run("out")
 
-    Throws InputError for a key that no case has; whether values are good is for `check` and `run` to say."""
+    Throws InputError for a key that no case has, and for a parameter that this one has not; whether values are good is for
+    `check` and `run` to say."""
 
     def __init__(self, file):
         """The case in a file. Throws IoError if it cannot be read, InputError if it is not TOML."""
@@ -135,8 +136,8 @@ class Case:
 
     def __setitem__(self, key: str, value):
         steps = case_text.steps_of(key)
-        case_text.toml_value(value)
         self._require_known(key, steps)
+        case_text.toml_value(value)
         try:
             self._data = case_text.put(self._data, steps, value)
         except (KeyError, IndexError, TypeError) as error:
@@ -155,13 +156,16 @@ class Case:
         if steps[0] in tables:
             has_free_keys, keys = tables[steps[0]]
             last = [step for step in steps if isinstance(step, str)][-1]
-            if has_free_keys or last in keys:
+            if has_free_keys:
+                keys = self._data.get(steps[0], {})
+            if last in keys:
                 return
             wrong, names = last, list(keys)
         else:
             wrong = steps[0]
-        near = difflib.get_close_matches(wrong, names, 1)
-        hint = f'did you mean "{near[0]}"? ' if near else ""
+        by_letters = {name.lower(): name for name in names}
+        near = difflib.get_close_matches(wrong.lower(), by_letters, 1)
+        hint = f'did you mean "{by_letters[near[0]]}"? ' if near else ""
         raise InputError(f'--set {key}=...: unknown key; {hint}valid: ' + ", ".join(f'"{name}"' for name in names))
 
     def words(self, without=()) -> list:

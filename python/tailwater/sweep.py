@@ -55,6 +55,7 @@ def sweep(case, values: dict, *, out=None, jobs: int = 1, ranks: int = 1, progre
     for key, each in values.items():
         if isinstance(each, (str, int, float)):
             raise InputError(f"{key} = {each}: give a list of values")
+        case[key]  # throws for a key that it cannot have
         words += ["--sweep", f"{key}={','.join(map(case_text.toml_value, each))}"]
     table = out / "sweep.csv"
     before = table.stat().st_mtime_ns if table.exists() else None

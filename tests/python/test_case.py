@@ -34,6 +34,13 @@ class Keys(PackageTest):
                 self.case[key] = 1
             self.assertIn(hint, str(caught.exception))
 
+    def test_parameter_that_the_case_has_not_is_refused(self):
+        case = tw.Case.template("weir")
+        for use in (lambda: case["parameters.Q"], lambda: case.update({"parameters.Q": 0.06}),
+                    lambda: tw.sweep(case, {"parameters.Q": [0.05, 0.06]})):
+            with self.assertRaisesRegex(tw.InputError, 'did you mean "q"'):
+                use()
+
     def test_value_that_no_case_has_is_refused(self):
         with self.assertRaisesRegex(tw.InputError, "a case has numbers, texts"):
             self.case["parameters.H"] = {"value": 1}
