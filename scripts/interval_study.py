@@ -81,13 +81,21 @@ def study(name, options):
     return found.rows[0]
 
 
-def main():
+def options_of(words=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, metavar="DIR")
-    parser.add_argument("names", nargs="*", metavar="NAME", default=list(FLOWS))
+    parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--jobs", type=int, default=2, metavar="N")
     parser.add_argument("--finer", type=float, default=1.0, metavar="F")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args(words)
+    options.names = options.names or list(FLOWS)
+    if wrong := [name for name in options.names if name not in FLOWS]:
+        parser.error(f"{wrong[0]}: no flow has this name; they are {', '.join(FLOWS)}")
+    return options
+
+
+def main():
+    options = options_of()
     options.out.mkdir(parents=True, exist_ok=True)
     print("| flow | number, truth | finest value | limit | interval, half width | chance, step | contains 1 | "
           "Eça & Hoekstra |\n| --- | --- | --- | --- | --- | --- | --- | --- |", flush=True)
