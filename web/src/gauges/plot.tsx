@@ -107,7 +107,7 @@ function make(holder: HTMLElement, props: PlotProps): uPlot {
   const options: uPlot.Options = {
     width: holder.clientWidth || 320,
     height: props.height,
-    padding: [8, 10, 0, 0],
+    padding: [8, 20, 0, 0], // room for half of the last label
     legend: { show: false },
     cursor: {
       sync: { key: props.sync, setSeries: false },
