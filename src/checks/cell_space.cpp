@@ -102,11 +102,19 @@ bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, con
 }
 
 template <int Dim>
-bool CellSpace<Dim>::is_on_wall(const Cell& c) const {
+bool CellSpace<Dim>::is_behind_walls(const Cell& c) const {
   const Vec<Dim> x = centre(c);
-  const auto begin = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c)]);
-  const auto end = near_list_.begin() + static_cast<std::ptrdiff_t>(near_faces_[index(c) + 1]);
-  return std::any_of(begin, end, [&](int f) { return (closest_point(faces_[f], x) - x).norm() <= tolerance_; });
+  double least = std::numeric_limits<double>::infinity();
+  bool is_behind = false;  // all of the nearest, as the two that meet at a convex edge
+  for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
+    const WallFace<Dim>& face = faces_[near_list_[k]];
+    const double distance = (closest_point(face, x) - x).norm();
+    if (distance > least + tolerance_) continue;
+    const bool is_behind_face = face.height(x) < 0.0;
+    is_behind = is_behind_face && (is_behind || distance < least - tolerance_);
+    least = std::min(least, distance);
+  }
+  return is_behind && least > tolerance_;
 }
 
 template <int Dim>
@@ -174,8 +182,7 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
       if (step * down[axis] < -0.5) continue;
       if (const int face = space.face_beside(c, axis, step); face >= 0) {
         found.met[face] = true;
-        const bool is_behind = space.faces()[face].height(space.centre(c)) < 0.0 && !space.is_on_wall(c);
-        if (is_behind) found.behind[face] = space.centre(c);
+        if (space.is_behind_walls(c)) found.behind[face] = space.centre(c);
         space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
         ++found.sides;
       } else if (const std::optional<Cell> target = space.next(c, axis, step)) {

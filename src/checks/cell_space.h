@@ -38,8 +38,9 @@ class CellSpace {
   /// Whether the straight line from one place to another passes the face. A place exactly on it counts as in front, so
   /// that no line can pass a wall by resting on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// Whether the centre of a cell is on a wall, and so on neither side of it.
-  bool is_on_wall(const Cell& c) const;
+  /// Whether the centre of a cell is behind the walls next to it. On one it is on neither side, and beside a convex
+  /// edge it is in front although it may be behind the plane of one of the faces that meet there.
+  bool is_behind_walls(const Cell& c) const;
   /// The first face that the line passes, which begins in cell `c` and is no longer than a cell; -1 if none. A line
   /// that cuts a corner off a body passes two: into it and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;

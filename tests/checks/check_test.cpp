@@ -390,6 +390,17 @@ TEST(Check, AnOutletIsNoLeak) {
   expect_only(check(low), Severity::error, {"would pour out"});
 }
 
+// Cells whose centres are as high as the tip look past it: they are in front of one face and behind the plane of the
+// other.
+TEST(Check, WaterLevelWithTheTipOfACrestIsNotBehindIt) {
+  CaseSpec spec = empty_case(0.0625);
+  const double tip = 5.5 * 0.0625;
+  spec.walls = {
+      polyline({{0.0, 1.0}, {0.0, 0.0}, {1.0 - tip, 0.0}, {1.0, tip}, {1.0 + tip, 0.0}, {2.0, 0.0}, {2.0, 1.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.5, 0.5})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 // Drawn as a line, a weir lets water through from behind.
 TEST(Check, WaterBehindALineIsAnError) {
   CaseSpec spec = empty_case(0.05);
