@@ -48,10 +48,18 @@ def run_up(run):
     return float(beach.value.max() - still) / run.parameters["h"] / law
 
 
+def late_discharge(run):
+    """Over that of shallow water, which is the limit of late times: from T = 3 to 4 it is 1 % less, from 5 to 6 0.2 %. So
+    that of the second half of the run."""
+    T, passed = shallow_water.water_passed(run)
+    late = T > 0.5 * T[-1] - 0.01
+    return shallow_water.slope(T[late], passed[late]) / (8 / 27)
+
+
 # What it is, where its truth is from; the case; the coarsest spacing (the finest is half of it); how it is read.
 FLOWS = {
     "poiseuille": ("mean speed at 95 % of the steady flow, series", "verification/poiseuille", "L/14", mean_speed),
-    "ritter": ("discharge of a dam break on a dry bed, 8/27", "verification/ritter", "h0/15", error_of("ritter", "discharge_error")),
+    "ritter": ("late discharge of a dam break on a dry bed, 8/27", "verification/ritter", "h0/15", late_discharge),
     "stoker": ("speed of the bore, mass and momentum of its profile", "verification/stoker", "h0/25",
                lambda run: 1 + shallow_water.bore_speed_error(run)),
     "drop": ("long axis of a stretching drop, Monaghan (1994)", "robustness/drop", "R/20", long_axis),
@@ -59,16 +67,19 @@ FLOWS = {
     "solitary-wave": ("speed, Fenton (1972)", "solitary_wave/case", "h/8", error_of("solitary-wave", "speed_error")),
     "standing-wave": ("period, linear theory", "robustness/standing_wave", "depth/14", error_of("standing-wave", "period_error")),
     "weir": ("discharge for the head, Rehbock without surface tension", "flume/weir", "P/10", error_of("weir", "ideal_error")),
-    "ogee": ("discharge for the energy head, potential flow (2.239 H^1.5)", "flume/ogee", "Hd/9", error_of("ogee", "potential_error")),
+    "ogee": ("discharge for the energy head, potential flow (2.239 H^1.5)", "flume/ogee", "Hd/12", error_of("ogee", "potential_error")),
     "broad-weir": ("discharge for the energy head, potential flow (0.9835 of critical)", "flume/broad_weir", "P/8",
                    error_of("broad-weir", "potential_error")),
     "gate": ("contraction, potential flow with gravity (0.599)", "flume/sluice_gate", "a/3", error_of("sluice-gate", "contraction_error")),
     "jump": ("depth behind the jump, momentum of its profile", "flume/hydraulic_jump", "h1/3.5",
              error_of("hydraulic-jump", "momentum_error")),
 }
-# What a jump is read from trembles with its roller: twice the time, in a channel in which it does not wander to the gauge
-# before it. So does a bore: five thirds of the time, profiles five times as often.
-SETTINGS = {"stoker": {"parameters.T": 8.0, "probe[1].times": [f"{k / 10:g}*sqrt(h0/g)" for k in range(30, 80)]},
+# Ritter's discharge is late, so for longer. What a jump is read from trembles with its roller: twice the time, in a channel
+# in which it does not wander to the gauge before it. So does a bore: a third more time, profiles five times as often. An
+# ogee is steady after 2 s, and its nose has a radius of 2.4 to 4.8 dx: finer, for less time.
+SETTINGS = {"ritter": {"parameters.T": 10.0},
+            "stoker": {"parameters.T": 8.0, "probe[1].times": [f"{k / 10:g}*sqrt(h0/g)" for k in range(30, 80)]},
+            "ogee": {"time.end": 5.0},
             "jump": {"parameters.L": "30*h1", "time.end": 16.0, "probe[4].times": [8 + k / 4 for k in range(1, 32)]}}
 
 
