@@ -115,10 +115,19 @@ toml::node* descend(toml::node* node, const Step& step, const std::string& above
   throw Misplaced{fmt::format("{} is not a {}; {}", above, step.index() == 0 ? "table" : "list", usage)};
 }
 
+/// No expression of the case would ask for a parameter that its file has not: it is a slip.
+void require_parameter(const toml::table& parameters, std::string_view name) {
+  if (parameters.contains(name)) return;
+  std::vector<std::string_view> names;
+  for (const auto& [key, value] : parameters) names.push_back(key.str());
+  throw Misplaced{fmt::format("the case has no parameter \"{}\"; {}", name, unknown_name_hint(name, names))};
+}
+
 void put(toml::node* node, const Step& step, const std::string& above, toml::node&& value) {
   toml::table* table = node->as_table();
   toml::array* list = node->as_array();
   if (const auto* name = std::get_if<std::string>(&step); name != nullptr && table != nullptr) {
+    if (above == "parameters") require_parameter(*table, *name);
     table->insert_or_assign(*name, std::move(value));
   } else if (const auto* index = std::get_if<std::size_t>(&step); index != nullptr && list != nullptr) {
     find_element(*list, above, *index);

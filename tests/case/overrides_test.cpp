@@ -69,7 +69,7 @@ TEST(Overrides, ThatAreWrongAreNamed) {
       {"=1", {"a name is missing"}},
       {"scheme.=1", {"a name is missing"}},
       {"courant=0.1", {"courant = 0.1: unknown table"}},
-      {"parameters.dx=0.1", {"cannot be a parameter's name"}},
+      {"parameters.Hh=0.1", {"no parameter \"Hh\"", "did you mean \"H\"?"}},
   };
   for (const auto& [override_text, parts] : table) {
     const std::string message = message_of(two_blocks, {override_text});
