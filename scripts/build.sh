@@ -5,12 +5,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 case ${2:-} in
-  "") tests=OFF ;;
-  --tests) tests=ON ;;
+  "") tests=OFF needed=(build) ;;
+  --tests) tests=ON needed=(build gtest) ;;
   *) echo "build.sh: unknown option \"$2\"; there is --tests" >&2; exit 2 ;;
 esac
 
-scripts/install.sh build
+scripts/install.sh "${needed[@]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 cmake --preset "$preset" -D TAILWATER_BUILD_TESTS=$tests -D CMAKE_COMPILE_WARNING_AS_ERROR=$tests \

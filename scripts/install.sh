@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Tailwater needs from Debian 12's own packages. Safe to run again: what is there is left alone.
-# Usage: scripts/install.sh [build] [tests] [pictures] [benchmarks] [web] [site] [package] [fuzz]   default: all but the last three
+# Usage: scripts/install.sh [build] [gtest] [tests] [pictures] [benchmarks] [web] [site] [package] [fuzz]   default: all but the last three
 set -euo pipefail
 
 build=(
@@ -10,13 +10,14 @@ build=(
   libcpp-httplib-dev libdeflate-dev
   python3-dev pybind11-dev python3-numpy python3-pandas
 )
+gtest=(libgtest-dev)  # what compiles only with the tests
 pictures=(python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb)
 benchmarks=(libbenchmark-dev "${pictures[@]}")
 web=(chromium)  # for the tests of the page; what builds it is Node, below
 fuzz=(clang-14 libclang-rt-14-dev)  # libFuzzer, for scripts/fuzz.sh
 package=(dpkg-dev lintian debootstrap)  # scripts/package.sh
 site=(mkdocs mkdocs-material mkdocs-material-extensions python3-pymdownx python3-yaml libjs-katex)  # scripts/site.py
-tests=(libgtest-dev clang-format clang-tidy python3-jsonschema python3-rasterio python3-h5py python3-scipy "${pictures[@]}" "${site[@]}")
+tests=("${gtest[@]}" clang-format clang-tidy python3-jsonschema python3-rasterio python3-h5py python3-scipy "${pictures[@]}" "${site[@]}")
 
 # The page is built by the Node that is there, else by Debian's. Debian's npm does not install beside a newer Node, which
 # brings its own.
@@ -31,6 +32,7 @@ wanted=()
 for group in "$@"; do
   case $group in
     build) wanted+=("${build[@]}") ;;
+    gtest) wanted+=("${gtest[@]}") ;;
     tests) wanted+=("${tests[@]}") ;;
     pictures) wanted+=("${pictures[@]}") ;;
     benchmarks) wanted+=("${benchmarks[@]}") ;;
@@ -38,7 +40,7 @@ for group in "$@"; do
     site) wanted+=("${site[@]}") ;;
     package) wanted+=("${package[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
-    *) echo "install.sh: unknown group \"$group\"; there are: build, tests, pictures, benchmarks, web, site, package, fuzz" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group \"$group\"; there are: build, gtest, tests, pictures, benchmarks, web, site, package, fuzz" >&2; exit 2 ;;
   esac
 done
 missing=()

@@ -11,8 +11,14 @@ if [[ $preset == asan ]]; then
   export TAILWATER_SLOWDOWN=10  # of a program with sanitizers, for tests that limit its CPU time
 fi
 
-scripts/install.sh build tests
-scripts/install.sh web || echo "test.sh: the page's tests will be skipped" >&2
+# What only the running tests need is installed while the program compiles.
+scripts/install.sh build gtest
+{
+  scripts/install.sh tests
+  scripts/install.sh web || echo "test.sh: the page's tests will be skipped" >&2
+} &
+installing=$!
 scripts/build.sh "$preset" --tests
+wait $installing
 # Ranks and the browser wait for each other a good part of the time: four tests at once fill two cores.
 ctest --test-dir "build/$preset" --output-on-failure --parallel 4 "$@"
