@@ -7,6 +7,7 @@ which are sought, with the energy head, until Bernoulli's equation holds along b
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -32,11 +33,14 @@ def speeds(points, psi):
     y = (apart[..., 0] * along[:, 1] - apart[..., 1] * along[:, 0]) / length
     np.fill_diagonal(y, 0.0)
 
-    def logarithm(s):
-        return 0.5 * s * np.log(s**2 + y**2) - s + np.abs(y) * np.arctan2(s, np.abs(y))
+    def seen(s):
+        """(integral of the logarithm of the distance, angle) of a part that begins at the foot of the perpendicular."""
+        angle = np.arctan2(s, np.abs(y))
+        return 0.5 * s * np.log(s**2 + y**2) - s + np.abs(y) * angle, angle
 
-    angle = np.sign(y) * (np.arctan2(length - x, np.abs(y)) + np.arctan2(x, np.abs(y)))
-    return np.linalg.solve(-logarithm(length - x) - logarithm(x), math.pi * psi + angle @ psi)
+    (ahead, angle_ahead), (behind, angle_behind) = seen(length - x), seen(x)
+    angle = np.sign(y) * (angle_ahead + angle_behind)
+    return np.linalg.solve(-ahead - behind, math.pi * psi + angle @ psi)
 
 
 class Flow:
@@ -94,9 +98,15 @@ class Flow:
         return self.surface(unknown), float(unknown[-1])
 
 
+@lru_cache(maxsize=None)
+def flow(height, crest, nose, size):
+    """(surface, energy head above the crest)."""
+    return Flow(height, crest, nose, size).found()
+
+
 def coefficient(height, crest, nose, gauge, size=0.12):
     """Discharge over that of critical flow, sqrt(g) (2 H/3)^1.5 with the energy head H of the depth that is read at the
     distance `gauge` upstream, all over the critical depth. For a smaller `size` of the elements it is more precise."""
-    surface, _ = Flow(height, crest, nose, size).found()
+    surface, _ = flow(height, crest, nose, size)
     depth = float(surface(-gauge))
     return (2 / 3 * (depth - height + 0.5 / depth**2)) ** -1.5
