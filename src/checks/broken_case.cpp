@@ -1,8 +1,10 @@
 #include "checks/broken_case.h"
 
 #include <charconv>
-#include <regex>
-#include <string>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "geometry/from_spec.h"
@@ -50,6 +52,21 @@ Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
   return all;
 }
 
+/// The place that a text begins with, as in "0.5, -2e-05)".
+template <int Dim>
+std::optional<Vec<Dim>> place_at_start_of(std::string_view text) {
+  Vec<Dim> x;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x[axis]);
+    if (error != std::errc() || !std::isfinite(x[axis])) return std::nullopt;  // "1e999" too, which a name may hold
+    text.remove_prefix(end - text.data());
+    const std::string_view next = axis + 1 < Dim ? ", " : ")";
+    if (!text.starts_with(next)) return std::nullopt;
+    text.remove_prefix(next.size());
+  }
+  return x;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -70,18 +87,9 @@ BrokenCase<Dim> draw_broken_case(const CaseSpec& spec) {
 
 template <int Dim>
 std::vector<Vec<Dim>> places_in(std::string_view message) {
-  const std::string number = R"((-?\d+(?:\.\d+)?(?:e[-+]\d+)?))";
-  const std::regex pattern(R"(\()" + number + ", " + number + (Dim == 3 ? ", " + number : "") + R"(\))");
-  const std::string text(message);
   std::vector<Vec<Dim>> places;
-  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
-    Vec<Dim> x;
-    bool is_place = true;  // not "(1e999, 0)", which a name may hold
-    for (int axis = 0; axis < Dim; ++axis) {
-      const std::string digits = (*match)[axis + 1].str();
-      is_place = is_place && std::from_chars(digits.data(), digits.data() + digits.size(), x[axis]).ec == std::errc();
-    }
-    if (is_place) places.push_back(x);
+  for (std::size_t open = message.find('('); open != message.npos; open = message.find('(', open + 1)) {
+    if (const auto x = place_at_start_of<Dim>(message.substr(open + 1))) places.push_back(*x);
   }
   return places;
 }
