@@ -10,6 +10,7 @@
 #include "io/deflate.h"
 #include "run/run_info.h"
 #include "server/frame_index.h"
+#include "server/page.h"
 #include "server/run_watch.h"
 #include "server/view_server.h"
 #include "view/coarse_frames.h"

@@ -1,11 +1,7 @@
-// The page in the program: the bytes of web/dist/view.html (TAILWATER_PAGE), and the scenes that it draws.
-#include "base/error.h"
-#include "case/reader.h"
-#include "geometry/boundary.h"
-#include "io/run_folder.h"
-#include "server/folder_reader.h"
-#include "server/view_server.h"
-#include "view/scene.h"
+// The bytes of web/dist/view.html (TAILWATER_PAGE). Only this file is compiled with their path, so it stands by itself.
+#include "server/page.h"
+
+#include <cstddef>
 
 // clang-format off
 __asm__(".pushsection .rodata\n"
@@ -19,30 +15,9 @@ extern "C" const char tailwater_page_begin[];
 extern "C" const char tailwater_page_end[];
 
 namespace tailwater {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <int Dim>
-Json scene_from_case(const CaseSpec& spec) {
-  try {
-    return scene_json<Dim>(spec, make_boundary<Dim>(spec));
-  } catch (const InputError&) {  // a mesh that is no longer there
-    return scene_json<Dim>(spec, Boundary<Dim>());
-  }
-}
-
-}  // namespace
 
 std::string_view view_page() {
   return {tailwater_page_begin, static_cast<std::size_t>(tailwater_page_end - tailwater_page_begin)};
-}
-
-Json scene_of_run(const std::filesystem::path& run) {
-  const Json written = Json::parse(FolderReader(run).text_of({"view", std::string(scene_name)}), nullptr, false);
-  if (written.is_object()) return written;
-  const CaseSpec spec = read_effective_case(run / effective_case_name);
-  return spec.general.dimension == 2 ? scene_from_case<2>(spec) : scene_from_case<3>(spec);
 }
 
 }  // namespace tailwater

@@ -18,6 +18,7 @@
 #include "server/answers.h"
 #include "server/bounded_queue.h"
 #include "server/guard.h"
+#include "server/page.h"
 #include "server/run_watch.h"
 
 namespace tailwater {

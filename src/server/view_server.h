@@ -65,9 +65,6 @@ class ViewServer {
   std::unique_ptr<Service> service_;
 };
 
-/// The page, as it is compiled in.
-std::string_view view_page();
-
 /// The page with all that it shows of these runs in it, for a browser without this program. Throws IoError if a run has
 /// nothing to show.
 std::string exported_page(const ViewContent& content, const std::string& version);
