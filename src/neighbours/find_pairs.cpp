@@ -151,7 +151,10 @@ class Candidates {
     const double radius = kernel_radius(pairs.kernel);
     const bool is_coarse = searched.grid.reach() > 1.5 * radius;
     count_ = 0;
+    holds_group_ = searched.holds_those_who_search;
+    begin_of_group_ = group.begin;
     for (IndexList& list : lists_) {
+      if (&list == &own) place_of_group_ = count_;
       if (is_coarse) {
         list.remove_if([&](std::int32_t j) { return squared_distance(pairs.position[j], group) > radius * radius; });
       }
@@ -163,11 +166,29 @@ class Candidates {
   std::size_t size() const { return count_; }
 
   /// Writes the neighbours of particle i of the group to `j`, and up to a batch beyond them.
-  FoundRow write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) const {
+  FoundRow write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) {
+    // Meanwhile the particle stands elsewhere, so that it does not find itself.
+    std::uint32_t nowhere = 0;
+    std::uint32_t& of_itself = holds_group_ ? at_[0][place_of_group_ + (i - begin_of_group_)] : nowhere;
+    of_itself += farthest;
+    const FoundRow row = write_near(pairs, pairs.place[i], j);
+    of_itself -= farthest;
+    return row;
+  }
+
+ private:
+  /// From any place, and from those of a group nearly, the place farthest from it.
+  static constexpr std::uint32_t farthest = 1U << 31;
+
+  static double squared_distance(const Vec<Dim>& position, const Group<Dim>& group) {
+    return (position - position.cwiseMax(group.low).cwiseMin(group.high)).squaredNorm();
+  }
+
+  /// Writes those within the support around `own` to `j`, and up to a batch beyond them.
+  FoundRow write_near(const Pairs<Dim>& pairs, const Place<Dim>& own, std::int32_t* j) const {
     const double radius = kernel_radius(pairs.kernel);
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
     const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
-    const Place<Dim> own = pairs.place[i];
     const std::array<float, Dim> unit = pairs.unit;
     // Out of the vectors, so that a loop that writes keeps the addresses in registers.
     const std::int32_t* const index = index_.data();
@@ -177,7 +198,7 @@ class Candidates {
     const std::size_t count = count_;
     std::int32_t* end = j;
     IndexBatch walls{};
-    IndexBatch crowd{};
+    FloatBatch least = radius_squared;
     for (std::size_t n = 0; n < count; n += batch) {
       FloatBatch distances;
       for (int m = 0; m < batch; m += lane_count) {
@@ -190,20 +211,12 @@ class Candidates {
         const Lanes square = d.dot(d);
         std::memcpy(reinterpret_cast<float*>(&distances) + m, &square, sizeof(square));
       }
-      const IndexBatch is_near = (distances < radius_squared) & (batch_at<IndexBatch>(index + n) != i);
-      walls |= is_near & (batch_at<FloatBatch>(signed_volume + n) < 0.0F);
-      crowd |= is_near & (distances < too_near);
+      const IndexBatch is_near = distances < radius_squared;
+      walls |= is_near & batch_at<IndexBatch>(signed_volume + n);  // of which the sign counts
+      least = distances < least ? distances : least;
       end = write_chosen(index + n, bits_of(is_near), end);
     }
-    return {static_cast<std::size_t>(end - j), bits_of(walls != 0) != 0, bits_of(crowd != 0) != 0};
-  }
-
- private:
-  /// From any place, and from those of a group nearly, the place farthest from it.
-  static constexpr std::uint32_t farthest = 1U << 31;
-
-  static double squared_distance(const Vec<Dim>& position, const Group<Dim>& group) {
-    return (position - position.cwiseMax(group.low).cwiseMin(group.high)).squaredNorm();
+    return {static_cast<std::size_t>(end - j), bits_of(walls < 0) != 0, bits_of(least < too_near) != 0};
   }
 
   /// Reads and writes up to a batch beyond the end.
@@ -231,6 +244,9 @@ class Candidates {
   std::array<std::vector<std::uint32_t>, Dim> at_;  ///< in units of Pairs::unit
   std::vector<float> signed_volume_;                ///< m^Dim; negative of a wall particle
   std::size_t count_ = 0;
+  bool holds_group_ = false;
+  std::int32_t begin_of_group_ = 0;
+  std::size_t place_of_group_ = 0;  ///< among the candidates
 };
 
 /// Of each two neighbours that are too near puts the one with the larger id where Pairs::d sees it, so that loops in
