@@ -9,16 +9,10 @@
 #include "air/pocket_space.h"
 #include "case/spec.h"
 #include "geometry/wall_patches.h"
+#include "motion/affine_map.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
-
-/// By how much a pocket grows as a particle moves, over the particle's volume.
-template <int Dim>
-struct PocketGain {
-  int pocket;     ///< index
-  Vec<Dim> gain;  ///< 1/m
-};
 
 /// Owned water that looks into pockets.
 template <int Dim>
@@ -27,7 +21,6 @@ struct PocketSide {
   std::vector<PocketShare> shares;
   double weight = 0.0;               ///< that closes its row of the pressure equation, in the row's unit
   Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; what air at 1 Pa all around pushes it with, per volume
-  std::vector<PocketGain<Dim>> gains = {};
 };
 
 /// A piece of a wall that moves and looks into pockets, or at water that does.
@@ -39,11 +32,26 @@ struct PocketWall {
   std::vector<PocketShare> shares;
 };
 
+/// What 1 Pa in a pocket does through the pairs of water and a wall that moves, in which the pressure counts from that
+/// of the air.
+template <int Dim>
+struct PocketPairs {
+  int wall;         ///< index into Boundary::walls
+  int pocket;       ///< index
+  Vec<Dim> force;   ///< m^(Dim-1); on the wall
+  Mat<Dim> moment;  ///< m^Dim; the sum of force x^T over the wall's particles
+
+  /// m^Dim/s; by which a wall of such a velocity makes the pocket grow: what the force works on it.
+  double growth(const AffineMap<Dim>& velocity) const {
+    return force.dot(velocity.constant) + moment.cwiseProduct(velocity.linear).sum();
+  }
+};
+
 /// The answer of the water to 1 Pa in a pocket, one entry per particle.
 template <int Dim>
 struct AirResponse {
   std::vector<double> pressure;  ///< up to date on walls and ghosts
-  std::vector<Vec<Dim>> force;   ///< 1/m; on water, per volume, of what the pressure was before the last pass
+  std::vector<Vec<Dim>> force;   ///< 1/m; on water, per volume; 0 on anything else
 };
 
 /// The pockets in one step: where water looks into them, and what they do.
@@ -51,6 +59,7 @@ template <int Dim>
 struct PocketSides {
   std::vector<PocketSide<Dim>> water;
   std::vector<PocketWall<Dim>> walls;                     ///< the same on all ranks
+  std::vector<PocketPairs<Dim>> pairs;                    ///< the same on all ranks
   std::vector<std::pair<std::size_t, PocketShare>> seen;  ///< by owned particles, walls too; where walls move
   Eigen::MatrixXd answers;          ///< m^Dim/s per Pa; by which water makes each (row) grow with the pressure of each
   std::vector<double> mobility;     ///< the same of floating bodies, each with its own pressure; empty without bodies

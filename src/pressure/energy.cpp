@@ -83,7 +83,7 @@ double wall_work(const Flow<Dim>& flow, double dt) {
                                                  : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
   });
   if (!flow.setup.ranks.is_root() || air.empty()) return work;
-  const std::vector<double> growth = growth_by_walls(flow, dt);
+  const std::vector<double> growth = growth_at_walls(flow, dt);
   for (std::size_t k = 0; k < air.size(); ++k) work -= dt * air[k] * growth[k];
   return work;
 }

@@ -12,10 +12,10 @@ namespace tailwater {
 namespace {
 
 /// Of a response that begins.
-constexpr int passes_at_start = 2;
+constexpr int passes_at_start = 4;
 
 /// By which a response may change in a pass. With more the air beside the water is another, since pockets have joined,
-/// parted or torn, and it begins anew: what is left of the old one would do work that no gas does.
+/// parted or torn, and it begins anew.
 constexpr double largest_change = 0.2;
 
 /// Brings walls up to date. Above the surface a wall sees water on one side only, below: with its mean alone it would
@@ -58,8 +58,7 @@ std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, int pocket, const std::vec
 
 /// What is left is found in the next pass.
 template <int Dim>
-void solve_roughly(Flow<Dim>& flow, std::vector<double>& field) {
-  const double tolerance = rough_tolerance(flow.pressure_solver.tolerance());
+void solve_roughly(Flow<Dim>& flow, std::vector<double>& field, double tolerance) {
   flow.sides.iterations += solve_rows(flow, field, tolerance).iterations;
 }
 
@@ -75,7 +74,7 @@ AirResponse<Dim> first_response(Flow<Dim>& flow, int pocket) {
   }
   AirResponse<Dim> response{shares_of(flow, pocket),
                             std::vector(flow.state.particles.size(), Vec<Dim>(Vec<Dim>::Zero()))};
-  solve_roughly(flow, response.pressure);
+  solve_roughly(flow, response.pressure, rough_tolerance(flow.pressure_solver.tolerance()));
   return response;
 }
 
@@ -91,7 +90,7 @@ double come_nearer(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
   LinearSystem& rows = flow.pressure_rows;
   for_each(divergence.size(), [&](std::size_t i) { rows.set_rhs(i, -divergence[i]); });
   std::vector<double> change(response.pressure.size(), 0.0);
-  solve_roughly(flow, change);
+  solve_roughly(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance()));
   spread(flow, change);
   for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
   return flow.setup.ranks.largest(
@@ -125,13 +124,17 @@ std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
 template <int Dim>
 void find_response(Flow<Dim>& flow, int pocket) {
   AirResponse<Dim>& response = flow.air.response(flow.state.air.pockets[pocket].number);
-  if (!response.pressure.empty()) {
+  bool goes_on = !response.pressure.empty();
+  if (goes_on) {
     response.pressure.resize(flow.state.particles.size(), 0.0);
     response.force.resize(flow.state.particles.size(), Vec<Dim>::Zero());
-    if (come_nearer(flow, pocket, response) <= largest_change) return;
+    goes_on = come_nearer(flow, pocket, response) <= largest_change;
   }
-  response = first_response(flow, pocket);
-  for (int pass = 0; pass < passes_at_start; ++pass) come_nearer(flow, pocket, response);
+  if (!goes_on) {
+    response = first_response(flow, pocket);
+    for (int pass = 0; pass < passes_at_start; ++pass) come_nearer(flow, pocket, response);
+  }
+  response.force = force_of(flow, pocket, response.pressure);
 }
 
 TAILWATER_IN_2D_AND_3D(spread);

@@ -1,8 +1,9 @@
-// Walls that move beside pockets. The space that a wall leaves to a pocket is counted as far as the wall sees its air:
-// where it is dry, and in the rows of water from whose last one on the water's own flow counts. The air pushes the wall
-// on the same pieces, so the work of the gas is that on water and walls. The pairs of water and wall do the rest: in
-// them the pressure counts from that of the air.
+// Walls that move beside pockets. The space that a wall leaves to a pocket is counted by the force with which the
+// pocket pushes it: of the air itself, on the pieces of its faces as far as they see the air, and of the pairs of water
+// and wall, in which the pressure counts from that of the air.
+#include "base/for_each.h"
 #include "flow/air_pressure.h"
+#include "pressure/operators.h"
 #include "pressure/pockets.h"
 
 namespace tailwater {
@@ -15,21 +16,81 @@ double pressure_at(const PocketWall<Dim>& wall, std::span<const double> air) {
 }
 
 template <int Dim>
-std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
-  std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
-  if (dt == 0.0) return growth;
+std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::size_t count = flow.state.air.pockets.size();
+  const auto wall_of = [&](std::size_t i) { return flow.walls.particles.wall[particles.wall_row[i]]; };
+  const std::vector<std::size_t> moving = indices_where(particles.owned, [&](std::size_t i) {
+    return !particles.is_fluid(i) && flow.walls.boundary.walls[wall_of(i)].moves();
+  });
+  std::vector<PocketPairs<Dim>> all;
+  std::vector<double> sums;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> unit(count, 0.0);
+    unit[k] = 1.0;
+    std::vector<double> field = flow.air.response(flow.state.air.pockets[k].number).pressure;
+    subtract_seen<Dim>(flow, unit, field);
+    const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, moving, field);
+    for (const auto& each : flow.setup.wall_motion.moving()) {
+      PocketPairs<Dim> sum{each.wall, static_cast<int>(k), Vec<Dim>::Zero(), Mat<Dim>::Zero()};
+      for (std::size_t n = 0; n < moving.size(); ++n) {  // in order: all add to the same sum
+        const std::size_t i = moving[n];
+        if (wall_of(i) != each.wall) continue;
+        const Vec<Dim> force = -particles.volume[i] * pushes[n];
+        sum.force += force;
+        sum.moment += force * particles.position[i].transpose();
+      }
+      sums.insert(sums.end(), sum.force.begin(), sum.force.end());
+      sums.insert(sums.end(), sum.moment.reshaped().begin(), sum.moment.reshaped().end());
+      all.push_back(sum);
+    }
+  }
+  flow.setup.ranks.sum_of_each(sums);
+  const double* next = sums.data();
+  for (PocketPairs<Dim>& each : all) {
+    each.force = Eigen::Map<const Vec<Dim>>(next);
+    each.moment = Eigen::Map<const Mat<Dim>>(next + Dim);
+    next += Dim + Dim * Dim;
+  }
+  return all;
+}
+
+/// Calls visit(wall, velocity) for each wall that moves, with its velocity [m/s] as a function of the present place.
+template <int Dim, class Visit>
+void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
+  if (dt == 0.0) return;
   const double time = flow.state.time;
   MotionState<Dim> state = flow.state.motion;
   for (BodyState<Dim>& body : state.bodies.each) body.velocity -= 0.5 * dt * body.acceleration;
   for (const auto& moving : flow.setup.wall_motion.moving()) {
     const AffineMap<Dim> now = moving.at(time, state);
-    const AffineMap<Dim> velocity = moving.mean_velocity(time, time + dt, state);
-    for (const PocketWall<Dim>& wall : flow.sides.walls) {
-      if (wall.wall != moving.wall) continue;
-      const double flux = wall.area.dot(velocity(now.inverse(wall.x)));
-      for (const PocketShare& share : wall.shares) growth[share.pocket] += share.share * flux;
-    }
+    const AffineMap<Dim> drawn = moving.mean_velocity(time, time + dt, state);
+    const Mat<Dim> linear = drawn.linear * now.linear.transpose();
+    visit(moving.wall, AffineMap<Dim>{linear, drawn.constant - linear * now.constant});
   }
+}
+
+template <int Dim>
+std::vector<double> growth_at_walls(const Flow<Dim>& flow, double dt) {
+  std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
+  visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
+    for (const PocketWall<Dim>& piece : flow.sides.walls) {
+      if (piece.wall != wall) continue;
+      const double flux = piece.area.dot(velocity(piece.x));
+      for (const PocketShare& share : piece.shares) growth[share.pocket] += share.share * flux;
+    }
+  });
+  return growth;
+}
+
+template <int Dim>
+std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
+  std::vector<double> growth = growth_at_walls(flow, dt);
+  visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
+    for (const PocketPairs<Dim>& pairs : flow.sides.pairs) {
+      if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
+    }
+  });
   return growth;
 }
 
@@ -40,6 +101,8 @@ void subtract_seen(const Flow<Dim>& flow, std::span<const double> air, std::vect
 }
 
 TAILWATER_IN_2D_AND_3D(pressure_at);
+TAILWATER_IN_2D_AND_3D(pairs_of_walls);
+TAILWATER_IN_2D_AND_3D(growth_at_walls);
 TAILWATER_IN_2D_AND_3D(growth_by_walls);
 TAILWATER_IN_2D_AND_3D(subtract_seen);
 

@@ -12,96 +12,47 @@
 namespace tailwater {
 namespace {
 
-template <int Dim>
-std::vector<std::size_t> particles_of(const PocketSides<Dim>& sides) {
-  std::vector<std::size_t> particles;
-  for (const PocketSide<Dim>& side : sides.water) particles.push_back(side.particle);
-  return particles;
-}
-
-template <int Dim>
-std::vector<Vec<Dim>> gradient_at_sides(const Flow<Dim>& flow, const std::vector<double>& pressure) {
-  const std::vector<std::size_t> particles = particles_of(flow.sides);
-  std::vector<Vec<Dim>> gradient(particles.size());
-  flow.discretisation().find_gradient_at(flow, particles, pressure, gradient);
-  return gradient;
-}
-
-/// By how much a velocity of the water, velocity(n) at its n-th side, makes each pocket grow [m^Dim/s]; collective.
+/// By how much a velocity of the water, velocity(i), makes each pocket grow [m^Dim/s]: what the force of 1 Pa in it
+/// works on that velocity. Collective.
 template <int Dim, class Velocity>
 std::vector<double> growth(const Flow<Dim>& flow, Velocity&& velocity) {
-  std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
-  for (std::size_t n = 0; n < flow.sides.water.size(); ++n) {
-    const PocketSide<Dim>& side = flow.sides.water[n];
-    const Vec<Dim> volume_velocity = flow.state.particles.volume[side.particle] * velocity(n);
-    for (const PocketGain<Dim>& each : side.gains) growth[each.pocket] += each.gain.dot(volume_velocity);
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> growth;
+  for (const AirPocket& pocket : flow.state.air.pockets) {
+    const std::vector<Vec<Dim>>& force = flow.air.response(pocket.number).force;
+    growth.push_back(sum_over(particles.owned, 0.0, [&](std::size_t i) {
+      return flow.role[i] == Role::water ? particles.volume[i] * force[i].dot(velocity(i)) : 0.0;
+    }));
   }
   flow.setup.ranks.sum_of_each(growth);
   return growth;
 }
 
-/// The water that has a share of a pocket, or a neighbour that has.
 template <int Dim>
-std::vector<PocketSide<Dim>> water_beside_pockets(const Flow<Dim>& flow) {
+void find_sides(Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const Pairs<Dim>& pairs = flow.pairs();
-  std::vector<PocketSide<Dim>> seeing;
-  std::vector<double> sees(particles.size(), 0.0);
-  std::vector<char> is_beside(particles.owned, 0);
+  std::vector<PocketSide<Dim>>& water = flow.sides.water;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
     if (flow.role[i] != Role::water) continue;
     std::vector<PocketShare> shares = flow.air.shares_at(particles.position[i]);
-    if (shares.empty()) continue;
-    seeing.push_back({.particle = i, .shares = std::move(shares)});
-    sees[i] = 1.0;
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      if (static_cast<std::size_t>(pairs.j[k]) < particles.owned) is_beside[pairs.j[k]] = 1;
-    }
+    if (!shares.empty()) water.push_back({.particle = i, .shares = std::move(shares)});
   }
-  flow.halo().exchange(sees);
-  for_each(particles.owned, [&](std::size_t i) {
-    for (std::size_t k = pairs.end(i); k > pairs.begin(i) && is_beside[i] == 0; --k) {
-      const auto j = static_cast<std::size_t>(pairs.j[k - 1]);
-      if (j < particles.owned) break;  // ghosts come last
-      if (sees[j] > 0.0) is_beside[i] = 1;
-    }
-  });
-  std::vector<PocketSide<Dim>> water;
-  auto next = seeing.begin();
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-    if (flow.role[i] != Role::water) continue;
-    if (sees[i] > 0.0) {
-      water.push_back(std::move(*next++));
-    } else if (is_beside[i] != 0) {
-      water.push_back({.particle = i, .shares = {}});
-    }
-  }
-  return water;
-}
-
-template <int Dim>
-void find_sides(Flow<Dim>& flow) {
-  std::vector<PocketSide<Dim>>& water = flow.sides.water;
-  water = water_beside_pockets(flow);
-  const std::vector<std::size_t> beside = particles_of(flow.sides);
+  std::vector<std::size_t> beside;
+  for (const PocketSide<Dim>& side : water) beside.push_back(side.particle);
   std::vector<double> weight(beside.size());
   flow.discretisation().find_air_weights(flow, beside, weight);
-  const std::vector<Vec<Dim>> push = gradient_at_sides(flow, std::vector<double>(flow.state.particles.size(), 1.0));
+  std::vector<Vec<Dim>> push(beside.size());
+  flow.discretisation().find_gradient_at(flow, beside, std::vector<double>(particles.size(), 1.0), push);
   for_each(water.size(), [&](std::size_t n) {
     water[n].push = push[n];
     water[n].weight = weight[n];
   });
+  if (flow.setup.wall_motion.moving().empty()) return;
   flow.sides.walls = flow.air.walls_beside(flow.walls.boundary);
-  const bool walls_move = !flow.setup.wall_motion.moving().empty();
   for (int k = 0; k < static_cast<int>(flow.state.air.pockets.size()); ++k) {
     const std::vector<double> share = shares_of(flow, k);
-    for (std::size_t i = 0; walls_move && i < flow.state.particles.owned; ++i) {  // in order: a list
+    for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
       if (share[i] != 0.0) flow.sides.seen.push_back({i, {k, share[i]}});
-    }
-    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, share);
-    for (std::size_t n = 0; n < water.size(); ++n) {  // lists
-      const Vec<Dim> gain = share[water[n].particle] * push[n] - slope[n];
-      if (!gain.isZero(0.0)) water[n].gains.push_back({k, gain});
     }
   }
 }
@@ -135,13 +86,7 @@ Eigen::MatrixXd find_answers(Flow<Dim>& flow, double dt) {
   Eigen::MatrixXd answers(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const AirResponse<Dim>& response = flow.air.response(flow.state.air.pockets[k].number);
-    const std::vector<Vec<Dim>> slope = gradient_at_sides(flow, response.pressure);
-    const std::vector<double> answer = growth(flow, [&](std::size_t n) {
-      const PocketSide<Dim>& side = flow.sides.water[n];
-      double seen = 0.0;
-      for (const PocketShare& share : side.shares) seen += share.pocket == k ? share.share : 0.0;
-      return Vec<Dim>(unit * (seen * side.push - slope[n]));
-    });
+    const std::vector<double> answer = growth(flow, [&](std::size_t i) { return Vec<Dim>(unit * response.force[i]); });
     answers.col(k) = Eigen::Map<const Eigen::VectorXd>(answer.data(), count);
   }
   return answers;
@@ -180,13 +125,13 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
   for (int k = 0; k < pockets; ++k) find_response(flow, k);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
+  if (!flow.setup.wall_motion.moving().empty()) sides.pairs = pairs_of_walls(flow);
   sides.own_drop = find_own_drop(flow);
   sides.answers = find_answers(flow, dt);
   const Vec<Dim> gravity =
       flow.setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : flow.setup.gravity;
-  sides.flow = growth(flow, [&](std::size_t n) { return Vec<Dim>(predicted[sides.water[n].particle] + dt * gravity); });
-  sides.flow_before =
-      growth(flow, [&](std::size_t n) { return flow.state.particles.velocity[sides.water[n].particle]; });
+  sides.flow = growth(flow, [&](std::size_t i) { return Vec<Dim>(predicted[i] + dt * gravity); });
+  sides.flow_before = growth(flow, [&](std::size_t i) { return flow.state.particles.velocity[i]; });
 }
 
 template <int Dim>
@@ -208,8 +153,9 @@ void restore_air(Flow<Dim>& flow) {
 template <int Dim>
 std::vector<double> find_air_pressures(const Flow<Dim>& flow, double dt) {
   const double unit = dt / flow.setup.density;
-  const std::vector<Vec<Dim>> gradient = gradient_at_sides(flow, flow.state.particles.pressure);
-  std::vector<double> now = growth(flow, [&](std::size_t n) { return Vec<Dim>(-unit * gradient[n]); });
+  std::vector<Vec<Dim>> gradient(flow.state.particles.owned, Vec<Dim>::Zero());
+  flow.discretisation().find_gradient(flow, flow.state.particles.pressure, gradient);
+  std::vector<double> now = growth(flow, [&](std::size_t i) { return Vec<Dim>(-unit * gradient[i]); });
   for (std::size_t k = 0; k < now.size(); ++k) now[k] += flow.sides.flow[k];
   GasStep step = gas_step_of(flow, dt);
   step.set_flow(now, flow.sides.flow_before, growth_by_walls(flow, dt));
@@ -252,7 +198,7 @@ void push_by_pockets(Flow<Dim>& flow, double dt) {
     const PocketSide<Dim>& side = sides.water[n];
     velocity[side.particle] += dt / flow.setup.density * sides.pressure_at(side) * side.push;
   });
-  const std::vector<double> flow_after = growth(flow, [&](std::size_t n) { return velocity[sides.water[n].particle]; });
+  const std::vector<double> flow_after = growth(flow, [&](std::size_t i) { return velocity[i]; });
   const std::vector<double> by_walls = growth_by_walls(flow, dt);
   for (std::size_t k = 0; k < flow_after.size(); ++k) {
     AirPocket& pocket = flow.state.air.pockets[k];

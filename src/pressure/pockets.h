@@ -3,15 +3,19 @@
 //
 //   row i:       ... = source_i + a_i sum_k chi_ik P_k,    a_i closes the row (robust/rows.cpp)
 //   water at i:  grad p_i - sum_k P_k chi_ik grad 1_i
-//   pocket k:    dV_k/dt = sum_ij w_i w_j a_ij . u_i (chi_ik - chi_jk) + sum of chi_k V . n over walls, n into them
 //
-// The last is the flow of water through the rows in which chi falls, where the force on the water as a whole acts: the
-// gas does on it the work P dV. Dummies have the mean chi of the water beside them. The pressure is linear in P,
+// The pressure is linear in P,
 //
 //   p = p_w + sum_k P_k q_k,
 //
-// where p_w is what the water has under air at 0, and q_k answers to 1 Pa in pocket k, from 0 to 1 in space. Suction is
-// that of p_w: what pulls is what is below the pressure that the air alone makes, by more than that has fallen itself.
+// where p_w is what the water has under air at 0, and q_k answers to 1 Pa in pocket k, from 0 to 1 in space. With its
+// force F_k = chi_k grad 1 - grad q_k on the water
+//
+//   pocket k:    dV_k/dt = sum_i w_i F_k,i . u_i + what it works on walls that move
+//
+// so the gas gives away what the water and the walls get, whatever q_k is. Dummies have the mean chi of the water
+// beside them. Suction is that of p_w: what pulls is what is below the pressure that the air alone makes, by more than
+// that has fallen itself.
 #pragma once
 
 #include "flow/flow.h"
@@ -54,8 +58,17 @@ void add_air(Flow<Dim>& flow, double dt);
 template <int Dim>
 void push_by_pockets(Flow<Dim>& flow, double dt);
 
-/// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on: those that are driven by their
-/// displacement, bodies by the mean of their velocities at both ends of the step.
+/// What the pockets do through the pairs of walls that move, with the responses as they are. Collective.
+template <int Dim>
+std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow);
+
+/// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on, as far as the air pushes them
+/// itself: those that are driven by their displacement, bodies by the mean of their velocities at both ends of the
+/// step.
+template <int Dim>
+std::vector<double> growth_at_walls(const Flow<Dim>& flow, double dt);
+
+/// The same with what they do through the water.
 template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt);
 

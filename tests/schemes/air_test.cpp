@@ -183,8 +183,9 @@ TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   }
 }
 
-// Where a wall meets the surface, dummies above the water have the air's pressure drawn on from the water below. Where
-// they have the mean of it, the corner is held back, and 1 % of the energy (3 % in 3D) comes and goes.
+// Where a wall meets the surface, dummies above the water have the air's pressure drawn on from the water below, and
+// still hold back some 0.2 % of the force. The volume follows the force, so all of it is in the period, and water and
+// gas gain nothing.
 TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
@@ -194,9 +195,9 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
     const Motion found = move_column<Dim>(column<Dim>(dx, 0.2, order, speed), 3.0, 80, 0.0);
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
     const double error = found.period / exact_motion(speed).period - 1.0;
-    EXPECT_NEAR(error, 0.0, 0.002) << which;
+    EXPECT_NEAR(error, 0.0, 0.003) << which;
     EXPECT_NEAR(found.kept, 1.0, 0.002) << which;
-    EXPECT_LT(found.energy_rise, Dim == 2 ? 1.5e-3 : 3.5e-3) << which;
+    EXPECT_LT(found.energy_rise, 1e-4) << which;
     record_error("air_column_between_walls_period", Dim, dx, error);
     record_error("air_column_between_walls_kept", Dim, dx, found.kept - 1.0);
     record_error("air_column_between_walls_energy_rise", Dim, dx, found.energy_rise);
@@ -215,12 +216,14 @@ TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
       const Motion between_walls = move_column<2>(column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(between_walls.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
+      EXPECT_LT(between_walls.energy_rise, 1e-4) << speed;
       record_error("air_cushion_between_walls_time", 2, speed, between_walls.impulse_time / exact.impulse_time - 1.0);
       const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
       EXPECT_NEAR(found.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(found.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
       EXPECT_LT(found.rise_until_turn, 1e-4) << speed;
       record_error("air_cushion_energy_rise", 2, speed, found.rise_until_turn);
+      record_error("air_cushion_energy_rise_later", 2, speed, found.energy_rise);
       record_error("air_cushion_pressure", 2, speed, found.largest_pressure / exact.largest_pressure - 1.0);
       record_error("air_cushion_time", 2, speed, found.impulse_time / exact.impulse_time - 1.0);
     }
