@@ -115,7 +115,6 @@ struct Motion {
   double period = 0.0;            ///< s
   double kept = 0.0;              ///< of the largest velocity, per period
   double energy_rise = 0.0;       ///< of water and gas, over what they had at the start
-  double rise_until_turn = 0.0;   ///< the same until the water moves upwards
   double largest_pressure = 0.0;  ///< Pa
   double impulse_time = 0.0;      ///< s; with more than `half_pressure`
 };
@@ -146,7 +145,6 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
     const double energy = energy_of_all(flow, dt);
     found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
     least_energy = std::min(least_energy, energy);
-    if (oscillation.turns() == 0) found.rise_until_turn = found.energy_rise;
     const double pressure = measure_air(flow).pressure;
     found.largest_pressure = std::max(found.largest_pressure, pressure);
     if (oscillation.turns() < 2 && pressure > half_pressure) found.impulse_time += dt;
@@ -205,25 +203,25 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
 }
 
 // Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. A pocket that begins
-// while water closes it at full speed may bring no energy: water and gas gain nothing until they turn. The fastest is
-// thrown back at 65 g, at which any disturbance grows (docs/theory/air.md).
+// while water closes it at full speed may bring no energy. The fastest is thrown back at 65 g, at which any disturbance
+// grows: with 400 steps in place of 800 it gains 4e-4 after its turn.
 TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
   for (const double speed : {2.0, 6.0, 10.0}) {
     for (const Order& order : orders) {
       if (speed != 6.0 && &order != &orders[0]) continue;
       const Exact exact = exact_motion(speed);
       const double half = 0.5 * exact.largest_pressure;
-      const Motion between_walls = move_column<2>(column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
+      const Motion between_walls = move_column<2>(column<2>(0.025, 0.2, order, speed), 0.4, 800, half);
       EXPECT_NEAR(between_walls.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(between_walls.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
       EXPECT_LT(between_walls.energy_rise, 1e-4) << speed;
       record_error("air_cushion_between_walls_time", 2, speed, between_walls.impulse_time / exact.impulse_time - 1.0);
-      const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 400, half);
+      record_error("air_cushion_between_walls_energy_rise", 2, speed, between_walls.energy_rise);
+      const Motion found = move_column<2>(free_column<2>(0.025, 0.2, order, speed), 0.4, 800, half);
       EXPECT_NEAR(found.largest_pressure / exact.largest_pressure, 1.0, 0.01) << speed;
       EXPECT_NEAR(found.impulse_time / exact.impulse_time, 1.0, 0.03) << speed;
-      EXPECT_LT(found.rise_until_turn, 1e-4) << speed;
-      record_error("air_cushion_energy_rise", 2, speed, found.rise_until_turn);
-      record_error("air_cushion_energy_rise_later", 2, speed, found.energy_rise);
+      EXPECT_LT(found.energy_rise, 1e-4) << speed;
+      record_error("air_cushion_energy_rise", 2, speed, found.energy_rise);
       record_error("air_cushion_pressure", 2, speed, found.largest_pressure / exact.largest_pressure - 1.0);
       record_error("air_cushion_time", 2, speed, found.impulse_time / exact.impulse_time - 1.0);
     }
