@@ -136,8 +136,8 @@ class Case:
 
     def __setitem__(self, key: str, value):
         steps = case_text.steps_of(key)
-        self._require_known(key, steps)
         case_text.toml_value(value)
+        self._require_known(key, steps)
         try:
             self._data = case_text.put(self._data, steps, value)
         except (KeyError, IndexError, TypeError) as error:
