@@ -47,7 +47,7 @@ inline void add_benchmark(const std::string& name, std::function<void()> work, s
       ->Unit(benchmark::kMicrosecond);
 }
 
-constexpr int steps_between_sorts = 5;  // as a run has them
+constexpr int steps_between_sorts = 10;  // as a run has them
 
 /// A flow after some steps, with everything that the verbs of the next step hand to each other.
 template <int Dim>
