@@ -900,6 +900,14 @@ struct CaseSpec {
   StudyTable study;
   CaseSources sources;
 
+  // Compiled once, in spec.cpp: that of some twenty tables was in two dozen objects.
+  CaseSpec();
+  CaseSpec(const CaseSpec&);
+  CaseSpec(CaseSpec&&) noexcept;
+  CaseSpec& operator=(const CaseSpec&);
+  CaseSpec& operator=(CaseSpec&&) noexcept;
+  ~CaseSpec();
+
   bool operator==(const CaseSpec&) const = default;
 
   template <class Self, class Visitor>
