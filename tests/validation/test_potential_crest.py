@@ -3,6 +3,7 @@
 import math
 import tomllib
 import unittest
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -22,20 +23,24 @@ def crest_of_the_case():
     return [(x, y - 2.0) for x, y in points[1:]]
 
 
+@lru_cache(maxsize=None)
+def ogee(step=0.02, knot=0.2):
+    return Flow(crest_of_the_case(), DISCHARGE, step, knot)
+
+
 class Ogee(unittest.TestCase):
     def test_coefficient_of_the_case(self):
-        true, read = (one * math.sqrt(9.81) for one in coefficients(crest_of_the_case(), DISCHARGE, gauge=3.0))
+        true, read = (one * math.sqrt(9.81) for one in coefficients(ogee(), gauge=3.0))
         self.assertAlmostEqual(read, OGEE_POTENTIAL_COEFFICIENT, delta=3e-4)
         self.assertAlmostEqual(true, 2.2238, delta=3e-4)
 
     def test_finer_pieces_and_curves_change_nothing(self):
-        crest = crest_of_the_case()
-        found = [coefficients(crest, DISCHARGE, 3.0, step, knot)[0] for step, knot in ((0.04, 0.2), (0.02, 0.2), (0.02, 0.1))]
+        found = [coefficients(flow, gauge=3.0)[0] for flow in (ogee(step=0.04), ogee(), ogee(knot=0.1))]
         self.assertLess(np.ptp(found), 2e-4 * found[0])
 
     def test_bernoulli_holds_along_the_surface(self):
-        flow = Flow(crest_of_the_case(), DISCHARGE)
-        x, y, energy = flow.found()
+        flow = ogee()
+        x, y, energy = flow.found
         speed = DISCHARGE * flow.step / np.hypot(np.diff(x), np.diff(y))
         np.testing.assert_allclose(0.5 * speed**2 + 0.5 * (y[1:] + y[:-1]), energy, atol=2e-4)
 
@@ -49,7 +54,7 @@ class BroadWeir(unittest.TestCase):
         arc = [(nose * (1 - math.cos(a)), -nose * (1 - math.sin(a))) for a in math.pi / 8 * np.arange(1, 5)]
         for slope in (math.radians(30), math.radians(60)):
             points = [(0, -height), (0, -nose), *arc, (crest, 0), (crest + math.cos(slope), -math.sin(slope))]
-            _, read = coefficients(points, 1.0, gauge=3 * 0.085 / critical)
+            _, read = coefficients(Flow(points, 1.0), gauge=3 * 0.085 / critical)
             self.assertAlmostEqual(read * 1.5**1.5, BROAD_WEIR_COEFFICIENT, delta=1e-3)
 
 

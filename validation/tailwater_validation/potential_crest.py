@@ -15,6 +15,7 @@ only with one speed there the flow can become fast beyond the crest. The last pi
 """
 
 import math
+from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -98,6 +99,7 @@ class Flow:
         lengths = self.discharge * (gaps * 6 * (NODES - NODES**2) * slowness) @ WEIGHTS
         return np.append(off * np.exp(-log_speed) * math.sqrt(self.step), LENGTHS * np.log(lengths / self.lengths))
 
+    @cached_property
     def found(self):
         """(x and y of the surface, energy head above the crest)."""
         parts = self.parts(least_squares(self.misfit, self.start, x_scale="jac", xtol=1e-9, ftol=1e-10).x)
@@ -107,10 +109,10 @@ class Flow:
         return x + self.points[0, 0] - self.discharge * UPSTREAM * float((2 * share * slowness).mean()), y, self.energy(parts[2])
 
 
-def coefficients(points, discharge, gauge, step=0.02, knot=0.2):
+def coefficients(flow, gauge):
     """(q/sqrt(g H^3) of the energy head H, the same if H is that of the depth at the distance `gauge` upstream of x = 0 with the
     same speed everywhere in it)."""
-    x, y, energy = Flow(points, discharge, step, knot).found()
+    x, y, energy = flow.found
     level = float(np.interp(-gauge, x, y))
-    read = level + 0.5 * (discharge / (level - points[0][1])) ** 2
-    return discharge / energy**1.5, discharge / read**1.5
+    read = level + 0.5 * (flow.discharge / (level - flow.points[0][1])) ** 2
+    return flow.discharge / energy**1.5, flow.discharge / read**1.5
