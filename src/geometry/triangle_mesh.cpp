@@ -44,6 +44,10 @@ void rename_corners(TriangleMesh& mesh, const std::vector<int>& renamed) {
 
 }  // namespace
 
+Vec<3> TriangleMesh::area_normal(int triangle) const {
+  return (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
+}
+
 std::vector<TriangleEdge> edges_of(const TriangleMesh& mesh) {
   // Filed by their lower ends, so that only the few edges of a point need be compared with each other.
   const auto low_end = [&](int t, int e) { return std::min(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]); };

@@ -14,9 +14,7 @@ struct TriangleMesh {
 
   const Vec<3>& corner(int triangle, int c) const { return points[triangles[triangle][c]]; }
   /// At right angles to the triangle, on its front; its length is twice the area.
-  Vec<3> area_normal(int triangle) const {
-    return (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
-  }
+  Vec<3> area_normal(int triangle) const;
 };
 
 /// An edge of a triangle. Its number is that of the corner where it starts: edge 2 leads from corner 2 to corner 0.
