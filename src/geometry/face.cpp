@@ -54,6 +54,12 @@ Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x) {
 }
 
 template <int Dim>
+Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const double before = face.height(from);
+  return from + before / (before - face.height(to)) * (to - from);
+}
+
+template <int Dim>
 bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance) {
   const double before = face.height(from);
   const double after = face.height(to);
@@ -64,6 +70,7 @@ bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to
 
 template struct WallFace<2>;
 template struct WallFace<3>;
+TAILWATER_IN_2D_AND_3D(meet);
 TAILWATER_IN_2D_AND_3D(crosses);
 
 }  // namespace tailwater

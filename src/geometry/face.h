@@ -45,10 +45,7 @@ Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
 
 /// Where the line through two points, which must not be equally high above it, meets the face's plane.
 template <int Dim>
-Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) {
-  const double before = face.height(from);
-  return from + before / (before - face.height(to)) * (to - from);
-}
+Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to);
 
 /// Whether the path from `from` to `to` passes through the face. An end nearer to its plane than `tolerance` (m) has
 /// not passed; a path within `tolerance` of the face's rim has.

@@ -18,9 +18,6 @@ struct AffineMap {
 
 /// The motion of a body from its place under `before` to its place under `after`.
 template <int Dim>
-AffineMap<Dim> displacement_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after) {
-  const Mat<Dim> turn = after.linear * before.linear.transpose();
-  return {turn, after.constant - turn * before.constant};
-}
+AffineMap<Dim> displacement_between(const AffineMap<Dim>& before, const AffineMap<Dim>& after);
 
 }  // namespace tailwater

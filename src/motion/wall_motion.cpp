@@ -30,6 +30,13 @@ Vec<Dim> upward(const CaseSpec& spec) {
 }  // namespace
 
 template <int Dim>
+WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
+  for (Vec<Dim>& corner : face.corners) corner = motion(corner);
+  face.normal = motion.linear * face.normal;
+  return face;
+}
+
+template <int Dim>
 double WrittenMotion<Dim>::Component::at(double time) const {
   return formula.empty() ? number : formula.front().at(std::array{time});
 }
@@ -281,6 +288,7 @@ void WallMotion<Dim>::steer(std::size_t which, GivenMotion<Dim> given, double ti
   moving.path.follow(std::move(given));
 }
 
+TAILWATER_IN_2D_AND_3D(moved);
 template class WrittenMotion<2>;
 template class WrittenMotion<3>;
 template class MotionOfFile<2>;

@@ -24,11 +24,7 @@
 namespace tailwater {
 
 template <int Dim>
-WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
-  for (Vec<Dim>& corner : face.corners) corner = motion(corner);
-  face.normal = motion.linear * face.normal;
-  return face;
-}
+WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face);
 
 /// How far a wall has moved and turned.
 template <int Dim>
