@@ -435,13 +435,13 @@ TYPED_TEST(RanksTest, BodyFloats) {
   body.free = Dim == 2 ? std::vector<std::string>{"x", "y", "rotation"}
                        : std::vector<std::string>{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
   spec.bodies = {body};
-  expect_same<Dim>(spec, 0.3, as_it_is);
+  expect_same<Dim>(spec, 0.15, as_it_is);
   spec.walls[0].open.clear();
   spec.air.pockets = AirPockets::adiabatic;
   spec.pockets.resize(1);
   spec.pockets[0].at = Coordinates(Dim, 0.55);
   spec.pockets[0].overpressure = 1000.0;
-  expect_same<Dim>(spec, 0.3, as_it_is);
+  expect_same<Dim>(spec, 0.15, as_it_is);
 }
 
 }  // namespace ranks_test
