@@ -1,4 +1,4 @@
-// Runs the tests of a kind, test/KIND/*.test.ts, by Node's own runner. node test/run.mjs unit|browser|speed|pictures [name of a file]
+// Runs the tests of a kind, test/KIND/*.test.ts, in one process by Node's own runner. node test/run.mjs unit|browser|speed|pictures [name of a file]
 // Exit 77: skipped, because what it takes is not installed.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
@@ -21,11 +21,13 @@ const out = mkdtempSync(join(here, "../build/test-"));
 let status = 1;
 try {
   const files = readdirSync(join(here, kind)).filter((name) => name.endsWith(".test.ts") && name.startsWith(only));
+  const all = join(out, "all.mjs");
   await build({
-    entryPoints: files.map((name) => join(here, kind, name)), outdir: out, outExtension: { ".js": ".mjs" }, bundle: true, platform: "node", format: "esm",
+    stdin: { contents: files.map((name) => `import "./${name}";`).join("\n"), resolveDir: join(here, kind) },
+    outfile: all, bundle: true, platform: "node", format: "esm",
     target: "node18", packages: "external", sourcemap: "inline", loader: { ".html": "text" },
   });
-  status = spawnSync(process.execPath, ["--enable-source-maps", "--test", ...files.map((name) => join(out, name.replace(/ts$/, "mjs")))], {
+  status = spawnSync(process.execPath, ["--enable-source-maps", "--test", all], {
     stdio: "inherit", env: { ...process.env, TAILWATER_WEB: join(here, "..") },
   }).status ?? 1;
 } finally {

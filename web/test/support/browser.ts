@@ -1,5 +1,6 @@
 // Debian's Chromium, driven without a screen and without the net.
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { after } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
@@ -17,17 +18,30 @@ export interface Visit {
   close(): Promise<void>;
 }
 
-/** Opens `address` in a window of 1280 x 720. `dark`: as a reader whose system is dark. */
+let started: Promise<Browser> | undefined;
+
+/** The one browser of all tests of a process, which takes longer to start than many a test. */
+function theBrowser(): Promise<Browser> {
+  return (started ??= (async () => {
+    const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
+    const browser = await puppeteer.launch({
+      executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
+      args: [
+        "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+        "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+      ],
+    });
+    browser.once("disconnected", () => rmSync(folder, { recursive: true, force: true, maxRetries: 3 }));
+    return browser;
+  })());
+}
+after(async () => (await started)?.close());
+
+/** Opens `address` in a window of 1280 x 720 with a store of its own. `dark`: as a reader whose system is dark. */
 export async function visit(address: string, dark = false): Promise<Visit> {
-  const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
-  const browser = await puppeteer.launch({
-    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
-    args: [
-      "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-      "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
-    ],
-  });
-  const page = (await browser.pages())[0] ?? (await browser.newPage());
+  const browser = await theBrowser();
+  const context = await browser.createBrowserContext();
+  const page = await context.newPage();
   page.setDefaultTimeout(patience);
   const faults: string[] = [];
   page.on("console", (message) => {
@@ -41,10 +55,7 @@ export async function visit(address: string, dark = false): Promise<Visit> {
   await page.goto(address);
   return {
     browser, page, faults,
-    async close() {
-      await browser.close();
-      rmSync(folder, { recursive: true, force: true, maxRetries: 3 });
-    },
+    close: () => context.close(),
   };
 }
 
