@@ -1,8 +1,4 @@
 // Entry point of the test programs of several ranks: all ranks do all tests; a test that fails on one has failed.
-#include <sched.h>
-
-#include <ctime>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,13 +25,6 @@ class ShowFailures : public testing::EmptyTestEventListener {
 
 }  // namespace
 }  // namespace tailwater
-
-/// In place of the C library's: a rank that waits, which calls this again and again where Open MPI is told to yield,
-/// sleeps. Four ranks that spin on two cores leave none to those that they wait for.
-extern "C" int sched_yield() noexcept {
-  const timespec moment{.tv_sec = 0, .tv_nsec = 20'000};
-  return nanosleep(&moment, nullptr);
-}
 
 int main(int argc, char** argv) {
   using namespace tailwater;
