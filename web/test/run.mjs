@@ -21,6 +21,7 @@ const out = mkdtempSync(join(here, "../build/test-"));
 let status = 1;
 try {
   const files = readdirSync(join(here, kind)).filter((name) => name.endsWith(".test.ts") && name.startsWith(only));
+  if (files.length === 0) throw new Error(`test/${kind} has no file ${only}*.test.ts`);
   const all = join(out, "all.mjs");
   await build({
     stdin: { contents: files.map((name) => `import "./${name}";`).join("\n"), resolveDir: join(here, kind) },

@@ -18,24 +18,23 @@ export interface Visit {
   close(): Promise<void>;
 }
 
+const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
 let started: Promise<Browser> | undefined;
+after(async () => {
+  await (await started)?.close();
+  rmSync(folder, { recursive: true, force: true, maxRetries: 3 });
+});
 
 /** The one browser of all tests of a process, which takes longer to start than many a test. */
 function theBrowser(): Promise<Browser> {
-  return (started ??= (async () => {
-    const folder = mkdtempSync(join(tmpdir(), "tailwater-browser-"));
-    const browser = await puppeteer.launch({
-      executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
-      args: [
-        "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-        "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
-      ],
-    });
-    browser.once("disconnected", () => rmSync(folder, { recursive: true, force: true, maxRetries: 3 }));
-    return browser;
-  })());
+  return (started ??= puppeteer.launch({
+    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
+    args: [
+      "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+      "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+    ],
+  }));
 }
-after(async () => (await started)?.close());
 
 /** Opens `address` in a window of 1280 x 720 with a store of its own. `dark`: as a reader whose system is dark. */
 export async function visit(address: string, dark = false): Promise<Visit> {
