@@ -191,20 +191,20 @@ SweepPlan read_sweep_record(const std::filesystem::path& folder) {
   std::ifstream file(path);
   if (!file) throw IoError("cannot read '{}'", path.string());
   try {
-    const nlohmann::json record = nlohmann::json::parse(file);
+    const nlohmann::ordered_json record = nlohmann::ordered_json::parse(file);
     if (record.at("format") != sweep_record_format) {
       throw IoError("'{}' has format {}, and this program reads format {}; remedy: use {}", path.string(),
                     record.at("format").dump(), sweep_record_format, record.value("program", "another"));
     }
     SweepPlan plan;
     record.at("keys").get_to(plan.keys);
-    for (const nlohmann::json& member : record.at("members")) {
+    for (const nlohmann::ordered_json& member : record.at("members")) {
       plan.members.push_back({member.at("folder"), member.at("values")});
       if (plan.members.back().values.size() == plan.keys.size()) continue;
       throw IoError("'{}': a member has not as many values as there are keys", path.string());
     }
     return plan;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const nlohmann::ordered_json::exception& error) {
     throw IoError("'{}' is not the record of a sweep: {}", path.string(), error.what());
   }
 }

@@ -20,7 +20,7 @@ inline constexpr int checkpoint_format = 16;
 template <int Dim>
 struct Checkpoint {
   State<Dim> state;                  ///< of this rank
-  nlohmann::json output;             ///< how far the run's output has come (RunOutput::saved); on all ranks
+  nlohmann::ordered_json output;     ///< how far the run's output has come (RunOutput::saved); on all ranks
   std::vector<double> probe_memory;  ///< of the probes (ProbeSet::memory); on all ranks
   std::vector<double> rank_log;      ///< of this rank (RankLog::saved)
   double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks

@@ -17,8 +17,8 @@ class EndWatch {
   void look(const Flow<Dim>& flow);
 
   /// What has been warned of, for a checkpoint, and from one.
-  nlohmann::json saved() const;
-  void restore(const nlohmann::json& saved);
+  nlohmann::ordered_json saved() const;
+  void restore(const nlohmann::ordered_json& saved);
 
  private:
   /// Whether nothing of this kind was told of this end yet; from now on it was.

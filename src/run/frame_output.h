@@ -24,8 +24,8 @@ class FrameOutput {
   void write(const Flow<Dim>& flow);
 
   /// How far the stream has come, for a checkpoint, and going on from it.
-  nlohmann::json saved() const;
-  void take_up(const nlohmann::json& saved, const Communicator& ranks);
+  nlohmann::ordered_json saved() const;
+  void take_up(const nlohmann::ordered_json& saved, const Communicator& ranks);
 
  private:
   FrameSeries<Dim> series_;

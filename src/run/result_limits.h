@@ -24,8 +24,8 @@ class ResultLimits {
   void warn_of_largest();
 
   /// What has been warned of and what was largest, for a checkpoint, and from one.
-  nlohmann::json saved() const;
-  void restore(const nlohmann::json& saved);
+  nlohmann::ordered_json saved() const;
+  void restore(const nlohmann::ordered_json& saved);
 
  private:
   struct Limit {

@@ -79,7 +79,7 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
   const auto make_run = [&] {
     try {
       return std::make_unique<Run<Dim>>(spec, options, ranks, std::move(read));
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const nlohmann::ordered_json::exception& error) {
       if (checkpoint == nullptr) throw;
       throw IoError(
           "checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from the one "

@@ -238,7 +238,7 @@ Json run_info(const fs::path& run) {
   try {
     return info_from(run, read_summary(run));
   } catch (const IoError&) {
-  } catch (const nlohmann::json::exception&) {
+  } catch (const nlohmann::ordered_json::exception&) {
   }
   return {{"state", "waiting"},
           {"time", 0.0},

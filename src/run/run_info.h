@@ -21,8 +21,8 @@ std::map<std::string, double> last_step(const std::filesystem::path& run);
 /// The summary that a run has left in its folder. Throws IoError.
 nlohmann::ordered_json read_summary(const std::filesystem::path& run);
 
-/// What an engineer wants to know before the numbers of a run are used. Throws nlohmann::json::exception if the summary
-/// is not of this version.
+/// What an engineer wants to know before the numbers of a run are used. Throws nlohmann::ordered_json::exception if the
+/// summary is not of this version.
 std::vector<InfoLine> summary_digest(const nlohmann::ordered_json& summary);
 
 /// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, measurements,

@@ -47,15 +47,15 @@ double peak_memory_bytes() {
 }
 
 /// Bytes of a file to go on with; none for a new run.
-std::optional<std::int64_t> kept_bytes(const nlohmann::json* kept, const char* file) {
+std::optional<std::int64_t> kept_bytes(const nlohmann::ordered_json* kept, const char* file) {
   if (kept == nullptr) return std::nullopt;
   const auto bytes = kept->at("bytes").at(file).get<std::int64_t>();
   return bytes > 0 ? std::optional(bytes) : std::nullopt;
 }
 
-std::vector<ProbeMark> marks_of(const nlohmann::json& kept) {
+std::vector<ProbeMark> marks_of(const nlohmann::ordered_json& kept) {
   std::vector<ProbeMark> marks;
-  for (const nlohmann::json& mark : kept.at("probes")) marks.push_back({mark.at("taken"), mark.at("bytes")});
+  for (const nlohmann::ordered_json& mark : kept.at("probes")) marks.push_back({mark.at("taken"), mark.at("bytes")});
   return marks;
 }
 
@@ -77,7 +77,7 @@ nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
 
 template <int Dim>
 RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow,
-                          const nlohmann::json* kept)
+                          const nlohmann::ordered_json* kept)
     : spec_(spec),
       options_(options),
       case_file_(options.case_file.string()),
@@ -112,10 +112,10 @@ RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const
 }
 
 template <int Dim>
-nlohmann::json RunOutput<Dim>::saved() const {
-  nlohmann::json probes = nlohmann::json::array();
+nlohmann::ordered_json RunOutput<Dim>::saved() const {
+  nlohmann::ordered_json probes = nlohmann::ordered_json::array();
   for (const ProbeMark& mark : probes_.marks()) probes.push_back({{"taken", mark.taken}, {"bytes", mark.size}});
-  nlohmann::json fields = fields_schedule_.saved();
+  nlohmann::ordered_json fields = fields_schedule_.saved();
   fields["times"] = series_.times();
   fields["wall_times"] = wall_series_.times();
   return {{"case_file", case_file_},
@@ -132,13 +132,13 @@ nlohmann::json RunOutput<Dim>::saved() const {
 }
 
 template <int Dim>
-void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
+void RunOutput<Dim>::take_up(const nlohmann::ordered_json& kept) {
   kept.at("case_file").get_to(case_file_);
   const std::optional<std::int64_t> ranks_bytes = kept_bytes(&kept, "ranks");
   do_on_root(ranks_, [&] {
     if (ranks_.is_alone() && ranks_bytes) cut_file(folder_.ranks(), *ranks_bytes);
   });
-  const nlohmann::json& fields = kept.at("fields");
+  const nlohmann::ordered_json& fields = kept.at("fields");
   series_.go_on(fields.at("times"), ranks_);
   wall_series_.go_on(fields.at("wall_times"), ranks_);
   fields_schedule_.take_up(fields);
@@ -149,14 +149,14 @@ void RunOutput<Dim>::take_up(const nlohmann::json& kept) {
   limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
   end_watch_.restore(kept.at("end_watch"));
-  const nlohmann::json& cost = kept.at("cost");
+  const nlohmann::ordered_json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
   cpu_seconds_before_ = cost.at("cpu_seconds");
   runs_before_ = cost.at("runs");
 }
 
 template <int Dim>
-void RunOutput<Dim>::add_costs(nlohmann::json& saved) const {
+void RunOutput<Dim>::add_costs(nlohmann::ordered_json& saved) const {
   saved["cost"] = {{"wall_seconds", wall_seconds()}, {"cpu_seconds", cpu_seconds()}, {"runs", runs_before_ + 1}};
 }
 

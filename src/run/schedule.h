@@ -20,8 +20,8 @@ class Schedule {
   void set_last(double time) { last_ = time; }
 
   /// For a checkpoint, and from one of a run whose interval may have been another.
-  nlohmann::json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
-  void take_up(const nlohmann::json& saved) {
+  nlohmann::ordered_json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
+  void take_up(const nlohmann::ordered_json& saved) {
     saved.at("next").get_to(next_);
     saved.at("last").get_to(last_);
     if (saved.at("interval") != interval_) set_next(last_);

@@ -6,10 +6,11 @@
 
 #include "flow/measure.h"
 #include "flow/step.h"
+#include "run/saved.h"
 
 namespace tailwater {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Interventions, stopped_at_walls, capped_shifts, fallback_rows, restarted_solves)
+TAILWATER_SAVED(inline, Interventions, stopped_at_walls, capped_shifts, fallback_rows, restarted_solves)
 
 class RunStatistics {
  public:
@@ -24,13 +25,12 @@ class RunStatistics {
   nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
   /// All of it is saved in a checkpoint.
-  NLOHMANN_DEFINE_TYPE_INTRUSIVE(RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
-                                 divergence_reports_, divergence_old_squares_, divergence_new_squares_,
-                                 divergence_moved_squares_, density_error_sum_, density_error_squares_, energy_start_,
-                                 energy_end_, energy_out_, energy_in_, brought_by_walls_, brought_by_ends_,
-                                 brought_by_air_, viscous_work_, energy_least_, energy_rise_, density_work_,
-                                 density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_, escaped_,
-                                 interventions_)
+  TAILWATER_SAVED(friend, RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
+                  divergence_reports_, divergence_old_squares_, divergence_new_squares_, divergence_moved_squares_,
+                  density_error_sum_, density_error_squares_, energy_start_, energy_end_, energy_out_, energy_in_,
+                  brought_by_walls_, brought_by_ends_, brought_by_air_, viscous_work_, energy_least_, energy_rise_,
+                  density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_, escaped_,
+                  interventions_)
 
  private:
   std::int64_t steps_ = 0;

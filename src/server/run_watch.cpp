@@ -18,7 +18,7 @@ constexpr int rest_over_work = 20;
 
 std::string event(std::string_view name, const nlohmann::ordered_json& data) {
   return fmt::format("event: {}\ndata: {}\n\n", name,
-                     data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+                     data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 }  // namespace

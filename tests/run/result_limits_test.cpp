@@ -45,7 +45,7 @@ TEST(ResultLimits, TellsInTheEndWhatTheEnergyRoseTo) {
   run.rise_to(33.0);
   ASSERT_EQ(run.count(), 1U);
   ResultLimits& limits = run.limits();
-  const nlohmann::json saved = limits.saved();
+  const nlohmann::ordered_json saved = limits.saved();
   limits.restore(saved);
   limits.warn_of_largest();
   ASSERT_EQ(run.count(), 2U);
