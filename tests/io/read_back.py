@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Reads field files back with VTK's own reader and compares every value with what was written.
 
-Usage: read_back.py COMMAND..., which runs write_vtk_samples on one rank or on three."""
+Usage: read_back.py SAMPLES MPIRUN: what the program write_vtk_samples writes on one rank, and on three."""
 
 import pathlib
 import subprocess
@@ -74,15 +74,21 @@ def check_series(folder):
         assert poly.GetNumberOfPoints() == count
 
 
-def main():
+def check_samples(command):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        subprocess.run([*sys.argv[1:], name], check=True)
+        subprocess.run([*command, name], check=True)
         files = sorted(folder.glob("*.vtp"))
         assert len(files) == 24, f"{len(files)} files: 2 dimensions, 3 levels, 4 sets of particles were expected"
         for path in files:
             check_file(path)
         check_series(folder)
+
+
+def main():
+    samples, mpirun = sys.argv[1:]
+    check_samples([samples])
+    check_samples([mpirun, "-n", "3", samples])
 
 
 if __name__ == "__main__":

@@ -83,8 +83,8 @@ void write_sample(const std::filesystem::path& folder, const std::vector<std::si
 /// Particles per rank. One rank: none; one; exactly one 32 KiB block of Int64; many blocks. Three: none; an empty rank
 /// at each end and in the middle.
 std::vector<std::vector<std::size_t>> samples(int ranks) {
-  if (ranks == 1) return {{0}, {1}, {4096}, {30000}};
-  return {{0, 0, 0}, {0, 1, 0}, {5000, 0, 7000}, {4096, 30000, 10}};
+  if (ranks == 1) return {{0}, {1}, {4096}, {10000}};
+  return {{0, 0, 0}, {0, 1, 0}, {5000, 0, 7000}, {4096, 10000, 10}};
 }
 
 template <int Dim>
