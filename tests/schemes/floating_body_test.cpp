@@ -127,9 +127,9 @@ TEST(FloatingBody, StaysAtItsDraught) {
 // particles of the side walls as well, by 7 % of its weight.
 TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   constexpr double dx = 0.025;
-  CaseSpec spec = tank_case<3>(dx, 0.8, 0.3);
+  CaseSpec spec = tank_case<3>(dx, 0.6, 0.3);
   spec.fluid[0].max[1] = spec.walls[0].max[1] = 6.0 * dx;
-  add_box(spec, {0.25, 0.0, 0.2}, {0.55, 6.0 * dx, 0.4}, 500.0);
+  add_box(spec, {0.15, 0.0, 0.2}, {0.45, 6.0 * dx, 0.4}, 500.0);
   spec.bodies[0].free = {"z"};
   Flow<3> flow = make_flow<3>(spec);
   start(flow);
@@ -226,9 +226,10 @@ TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
   for (const double share : {0.8, 1.2}) {
-    CaseSpec spec = tank_case<Dim>(dx, 0.6, share * 0.125);
-    Coordinates low(Dim, 0.175);
-    Coordinates high(Dim, 0.425);
+    constexpr double gap = Dim == 2 ? 0.175 : 0.1;
+    CaseSpec spec = tank_case<Dim>(dx, 0.25 + 2.0 * gap, share * 0.125);
+    Coordinates low(Dim, gap);
+    Coordinates high(Dim, gap + 0.25);
     low[Dim - 1] = 0.0;
     high[Dim - 1] = 0.25;
     add_box(spec, low, high, 500.0);
@@ -277,22 +278,22 @@ TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
 }
 
 // A box comes down on a film of two rows and dams the water that comes in, until it floats on what has run over it.
-// Until then it hovers where a row of particles has just no room. At 7 s its bottom is on the way to where the draught
-// of 0.1 m has it, (0.494 + 0.04)/2 - 0.1 = 0.167 m above the bed. Water that it squeezed would be too dense by 10 %
-// and more.
+// Until then it hovers where a row of particles has just no room. At 4.6 s its bottom is on the way to where the
+// draught of 0.1 m has it, (0.278 + 0.04)/1.2 - 0.1 = 0.165 m above the bed. Water that it squeezed would be too dense
+// by 10 % and more.
 TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   constexpr double dx = 0.02;
-  CaseSpec spec = tank_case<2>(dx, 2.0, 0.3);
+  CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
   spec.fluid[0].max[1] = 2.0 * dx;
-  open_start(spec).discharge = 0.06;
-  add_box(spec, {0.8, dx}, {1.2, dx + 0.2}, 500.0);
+  open_start(spec).discharge = 0.05;
+  add_box(spec, {0.4, dx}, {0.8, dx + 0.2}, 500.0);
   spec.bodies[0].free = {"y"};
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
   const auto bottom = [&] { return body.centre[1] - 0.1; };
   double lowest = dx;
-  while (flow.state.time < 7.0) {
+  while (flow.state.time < 4.6) {
     pass_and_step(flow);
     lowest = std::min(lowest, bottom());
     ASSERT_GT(bottom(), -1e-9) << "t = " << flow.state.time;
