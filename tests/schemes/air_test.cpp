@@ -156,6 +156,8 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
   return found;
 }
 
+constexpr double periods = 2.3;  // water that moves down turns upwards for the third time after 2.25
+
 template <class D>
 class AirColumn : public testing::Test {};
 TYPED_TEST_SUITE(AirColumn, Dimensions);
@@ -164,12 +166,13 @@ TYPED_TEST_SUITE(AirColumn, Dimensions);
 // nothing; largest velocities are read every dt, which misses (omega dt)^2/8 at most.
 TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   constexpr int Dim = TypeParam::value;
-  constexpr double dx = 0.025;
+  constexpr double dx = Dim == 2 ? 0.025 : 0.05;
   constexpr double speed = 0.01;
   constexpr int steps = 80;
   for (const Order& order : orders) {
     if (Dim == 3 && &order != &orders[0]) continue;
-    const Motion found = move_column<Dim>(free_column<Dim>(dx, Dim == 2 ? 0.2 : 0.175, order, speed), 3.0, steps, 0.0);
+    const Motion found =
+        move_column<Dim>(free_column<Dim>(dx, Dim == 2 ? 0.2 : 0.35, order, speed), periods, steps, 0.0);
     const double error = found.period / exact_motion(speed).period - 1.0;
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
     EXPECT_NEAR(error, 0.0, 0.002) << which;
@@ -190,7 +193,7 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
   constexpr double speed = 0.01;
   for (const Order& order : orders) {
     if (Dim == 3 && &order != &orders[0]) continue;
-    const Motion found = move_column<Dim>(column<Dim>(dx, 0.2, order, speed), 3.0, 80, 0.0);
+    const Motion found = move_column<Dim>(column<Dim>(dx, 0.2, order, speed), periods, 80, 0.0);
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
     const double error = found.period / exact_motion(speed).period - 1.0;
     EXPECT_NEAR(error, 0.0, 0.003) << which;
@@ -297,6 +300,7 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
 TYPED_TEST(AirColumn, RestsAboveWaterAtRest) {
   constexpr int Dim = TypeParam::value;
   for (const Order& order : orders) {
+    if (Dim == 3 && &order != &orders[0]) continue;
     CaseSpec spec = tank_case<Dim>(0.05, 0.5, 0.3);
     spec.walls[0].open.clear();
     spec.air.pockets = AirPockets::adiabatic;

@@ -105,12 +105,12 @@ TYPED_TEST(BodyBelowAir, StaysAtItsDraught) {
   const double scale = dx / 0.025;
   for (const Integrator integrator : integrators) {
     if (Dim == 3 && integrator == Integrator::implicit_projection) continue;
-    CaseSpec spec = tank_case<Dim>(dx, scale * (Dim == 2 ? 1.0 : 0.6), scale * 0.4);
+    CaseSpec spec = tank_case<Dim>(dx, scale * (Dim == 2 ? 1.0 : 0.5), scale * 0.4);
     spec.scheme.integrator = integrator;
     spec.walls[0].open.clear();
-    Coordinates min(Dim, scale * (Dim == 2 ? 0.35 : 0.15));
-    Coordinates max(Dim, scale * (Dim == 2 ? 0.65 : 0.45));
-    Coordinates centre(Dim, scale * (Dim == 2 ? 0.5 : 0.3));
+    Coordinates min(Dim, scale * (Dim == 2 ? 0.35 : 0.1));
+    Coordinates max(Dim, scale * (Dim == 2 ? 0.65 : 0.4));
+    Coordinates centre(Dim, scale * (Dim == 2 ? 0.5 : 0.25));
     min[Dim - 1] = scale * 0.3;
     max[Dim - 1] = scale * 0.5;
     centre[Dim - 1] = scale * 0.4;

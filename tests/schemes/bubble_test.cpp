@@ -24,8 +24,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double dx = 0.0125;
-constexpr double radius = 8.0 * dx;
+constexpr double dx = 1.0 / 60.0;
+constexpr double radius = 6.0 * dx;
 constexpr double water_depth = 0.6;
 constexpr double length = 0.9;  ///< m; with images by the far wall too the logarithm is 2 % more
 
@@ -63,7 +63,7 @@ double error_of_frequency(const CaseSpec& spec, double depth) {
   start(flow);
   const AirPocket& pocket = flow.state.air.pockets.at(0);
   const double period = 2.0 * pi / exact_frequency(pocket.gas, depth);
-  const double dt = period / 60.0;
+  const double dt = period / 40.0;
   Oscillation oscillation(measure_air(flow).pressure);
   while (oscillation.turns() < 2 && flow.state.step < 150) {
     if (flow.state.step % 10 == 0) sort_particles(flow);
