@@ -11,6 +11,8 @@ find_package(MPI REQUIRED COMPONENTS C)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 # The flags that Debian built PETSc with. With them a room could not use the precompiled header of the others.
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+# Its functions are loaded when the first system needs them (src/linear/petsc.h).
+set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_LINK_LIBRARIES "" INTERFACE_LINK_DIRECTORIES "")
 # That with which PETSc is linked: a process cannot hold two builds of HDF5. Debian's name first, then HDF5's own.
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi hdf5)
 pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)

@@ -1,4 +1,5 @@
-// PETSc handles as move-only values whose error codes become exceptions. Only this room includes PETSc.
+// PETSc as the rest of this room sees it: loaded when the first system needs it, and handles as move-only values whose
+// error codes become exceptions. Only this room includes PETSc.
 #pragma once
 
 #include <petscksp.h>
@@ -7,11 +8,104 @@
 
 namespace tailwater {
 
+/// Loads PETSc and starts it, if that has not been done. It brings a hundred libraries, whose loading takes three times
+/// as long as all else at the start of this program, and what most runs solve needs none. MPI must run. Collective.
+void need_petsc();
+
+/// Ends it where it was started.
+void end_petsc();
+
+/// The address of a function of PETSc's, which must be loaded.
+void* petsc_address(const char* name);
+
+/// A function of PETSc's by its name, which calls it once PETSc is loaded.
+template <class Function>
+class PetscFunction;
+
+template <class... Arguments>
+class PetscFunction<PetscErrorCode(Arguments...)> {
+ public:
+  constexpr explicit PetscFunction(const char* name) : name_(name) {}
+
+  PetscErrorCode operator()(Arguments... arguments) const {
+    if (function_ == nullptr) function_ = reinterpret_cast<PetscErrorCode (*)(Arguments...)>(petsc_address(name_));
+    return function_(arguments...);
+  }
+
+ private:
+  const char* name_;
+  mutable PetscErrorCode (*function_)(Arguments...) = nullptr;
+};
+
+// In this namespace they hide PETSc's own, with which the program would have to be linked. What is not here is not
+// found by the linker.
+#define TAILWATER_LOADED(function) inline const PetscFunction<decltype(::function)> function(#function)
+TAILWATER_LOADED(KSPCreate);
+TAILWATER_LOADED(KSPDestroy);
+TAILWATER_LOADED(KSPGMRESSetRestart);
+TAILWATER_LOADED(KSPGetConvergedReason);
+TAILWATER_LOADED(KSPGetConvergedReasonString);
+TAILWATER_LOADED(KSPGetIterationNumber);
+TAILWATER_LOADED(KSPGetPC);
+TAILWATER_LOADED(KSPGetResidualHistory);
+TAILWATER_LOADED(KSPGetType);
+TAILWATER_LOADED(KSPSetFromOptions);
+TAILWATER_LOADED(KSPSetInitialGuessNonzero);
+TAILWATER_LOADED(KSPSetOperators);
+TAILWATER_LOADED(KSPSetOptionsPrefix);
+TAILWATER_LOADED(KSPSetPCSide);
+TAILWATER_LOADED(KSPSetResidualHistory);
+TAILWATER_LOADED(KSPSetReusePreconditioner);
+TAILWATER_LOADED(KSPSetTolerances);
+TAILWATER_LOADED(KSPSetType);
+TAILWATER_LOADED(KSPSetUp);
+TAILWATER_LOADED(KSPSolve);
+TAILWATER_LOADED(MatAssemblyBegin);
+TAILWATER_LOADED(MatAssemblyEnd);
+TAILWATER_LOADED(MatCreateMPIAIJWithSplitArrays);
+TAILWATER_LOADED(MatCreateSeqAIJ);
+TAILWATER_LOADED(MatCreateSeqAIJWithArrays);
+TAILWATER_LOADED(MatCreateShell);
+TAILWATER_LOADED(MatDestroy);
+TAILWATER_LOADED(MatNullSpaceCreate);
+TAILWATER_LOADED(MatNullSpaceDestroy);
+TAILWATER_LOADED(MatSetNullSpace);
+TAILWATER_LOADED(MatSetOption);
+TAILWATER_LOADED(MatSetValues);
+TAILWATER_LOADED(MatShellGetContext);
+TAILWATER_LOADED(MatShellSetOperation);
+TAILWATER_LOADED(PCSORSetOmega);
+TAILWATER_LOADED(PCSORSetSymmetric);
+TAILWATER_LOADED(PCSetType);
+TAILWATER_LOADED(PCShellGetContext);
+TAILWATER_LOADED(PCShellSetApply);
+TAILWATER_LOADED(PCShellSetContext);
+TAILWATER_LOADED(PetscErrorMessage);
+TAILWATER_LOADED(PetscFinalize);
+TAILWATER_LOADED(PetscInitializeNoArguments);
+TAILWATER_LOADED(PetscObjectTypeCompare);
+TAILWATER_LOADED(PetscOptionsClear);
+TAILWATER_LOADED(PetscOptionsHasName);
+TAILWATER_LOADED(PetscOptionsInsertString);
+TAILWATER_LOADED(PetscOptionsLeftGet);
+TAILWATER_LOADED(PetscOptionsLeftRestore);
+TAILWATER_LOADED(PetscOptionsSetValue);
+TAILWATER_LOADED(PetscPushErrorHandler);
+TAILWATER_LOADED(VecCreateMPIWithArray);
+TAILWATER_LOADED(VecCreateSeqWithArray);
+TAILWATER_LOADED(VecDestroy);
+TAILWATER_LOADED(VecGetArrayRead);
+TAILWATER_LOADED(VecGetArrayWrite);
+TAILWATER_LOADED(VecGetLocalSize);
+TAILWATER_LOADED(VecRestoreArrayRead);
+TAILWATER_LOADED(VecRestoreArrayWrite);
+#undef TAILWATER_LOADED
+
 /// Throws SolverError with PETSc's own message when `code` says that a call failed.
 void check_petsc(PetscErrorCode code);
 
-/// Owns a PETSc object and destroys it. Destroy is the PETSc function for its type.
-template <class Handle, PetscErrorCode (*Destroy)(Handle*)>
+/// Owns a PETSc object and destroys it. `destroy` is the PETSc function for its type.
+template <class Handle, const PetscFunction<PetscErrorCode(Handle*)>& destroy>
 class PetscHandle {
  public:
   PetscHandle() = default;
@@ -25,7 +119,7 @@ class PetscHandle {
   ~PetscHandle() { reset(); }
 
   void reset() {
-    if (handle_ != nullptr) Destroy(&handle_);
+    if (handle_ != nullptr) destroy(&handle_);
   }
   Handle get() const { return handle_; }
   /// For PETSc's functions that create objects. Destroys the present object first.

@@ -73,15 +73,17 @@ void wrap(const Communicator& ranks, std::span<const double> values, PetscVector
 MethodOutcome outcome_of(KSP solver) {
   KSPType type = nullptr;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  const char* reason_name = nullptr;
   PetscInt iterations = 0;
   const PetscReal* history = nullptr;
   PetscInt length = 0;
   check_petsc(KSPGetType(solver, &type));
   check_petsc(KSPGetConvergedReason(solver, &reason));
+  check_petsc(KSPGetConvergedReasonString(solver, &reason_name));
   check_petsc(KSPGetIterationNumber(solver, &iterations));
   check_petsc(KSPGetResidualHistory(solver, &history, &length));
   return {.end = end_of(reason),
-          .reason = fmt::format("PETSc's {} ended with {}", type, KSPConvergedReasons[reason]),
+          .reason = fmt::format("PETSc's {} ended with {}", type, reason_name),
           .iterations = static_cast<int>(iterations),
           .history = {history, history + length}};
 }
@@ -106,6 +108,7 @@ void PetscMethod::change_to_gmres(const LinearSystem& system) {
 /// Prepares the solver for this solve. It is made anew for a new pattern: multigrid would carry bounds of the spectrum
 /// over from the old one, and a run that goes on from a checkpoint has no old one.
 void PetscMethod::set_up(const LinearSystem& system) {
+  need_petsc();
   const bool pattern_is_new = take_matrix(system);
   const Communicator& ranks = system.ranks();
   if (ranks.any(pattern_is_new || solver_size_ != system.size())) {
@@ -140,10 +143,13 @@ bool PetscMethod::take_matrix(const LinearSystem& system) {
 /// Whether the preconditioner needs no more than products with the system.
 bool PetscMethod::works_on_shell() const {
   PC preconditioner = nullptr;
-  PetscBool is_one = PETSC_FALSE;
   check_petsc(KSPGetPC(solver_.get(), &preconditioner));
-  check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_one, PCSHELL, PCNONE, ""));
-  return is_one;
+  const auto is_one = [&](PCType type) {
+    PetscBool is_so = PETSC_FALSE;
+    check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), type, &is_so));
+    return is_so == PETSC_TRUE;
+  };
+  return is_one(PCSHELL) || is_one(PCNONE);
 }
 
 /// Makes our own multigrid the preconditioner if that is the choice.

@@ -74,7 +74,8 @@ void relax_coarsest_level() {
 void ask_for_all_options(const PressureSolverTable& settings) {
   PetscMatrix identity;
   check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, 2, 2, 1, nullptr, identity.create()));
-  for (PetscInt i = 0; i < 2; ++i) check_petsc(MatSetValue(identity.get(), i, i, 1.0, INSERT_VALUES));
+  constexpr PetscScalar one = 1.0;
+  for (PetscInt i = 0; i < 2; ++i) check_petsc(MatSetValues(identity.get(), 1, &i, 1, &i, &one, INSERT_VALUES));
   check_petsc(MatAssemblyBegin(identity.get(), MAT_FINAL_ASSEMBLY));
   check_petsc(MatAssemblyEnd(identity.get(), MAT_FINAL_ASSEMBLY));
   for (const double rows_deep : {shallow, deep}) {
@@ -166,6 +167,7 @@ void take_petsc_options(const PressureSolverTable& settings) {
   if (settings.petsc_options.empty()) return;
   require_harmless(settings);
   const SuspendFpTraps suspended;
+  need_petsc();
   try {
     check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
     ask_for_all_options(settings);

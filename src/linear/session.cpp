@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
@@ -10,12 +9,11 @@
 
 #include "base/error.h"
 #include "base/fp_traps.h"
+#include "linear/ignore_leaks.h"
 #include "linear/petsc.h"
 #include "parallel/process_limits.h"
 
 #ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-
 /// MPI's plugins stay loaded: the leak checker could not name one that is gone, and leaves out what it allocates by its
 /// name (tests/support/leaks.supp).
 extern "C" int dlclose(void*) { return 0; }
@@ -23,28 +21,6 @@ extern "C" int dlclose(void*) { return 0; }
 
 namespace tailwater {
 namespace {
-
-/// MPI keeps what it allocates at its start until the process ends. The leak checker need not report that.
-struct IgnoreLeaks {
-#ifdef __SANITIZE_ADDRESS__
-  IgnoreLeaks() { __lsan_disable(); }
-  ~IgnoreLeaks() { __lsan_enable(); }
-#else
-  IgnoreLeaks() {}  // NOLINT(modernize-use-equals-default): a trivial one would leave the variable below unused
-#endif
-};
-
-/// What PETSc says where an error arises; its functions pass on only the code.
-std::string& last_reason() {
-  static std::string reason;
-  return reason;
-}
-
-PetscErrorCode keep_reason(MPI_Comm, int, const char*, const char*, PetscErrorCode code, PetscErrorType type,
-                           const char* reason, void*) {
-  if (type == PETSC_ERROR_INITIAL) last_reason() = reason == nullptr ? "" : reason;
-  return code;
-}
 
 /// Alone, Open MPI would start a daemon for processes that this one might spawn, and make folders in one that all its
 /// programs share and remove when they end: of two, one may lose its folder while it makes it, and then does not start.
@@ -76,16 +52,6 @@ class StartAlone {
 
 }  // namespace
 
-void check_petsc(PetscErrorCode code) {
-  if (code == 0) return;
-  const char* kind = nullptr;
-  PetscErrorMessage(code, &kind, nullptr);
-  std::string reason = std::exchange(last_reason(), "");
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
-  throw SolverError("PETSc failed (code {}): {}{}{}", static_cast<int>(code), kind ? kind : "",
-                    kind && !reason.empty() ? ": " : "", reason);
-}
-
 LinearSession::LinearSession() {
   require_room_for_mpi();
   const SuspendFpTraps suspended;
@@ -94,16 +60,21 @@ LinearSession::LinearSession() {
   // If one ends just then, as those of pictures do, Xlib ends the whole program. By OpenCL it loads a compiler.
   setenv("HWLOC_COMPONENTS", "-gl,-opencl", 0);
   const StartAlone alone;
-  // Signals stay ours: Ctrl-C must end a run in order.
-  check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
-  check_petsc(PetscInitializeNoArguments());
-  check_petsc(PetscPushErrorHandler(keep_reason, nullptr));
+  int is_running = 0;  // Python may have started it
+  MPI_Initialized(&is_running);
+  if (is_running != 0) return;
+  int threads = MPI_THREAD_SINGLE;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &threads) != MPI_SUCCESS) {
+    throw SolverError("MPI does not start");
+  }
+  has_started_mpi_ = true;
 }
 
 LinearSession::~LinearSession() {
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
-  PetscFinalize();
+  end_petsc();
+  if (has_started_mpi_) MPI_Finalize();
 }
 
 std::string linear_library_version() {

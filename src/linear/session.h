@@ -1,4 +1,4 @@
-// The lifetime of MPI and PETSc in this process.
+// The lifetime of MPI in this process, and of PETSc where a system needs it (petsc.h).
 #pragma once
 
 #include <string>
@@ -7,11 +7,14 @@ namespace tailwater {
 
 class LinearSession {
  public:
-  /// Starts MPI and PETSc. Throws SolverError when they do not start.
+  /// Starts MPI. Throws SolverError when it does not start.
   LinearSession();
   ~LinearSession();
   LinearSession(const LinearSession&) = delete;
   LinearSession& operator=(const LinearSession&) = delete;
+
+ private:
+  bool has_started_mpi_ = false;
 };
 
 /// "PETSc 3.18.5, Open MPI v4.1.4", for the run's summary.

@@ -8,7 +8,7 @@ import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
-from program import SLOWDOWN, SMALL_CASE, ProgramTest
+from program import PROGRAM, SLOWDOWN, SMALL_CASE, ProgramTest
 
 COMMANDS = ("new", "check", "explain", "run", "resume", "info", "bench")
 
@@ -70,6 +70,12 @@ class CommandLine(ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.call("--version").stdout, r"^tailwater \d+\.\d+\.\d+ \(commit .+\)\n$")
+
+    def test_starts_without_petsc(self):
+        """Which takes longer than anything else at a start, and is loaded by the first system that needs it."""
+        libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+        self.assertIn("libmpi", libraries)
+        self.assertNotIn("petsc", libraries)
 
     def test_mistakes_are_answered_with_the_way_out(self):
         for arguments, parts in (

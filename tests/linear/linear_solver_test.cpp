@@ -2,7 +2,6 @@
 #include "support/pressure_system.h"
 
 #include <gtest/gtest.h>
-#include <petscsys.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "linear/petsc.h"
 #include "linear/solver_choice.h"
 #include "support/particle_set.h"
 
