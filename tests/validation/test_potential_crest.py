@@ -54,7 +54,7 @@ class BroadWeir(unittest.TestCase):
         arc = [(nose * (1 - math.cos(a)), -nose * (1 - math.sin(a))) for a in math.pi / 8 * np.arange(1, 5)]
         for slope in (math.radians(30), math.radians(60)):
             points = [(0, -height), (0, -nose), *arc, (crest, 0), (crest + math.cos(slope), -math.sin(slope))]
-            _, read = coefficients(Flow(points, 1.0), gauge=3 * 0.085 / critical)
+            _, read = coefficients(Flow(points, 1.0, step=0.04), gauge=3 * 0.085 / critical)
             self.assertAlmostEqual(read * 1.5**1.5, BROAD_WEIR_COEFFICIENT, delta=1e-3)
 
 

@@ -51,12 +51,10 @@ class Channel:
     def rise(self, elevation, surface):
         """Vertical velocity of the water at its surface, and the modes of the potential at the still level."""
         orders = self.potentials(elevation, surface)
-        total = np.zeros(NODES)
-        for m in range(ORDER):
-            power = np.ones(NODES)
-            for l in range(ORDER - m):
-                total = total + power * self.vertical(orders[m], l + 1)
-                power = power * elevation / (l + 1)
+        total, power = np.zeros(NODES), np.ones(NODES)
+        for l in range(ORDER):
+            total = total + power * self.vertical(sum(orders[:ORDER - l]), l + 1)
+            power = power * elevation / (l + 1)
         return total, sum(orders)
 
     def change(self, elevation, surface):
