@@ -114,8 +114,8 @@ class BitForBit(Resumed):
         """The gate gets faster, and jumps away; by what the step is at the half, it would never be too small: the first is
         0.01 s, that at the half 2 ms, and the last 9 us."""
         gate = ("--set", "particles.spacing=0.0025", "--set", "fluid[0].max=[0.02, 0.02]", "--set",
-                "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, '
-                '{points=[[1, 0], [1, 2]], displacement=["0", "2*t^2 + 145*max(0, t - 0.3)"]}]')
+                "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 0.2], [0, 0], [0.6, 0], [0.6, 0.2]]}, '
+                '{points=[[0.1, 0], [0.1, 0.2]], displacement=["0", "2*t^2 + 145*max(0, t - 0.3)"]}]')
         self.run_case("part", "--set", HALF, *gate)
         self.call("resume", "part", "--set", WHOLE, "--quiet", expect=3)
         self.run_case("whole", "--set", WHOLE, *gate, expect=3)
@@ -173,9 +173,9 @@ class Checkpoints(Resumed):
         self.assertEqual(process.wait(timeout=PATIENCE), 130)
 
     def test_the_wall_time_ends_a_run_with_one(self):
-        self.run_case("run", "--set", "time.end=1000", "--wall-time", "1s", expect=130, errors_only=False)
+        self.run_case("run", "--set", "time.end=1000", "--wall-time", "0.3s", expect=130, errors_only=False)
         self.assertEqual(self.summary("run")["status"], "interrupted")
-        # On a machine so busy that the second is over before the first step, there is nothing to save.
+        # On a machine so busy that the time is over before the first step, there is nothing to save.
         self.assertEqual(len(self.checkpoints()), min(1, self.summary("run")["steps"]["count"]))
         for wrong in ("soon", "3", "-1h", "0s", "1:30", "3h5"):
             with self.subTest(wrong):
@@ -276,7 +276,7 @@ class Faults(Resumed):
         self.assertRegex(errors, message)
 
     def check_resumable(self):
-        self.call("resume", "run", "--set", "time.end=1000", "--wall-time", "1s", expect=130, errors_only=False)
+        self.call("resume", "run", "--set", "time.end=1000", "--wall-time", "0.3s", expect=130, errors_only=False)
         _, steps = self.table("run/steps.csv")
         self.assertEqual([row[1] for row in steps], list(range(1, len(steps) + 1)))
 

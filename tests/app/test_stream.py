@@ -16,7 +16,7 @@ class Stream(ProgramTest):
     def test_of_a_dam_break_is_small(self):
         """The demo's case, coarser. Far fewer bytes than places and scalars take as they are: 6 per particle."""
         case = CASES / "zhou1999" / "case.toml"
-        self.call("run", case, "--out", "run", "--quiet", "--set", "particles.spacing=0.02")
+        self.call("run", case, "--out", "run", "--quiet", "--set", "particles.spacing=0.025")
         frames = read_frames(self.folder / "run")
         # A four-hundredth of the end time apart, and eight steps.
         end = tomllib.loads((self.folder / "run/case.effective.toml").read_text())["time"]["end"]

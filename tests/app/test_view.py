@@ -183,7 +183,7 @@ class OfADoneRun(Viewed):
 
     def test_lives_through_many_requests_at_once(self):
         self.view("run")
-        count = 10000
+        count = 3000
 
         def ask(k):
             path = f"{self.token if k % 3 else 'wrong'}/{'api/run/0/frame/1' if k % 2 else 'api/state'}"
