@@ -88,7 +88,7 @@ class Sweep(ProgramTest):
             self.assertIn("tailwater resume sweep", told)
             self.assertEqual([row["status"] for row in self.rows()], ["interrupted", "waiting"])
         self.call("resume", f"sweep/{MEMBERS[0]}", "--quiet", "--set", f"time.end={self.rows()[0]['time_reached_s']}")
-        self.call("resume", "sweep", "--quiet", "--wall-time", "1.5s", "--jobs", "2", expect=130, errors_only=False)
+        self.call("resume", "sweep", "--quiet", "--wall-time", "0.5s", "--jobs", "2", expect=130, errors_only=False)
         self.assertEqual(self.rows()[0]["status"], "done")
 
     def test_steps_are_read_from_the_end_of_their_table_on_wherever_a_line_is_cut(self):

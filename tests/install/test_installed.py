@@ -107,7 +107,7 @@ class Installed(unittest.TestCase):
     def test_library_builds_a_program(self):
         build = self.folder / "build"
         run("cmake", "-S", SOURCES / "tests" / "install" / "program", "-B", build, "-G", "Ninja",
-            f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O0")
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0")
         run("cmake", "--build", build)
         self.tailwater("new", "tank", "tank.toml")
         text = (self.folder / "tank.toml").read_text(encoding="utf-8")
