@@ -8,6 +8,7 @@ BUILD/compile_commands.json has for these rooms, and only checks that are cheap 
 Since the files are read together, no two of them may have local helpers of equal name.
 """
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -29,6 +30,9 @@ CHECKS = """
     performance-noexcept-move-constructor
     misc-unused-alias-decls misc-unused-parameters cppcoreguidelines-pro-type-cstyle-cast
 """.split()
+
+# Its memory is one piece in pages of 2 MB: to fetch a gigabyte in pages of 4 kB cost a seventh of the time.
+MEMORY = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=8000000000:glibc.malloc.trim_threshold=8000000000"}
 
 
 def kept_flags(command):
@@ -87,7 +91,7 @@ def main():
     result = subprocess.run(
         ["clang-tidy", "--quiet", f"--config-file={root}/.clang-tidy", f"--checks=-*,{','.join(CHECKS)}",
          f"--header-filter=^({re.escape(str(root))}|{re.escape(str(folder))})/src/", str(unit), "--", "-std=c++20",
-         *joined(entries)], capture_output=True, text=True, check=False)
+         *joined(entries)], capture_output=True, text=True, check=False, env={**os.environ, **MEMORY})
     found = findings(result.stdout, root, folder)
     if result.returncode != 0 and not found:
         sys.exit(f"{result.stdout}{result.stderr}clang-tidy exited with {result.returncode}")
