@@ -25,7 +25,7 @@ constexpr double reach_of_piece = 0.75;
 
 /// Least of -cos of the angle between the normals of a body's particle and of the wall that it faces: at the corner of
 /// a box, where it is the mean of three, it is 0.577.
-constexpr double least_facing = 0.5;
+constexpr double least_opposite = 0.5;
 
 /// [dx]; pieces so near are beside each other.
 constexpr double reach_of_neighbours = 1.6;
@@ -59,7 +59,7 @@ void NarrowGaps<Dim>::find_pieces(double time) {
       const NearestWall<Dim> wall = resting.nearest(x, (1.0 + widest_gap) * dx);
       if (wall.face < 0 || wall.signed_distance <= 0.0) continue;
       const Vec<Dim> normal = (x - wall.point) / wall.signed_distance;
-      if (-table.normal[row].dot(normal) < least_facing) continue;
+      if (-table.normal[row].dot(normal) < least_opposite) continue;
       const double depth = -hull.boundary.nearest(placement.inverse(x), contact_reach * dx).signed_distance;
       const double gap = std::max(0.0, wall.signed_distance - depth);
       if (depth <= 0.0 || depth >= dx || gap >= widest_gap * dx) continue;

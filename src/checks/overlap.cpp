@@ -19,18 +19,18 @@ struct Candidate {
   int block;
 };
 template <int Dim>
-using Candidates = std::vector<Candidate<Dim>>;
+using CandidateList = std::vector<Candidate<Dim>>;
 
 /// The particles of all ranks that are nearer than `distance` (m) to the box around another block, in their order.
 template <int Dim>
-Candidates<Dim> particles_in_other_boxes(const CaseSpec& spec, const FluidParticles<Dim>& fluid, double distance) {
+CandidateList<Dim> particles_in_other_boxes(const CaseSpec& spec, const FluidParticles<Dim>& fluid, double distance) {
   std::vector<Eigen::AlignedBox<double, Dim>> boxes(spec.fluid.size());
   for (std::size_t i = 0; i < fluid.position.size(); ++i) boxes[fluid.block[i]].extend(fluid.position[i]);
   const std::vector<Eigen::AlignedBox<double, Dim>> of_ranks = gather_on_all(fluid.ranks, boxes);
   for (std::size_t k = 0; k < of_ranks.size(); ++k) {
     if (!of_ranks[k].isEmpty()) boxes[k % boxes.size()].extend(of_ranks[k]);
   }
-  Candidates<Dim> own;
+  CandidateList<Dim> own;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const auto block = static_cast<std::size_t>(fluid.block[i]);
     bool is_near = false;
@@ -50,7 +50,7 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
   if (spec.fluid.size() < 2) return {};
   // Particles of neighbouring blocks are dx apart, less the jitter of both.
   const double least = std::min(0.5, 1.0 - 2.0 * spec.particles.jitter) * spec.particles.spacing;
-  const Candidates<Dim> candidates = particles_in_other_boxes(spec, fluid, least);
+  const CandidateList<Dim> candidates = particles_in_other_boxes(spec, fluid, least);
   PointGrid<Dim> grid(least * (1.0 - corner_tolerance));
   struct Overlap {
     std::size_t particles = 0;

@@ -15,7 +15,7 @@ constexpr std::size_t most_drawn = 40000;
 constexpr std::size_t most_drawn_faces = 20000;
 constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
 constexpr double plot_height = 620.0;
-constexpr double margin = 24.0;
+constexpr double page_margin = 24.0;
 constexpr double axis_margin = 64.0;  // for the labels of the vertical axis
 constexpr double title_height = 64.0;
 constexpr double line_height = 18.0;
@@ -250,7 +250,7 @@ View fitted_view(const Extent& extent, double dx) {
   view.high = extent.high.array() + 1.5 * dx;
   const Vec<2> size = view.high - view.low;
   view.scale = std::min(plot_width / size[0], plot_height / size[1]);
-  view.left = margin + axis_margin;
+  view.left = page_margin + axis_margin;
   view.top = 0.0;
   return view;
 }
@@ -343,7 +343,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   double width =
       std::max({view.right(), view.left + text_width(summary), view.left + 1.4 * text_width(spec.general.title)});
   for (std::size_t i = 0; i < names.size(); ++i) width = std::max(width, label_x[i] + 6.0 + text_width(names[i]));
-  width += margin;
+  width += page_margin;
   const double height = view.bottom() + 56.0;
 
   Svg svg;
@@ -361,7 +361,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_open_ends(svg, ends, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");
-  svg.text(margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");
+  svg.text(page_margin, view.top - 8.0, "start", Dim == 2 ? "y (m)" : "z (m)");
   for (std::size_t i = 0; i < markers.size(); ++i) draw_marker(svg, markers[i], rows[i], view);
   for (const Vec<Dim>& x : bad_places) {
     const Vec<2> p = view(project(x));

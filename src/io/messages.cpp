@@ -19,7 +19,7 @@ namespace tailwater {
 namespace {
 
 /// How long a message waits for a terminal or pipe that takes nothing; once one has waited in vain, the next do not.
-constexpr int patience = 1000;  // ms
+constexpr int longest_wait = 1000;  // ms
 
 /// bytes; far more than a message needs that names a place, a value and a remedy
 constexpr std::size_t longest_line = 2000;
@@ -60,7 +60,8 @@ void show(std::string_view text) {
   Messages& all = messages();
   const std::string_view new_line = all.live_line_is_open ? "\n" : "";
   all.live_line_is_open = false;
-  all.is_stuck = !write_what_is_taken(STDERR_FILENO, fmt::format("{}{}", new_line, text), all.is_stuck ? 0 : patience);
+  all.is_stuck =
+      !write_what_is_taken(STDERR_FILENO, fmt::format("{}{}", new_line, text), all.is_stuck ? 0 : longest_wait);
 }
 
 void keep(std::string_view text) {
@@ -68,7 +69,7 @@ void keep(std::string_view text) {
   if (all.log < 0) {
     all.told += text;
   } else {
-    write_what_is_taken(all.log, text, patience);
+    write_what_is_taken(all.log, text, longest_wait);
   }
 }
 
@@ -138,7 +139,7 @@ void open_log(const std::filesystem::path& path) {
   Messages& all = messages();
   if (all.log >= 0) close(all.log);
   all.log = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-  if (all.log >= 0) write_what_is_taken(all.log, all.told, patience);
+  if (all.log >= 0) write_what_is_taken(all.log, all.told, longest_wait);
   all.told.clear();
 }
 

@@ -10,8 +10,8 @@ namespace tailwater {
 namespace {
 
 /// Newton's method on a convex law, which may not more than halve a volume in a step.
-constexpr int most_steps = 50;
-constexpr double settled = 1e-10;  // of the atmosphere
+constexpr int most_newton_steps = 50;
+constexpr double gas_tolerance = 1e-10;  // of the atmosphere
 
 /// Share of the velocity at the end of a step in that with which pockets grow, and of the pressure at the end with
 /// which a slow pulsation keeps its energy.
@@ -38,7 +38,7 @@ std::vector<double> GasStep::solve() const {
   Eigen::VectorXd start(count);
   for (Eigen::Index k = 0; k < count; ++k) start[k] = law_.pressure(pockets_[k].gas, pockets_[k].volume);
   Eigen::VectorXd pressure = start;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_newton_steps; ++step) {
     const Eigen::VectorXd volume = volume_after(pressure);
     Eigen::VectorXd missing(count);
     Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
@@ -46,7 +46,7 @@ std::vector<double> GasStep::solve() const {
       missing[k] = pressure[k] - (1.0 - theta[k]) * start[k] - theta[k] * pressure_after(k, volume[k]);
       slope.row(k) -= theta[k] * slope_after(k, volume[k]) * answers_.row(k);
     }
-    if (missing.cwiseAbs().maxCoeff() <= settled * law_.atmosphere) break;
+    if (missing.cwiseAbs().maxCoeff() <= gas_tolerance * law_.atmosphere) break;
     Eigen::VectorXd change = -slope.partialPivLu().solve(missing);
     while ((volume_after(pressure + change).array() < 0.5 * volume.array()).any()) change *= 0.5;
     pressure += change;

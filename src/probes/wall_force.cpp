@@ -36,20 +36,20 @@ template <int Dim>
 using Moment = Turn<Dim>;
 
 template <int Dim>
-struct Loads {
+struct WallLoads {
   Vec<Dim> pressure = Vec<Dim>::Zero();
   Vec<Dim> friction = Vec<Dim>::Zero();
   Moment<Dim> moment = Moment<Dim>::Zero();
   double power = 0.0;  ///< of the walls on the water
 
-  Loads& operator+=(const Loads& other) {
+  WallLoads& operator+=(const WallLoads& other) {
     pressure += other.pressure;
     friction += other.friction;
     moment += other.moment;
     power += other.power;
     return *this;
   }
-  friend Loads operator+(Loads a, const Loads& b) { return a += b; }
+  friend WallLoads operator+(WallLoads a, const WallLoads& b) { return a += b; }
   Vec<Dim> force() const { return pressure + friction; }
 
   /// Adds up those of all ranks. Collective.
@@ -133,12 +133,12 @@ class WallForceProbe {
   bool has_power() const { return has_power_; }
 
   /// Collective.
-  Loads<Dim> read(const ProbeContext<Dim>& context) {
+  WallLoads<Dim> read(const ProbeContext<Dim>& context) {
     TAILWATER_ASSERT(context.wall_forces != nullptr, "the flow finds the forces on its walls");
     place_patches(context.boundary);
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
-    Loads<Dim> loads = sum_over(context.particles.owned, Loads<Dim>(), [&](std::size_t i) {
-      const Loads<Dim> whole = loads_at(context, i);
+    WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
+      const WallLoads<Dim> whole = loads_at(context, i);
       return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity);
     });
     loads.gather(context.ranks);
@@ -185,8 +185,8 @@ class WallForceProbe {
   }
 
   /// What pockets of air do to the chosen patches that look into them; the same on all ranks. Collective.
-  Loads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
-    Loads<Dim> loads;
+  WallLoads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
+    WallLoads<Dim> loads;
     for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, chosen_)) {
       loads.pressure += push.force;
       loads.moment += moment(push.centre, push.force);
@@ -199,8 +199,8 @@ class WallForceProbe {
 
   /// All that acts through owned particle i. Friction acts on the wall itself, and the arm of the pressure, which is
   /// across the wall, is the same there.
-  Loads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
-    Loads<Dim> loads;
+  WallLoads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
+    WallLoads<Dim> loads;
     loads.pressure = context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
     loads.friction = context.wall_forces->friction[i];
     const Vec<Dim>& x = context.particles.position[i];
@@ -215,8 +215,8 @@ class WallForceProbe {
   }
 
   /// The part of the loads through particle i that is this probe's.
-  Loads<Dim> part_of(const Loads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
-                     const std::vector<AffineMap<Dim>>& velocity) const {
+  WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
+                         const std::vector<AffineMap<Dim>>& velocity) const {
     const Vec<Dim>& x = context.particles.position[i];
     if (!takes_all_ && !around_chosen_.contains(x)) return {};
     const bool is_water = context.particles.is_fluid(i);
@@ -226,7 +226,7 @@ class WallForceProbe {
       all.add(1.0, weight, n);
       if (chosen_[k] > 0.0) chosen.add(chosen_[k], weight, n);
     });
-    Loads<Dim> loads;
+    WallLoads<Dim> loads;
     if (all.of_pressure.weight == 0.0) return takes_all_ ? whole : loads;
     const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
     const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
@@ -369,7 +369,7 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   if (walls->has_power()) reading.columns.push_back("power_to_water_W" + per_width);
 
   reading.take = [walls, memory, has_moment](const ProbeContext<Dim>& context) -> std::vector<Row> {
-    const Loads<Dim> loads = walls->read(context);
+    const WallLoads<Dim> loads = walls->read(context);
     const Vec<Dim> force = loads.force();
     ForceMemory<Dim>{*memory}.add(context.time, force);
     Row row;

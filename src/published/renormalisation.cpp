@@ -11,7 +11,7 @@ namespace {
 constexpr double singular_pivot = 1e-9;
 
 template <int Dim>
-struct Moments {
+struct PairMoments {
   using Third = Eigen::Matrix<double, Dim, symmetric_size<Dim>>;
   using Fourth = Eigen::Matrix<double, symmetric_size<Dim>, symmetric_size<Dim>>;
 
@@ -30,7 +30,7 @@ struct Moments {
 };
 
 template <int Dim>
-Renormalisation<Dim> renormalisation_of(const Moments<Dim>& moments) {
+Renormalisation<Dim> renormalisation_of(const PairMoments<Dim>& moments) {
   Renormalisation<Dim> result;
   result.trace_A = moments.A.trace();
   result.least_eigenvalue_A = least_eigenvalue<Dim>(moments.A);
@@ -38,8 +38,8 @@ Renormalisation<Dim> renormalisation_of(const Moments<Dim>& moments) {
   result.B1 = moments.A.inverse();
 
   // sum over a <= b of m_ab B2_ab M_ab,cd = I_cd, M = E - C . B1 . D, is the transposed system for m * B2.
-  const typename Moments<Dim>::Fourth M = moments.E - moments.C.transpose() * result.B1 * moments.D;
-  const Eigen::FullPivLU<typename Moments<Dim>::Fourth> factors(M.transpose());
+  const typename PairMoments<Dim>::Fourth M = moments.E - moments.C.transpose() * result.B1 * moments.D;
+  const Eigen::FullPivLU<typename PairMoments<Dim>::Fourth> factors(M.transpose());
   if (factors.maxPivot() == 0.0 ||
       std::abs(factors.matrixLU().diagonal()[symmetric_size<Dim> - 1]) < singular_pivot * factors.maxPivot()) {
     return result;
@@ -58,7 +58,7 @@ template <int Dim>
 void compute_renormalisation(const Pairs<Dim>& pairs, std::span<const double> volume,
                              std::span<const std::uint8_t> takes_part, std::span<Renormalisation<Dim>> result) {
   for_each(pairs.owned(), [&](std::size_t i) {
-    Moments<Dim> moments;
+    PairMoments<Dim> moments;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       if (!takes_part[j] || pairs.value(i, k) == 0.0) continue;

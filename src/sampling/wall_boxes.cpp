@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// A 3D box wall reassembled from its triangles.
-struct Box {
+struct WallBox {
   Vec<3> low = Vec<3>::Constant(std::numeric_limits<double>::max());
   Vec<3> high = Vec<3>::Constant(std::numeric_limits<double>::lowest());
   bool closed[3][2] = {};  ///< by axis and side (0 low, 1 high)
@@ -27,8 +27,8 @@ std::set<int> walls_of(const Boundary<3>& boundary) {
   return walls;
 }
 
-Box box_of(const Boundary<3>& boundary, int wall) {
-  Box box;
+WallBox box_of(const Boundary<3>& boundary, int wall) {
+  WallBox box;
   boundary.visit_plain_faces([&](int f) {
     if (boundary.faces[f].wall == wall) {
       for (const Vec<3>& corner : boundary.faces[f].corners) {
@@ -67,7 +67,7 @@ void for_each_node(const Eigen::Vector3i& low, const Eigen::Vector3i& high, Visi
 
 /// The lattice of a box, continued by dx beyond it. Node (i, j, k) stands (index + offset) steps from the low corner.
 struct BoxLattice {
-  const Box& box;
+  const WallBox& box;
   double spacing;
   double offset;  ///< 0: nodes on the box's faces; 1/2: half a step behind them
   Eigen::Vector3i count = ((box.high - box.low) / spacing).array().round().max(1.0).matrix().cast<int>();  ///< steps
@@ -100,7 +100,7 @@ struct NodePlace {
 };
 
 NodePlace place_of(const BoxLattice& lattice, const Eigen::Vector3i& index) {
-  const Box& box = lattice.box;
+  const WallBox& box = lattice.box;
   const double direction = box.fluid_is_inside ? -1.0 : 1.0;  // in which depth grows from the low face
   NodePlace place;
   if (!box.fluid_is_inside) place.depth = std::numeric_limits<double>::max();
@@ -124,7 +124,7 @@ NodePlace place_of(const BoxLattice& lattice, const Eigen::Vector3i& index) {
 }
 
 /// The point of the box nearest to `x`, on the face with the first of the `normals` for a body in the water.
-Vec<3> foot_on(const Box& box, const Vec<3>& x, const std::vector<Vec<3>>& normals) {
+Vec<3> foot_on(const WallBox& box, const Vec<3>& x, const std::vector<Vec<3>>& normals) {
   Vec<3> foot = x.cwiseMax(box.low).cwiseMin(box.high);
   if (box.fluid_is_inside) return foot;
   int axis = 0;
@@ -136,7 +136,7 @@ Vec<3> foot_on(const Box& box, const Vec<3>& x, const std::vector<Vec<3>>& norma
 /// Proposes the nodes of one wall that are at least `from` and at most `to` steps behind it.
 void add_nodes(const Boundary<3>& body, int wall, const WallLayers& layers, double from, double to,
                WallParticleCollector<3>& collector) {
-  const Box box = box_of(body, wall);
+  const WallBox box = box_of(body, wall);
   const BoxLattice lattice{box, layers.spacing, layers.starts_on_wall ? 0.0 : 0.5};
   const auto is_own = [&](int f) { return body.faces[f].wall == wall; };
   const int margin = box.fluid_is_inside ? static_cast<int>(std::ceil(to)) : 0;

@@ -17,7 +17,7 @@ namespace {
 /// it.
 constexpr double least_behind = 0.7;
 
-constexpr double least_share = 0.01;  // of a cell; less than that behind the wall gets no particle
+constexpr double least_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
 
 bool is_beyond_rim(const TriangleMesh& mesh, const Vec<3>& x, const SurfacePlace& place) {
   if (!place.is_on_rim) return false;
@@ -73,7 +73,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
       if (place.signed_distance >= half_diagonal || is_beyond_rim(surface.mesh(), x, place)) return;
       Behind behind{.share = 1.0};
       if (place.signed_distance > -half_diagonal) behind = part_behind(surface, x, edge);
-      if (behind.share < least_share) return;
+      if (behind.share < least_cell_share) return;
       const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
       proposals.push_back({{.position = x,
                             .foot = near.point,
