@@ -13,9 +13,10 @@ const whole: Effort = { sharpness: 1, apart: 0 };
 
 export class Loop {
   private dirty = true;
-  private moving = false; // the camera, by a hand
+  private moving = false; // the camera, by a hand, or the clock
   private later = 0;
-  private handle = 0;
+  private handle = 0; // 0: the loop sleeps
+  private clockedAt = -Infinity; // when the clock last stood elsewhere
   private movedAt = performance.now(); // the first picture must be quick, too
   private drawnAt = performance.now();
   private before = performance.now();
@@ -29,41 +30,60 @@ export class Loop {
   ) {
     this.pace = new Pace(view.isSoftware);
     app.touch = this.touch;
-    this.stops = [app.look.on(this.touch), app.data.on(this.news), app.player.on(this.touch)];
-    this.handle = requestAnimationFrame(this.tick);
+    this.stops = [app.look.on(this.touch), app.data.on(this.news), app.player.on(this.clocked)];
+    this.wake();
   }
 
   touch = (): void => {
     this.dirty = true;
+    this.wake();
   };
 
   /** A hand has moved the camera. */
   moved(): void {
-    this.dirty = this.moving = true;
+    this.moving = true;
+    this.touch();
+  }
+
+  /** A clock that stands elsewhere again and again moves: it plays, or a hand drags it. */
+  private clocked = (): void => {
+    const now = performance.now();
+    if (now - this.clockedAt < settling) this.moving = true;
+    this.clockedAt = now;
+    this.touch();
+  };
+
+  private wake(): void {
+    if (this.handle) return;
+    this.before = performance.now();
+    this.handle = requestAnimationFrame(this.tick);
   }
 
   /** New data are drawn at once where they are waited for, else now and then: a frame for later changes nothing here. */
   private news = (): void => {
     const { painter } = this;
     const ids = this.app.shown().map((subject) => subject.id).join();
-    if (!painter.whole || ids !== painter.ids) this.dirty = true;
-    else if (!this.later) this.later = window.setTimeout(() => ((this.later = 0), (this.dirty = true)), patience);
+    if (!painter.whole || ids !== painter.ids) this.touch();
+    else if (!this.later) this.later = window.setTimeout(() => ((this.later = 0), this.touch()), patience);
   };
 
   private tick = (now: number): void => {
-    this.handle = requestAnimationFrame(this.tick);
-    const seconds = Math.min(0.1, (now - this.before) / 1000);
+    const { app, pace, before } = this;
     this.before = now;
-    this.app.player.tick(seconds);
-    if (this.app.player.playing || this.moving) this.movedAt = now;
+    app.player.tick(Math.min(0.1, Math.max(0, now - before) / 1000));
+    if (this.moving) this.movedAt = now;
     this.moving = false;
-    if (now - this.movedAt > settling && this.pace.rest()) this.dirty = true;
-    if (!this.dirty) return;
-    this.dirty = false;
-    if (now - this.movedAt < settling) this.pace.moved(Math.min(now - this.drawnAt, 1500));
-    this.drawnAt = now;
-    this.view.effort = this.app.recording ? whole : this.pace.effort;
-    this.painter.draw();
+    const rests = now - this.movedAt > settling;
+    if (rests && pace.rest()) this.dirty = true;
+    if (this.dirty) {
+      this.dirty = false;
+      // How long a picture takes is told by the next one only if that was asked for meanwhile.
+      if (!rests) pace.moved(this.drawnAt === before ? Math.min(now - before, 1500) : undefined);
+      this.drawnAt = now;
+      this.view.effort = app.recording ? whole : pace.effort;
+      this.painter.draw();
+    }
+    this.handle = rests && !app.player.playing && !this.dirty ? 0 : requestAnimationFrame(this.tick);
   };
 
   dispose(): void {

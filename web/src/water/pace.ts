@@ -40,9 +40,10 @@ export class Pace {
     return this.resting ? { sharpness: this.software ? 2 : 1, apart: 0 } : efforts[this.level]!;
   }
 
-  /** After a picture that came `milliseconds` after the one before, while something moves. */
-  moved(milliseconds: number): void {
+  /** After a picture that came `milliseconds` after the one before, while something moves; undefined: that is not known. */
+  moved(milliseconds?: number): void {
     this.resting = false;
+    if (milliseconds === undefined) return;
     this.sum += milliseconds;
     ++this.since;
     if (++this.n < patience) return;

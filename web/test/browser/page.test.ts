@@ -28,14 +28,23 @@ test("a live run: frames come in, the page follows, the camera stays; scrubbing,
 
     // Scrubbing: there is a picture at every moment, and the right one soon.
     await view.evaluate(`(async () => {
-      globalThis.blanks = 0;
+      globalThis.blanks = globalThis.sharp = 0;
       for (let i = 0; i <= 100; ++i) {
         tailwater.player.seek(tailwater.player.range[1] * ((i * 37) % 101) / 100);
         if (!tailwater.shownRuns()[0].frames.at(tailwater.player.time)) ++globalThis.blanks;
         await new Promise(requestAnimationFrame);
+        if (i > 10 && tailwater.view.effort.sharpness > 1) ++globalThis.sharp;
       }
     })()`);
-    assert.equal(await view.evaluate("blanks"), 0);
+    assert.deepEqual(await view.evaluate("[blanks, sharp]"), [0, 0], "a picture at once, with more pixels than the screen only where it stands");
+    await until(view, "app.view.effort.sharpness === 2");
+    // A page that stands asks for no picture of the screen.
+    assert.equal(await view.evaluate(`new Promise((found) => {
+      const ask = globalThis.requestAnimationFrame;
+      let asked = 0;
+      globalThis.requestAnimationFrame = (then) => (++asked, ask(then));
+      setTimeout(() => ((globalThis.requestAnimationFrame = ask), found(asked)), 1000);
+    })`), 0);
     assert.equal(await camera(view), before);
 
     await view.click(".label.probe");

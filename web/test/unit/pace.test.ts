@@ -24,6 +24,8 @@ test("without a graphics card stills have more pixels, and a slow picture fewer"
   assert.equal(pace.effort.sharpness, 1); // at first it must be quick
   pace.rest();
   assert.equal(pace.effort.sharpness, 2);
+  pace.moved();
+  assert.equal(pace.effort.sharpness, 1);
   assert.equal(pictures(pace, 1, 30).sharpness, 1);
   assert.equal(pictures(pace, 4, 30).sharpness, 0.5);
   assert.equal(pictures(pace, 4, 30).apart, 1);
