@@ -166,8 +166,10 @@ export class RunModel implements Subject {
     return this.info?.state === "running" || this.info?.state === "waiting";
   }
 
-  control(what: string): Promise<string> {
-    return this.source.control(this.id, what);
+  async control(what: string): Promise<string> {
+    const word = await this.source.control(this.id, what);
+    if (!this.isLive) await this.ask(); // it goes on by now
+    return word;
   }
 
   close(): void {

@@ -7,7 +7,7 @@ import { measured, press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {
   await withProgram(context, async (place, open) => {
-    const run = place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "particles.spacing=0.02", "--set", "output.view_interval=0.25");
+    const run = place.start("run", "dam.toml", "--out", "run", "-n", "2", "--quiet", "--set", "time.end=1000", "--set", "particles.spacing=0.02", "--set", "output.view_interval=0.1");
     await place.written(run, "run/view/00001.frame");
     const page = await open(await place.view("run"));
     await until(page, "app.player.following && app.view?.eye && app.shownRuns()[0].frames.list.length > 2");
