@@ -16,7 +16,7 @@ namespace tailwater {
 namespace {
 
 constexpr double closed = 0.5;  // dx; a plate that ends as near to a wall leaves no opening (Boundary::hang_screens)
-constexpr double closed_width = 0.1;  // dx; nobody would draw as narrow an opening
+constexpr double narrowest_drawn = 0.1;  // dx; nobody would draw as narrow an opening
 
 /// Rows of particles with which an opening passes about what it should.
 constexpr double rows_of_good_gap = 5.0;
@@ -91,7 +91,7 @@ std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int pla
     if (beside.distance > closed * dx) return std::nullopt;
     if (!widest || beside.distance > widest->width) widest = Gap<Dim>{plate, beside.wall, beside.distance, x};
   }
-  if (!widest || widest->width <= closed_width * dx) return std::nullopt;
+  if (!widest || widest->width <= narrowest_drawn * dx) return std::nullopt;
   return widest;
 }
 
@@ -148,7 +148,7 @@ std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const s
     if (!nearest) return std::nullopt;
     if (!widest || nearest->width > widest->width) widest = nearest;
   }
-  if (!widest || widest->width <= closed_width * dx) return std::nullopt;
+  if (!widest || widest->width <= narrowest_drawn * dx) return std::nullopt;
   return widest;
 }
 
@@ -173,13 +173,13 @@ std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Di
   for (int k = 0; k < samples; ++k) {
     const Vec<Dim> foot = sample_of(face, k, samples);
     const double width = other.height(foot) / facing;
-    if (width <= closed_width * dx || width >= (narrowest ? narrowest->width : narrow * dx)) continue;
+    if (width <= narrowest_drawn * dx || width >= (narrowest ? narrowest->width : narrow * dx)) continue;
     const Vec<Dim> hit = foot + width * face.normal;
     if ((closest_point(other, hit) - hit).norm() <= tolerance) {
       narrowest = Gap<Dim>{face.wall, other.wall, width, foot};
     }
   }
-  if (narrowest && meet_somewhere(face, other, closed_width * dx)) return std::nullopt;
+  if (narrowest && meet_somewhere(face, other, narrowest_drawn * dx)) return std::nullopt;
   return narrowest;
 }
 

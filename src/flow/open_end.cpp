@@ -27,7 +27,7 @@ constexpr double most_stretching = 0.1;
 /// Depths that a long wave goes while the error of a prescribed level is averaged, and so many of these times the level
 /// may be missed by more than dx before it is told.
 constexpr double depths_of_watch = 5.0;
-constexpr double windows_borne = 2.0;
+constexpr double windows_until_told = 2.0;
 /// [dx]; rows of the entering lattice are one more or one less when they have become that much too high or too low
 /// together. Half of it would do; the rest keeps a level that trembles from changing them again and again.
 constexpr double most_row_error = 0.75;
@@ -153,8 +153,8 @@ void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow,
   const double window = depths_of_watch * std::sqrt(depth / beyond.gravity);
   miss.mean += (1.0 - std::exp(-dt / window)) * (error - miss.mean);
   miss.lasts = std::abs(miss.mean) > flow.setup.spacing ? miss.lasts + dt : 0.0;
-  if (miss.lasts < windows_borne * window) return;
-  const bool is_new = miss.lasts - dt < windows_borne * window;
+  if (miss.lasts < windows_until_told * window) return;
+  const bool is_new = miss.lasts - dt < windows_until_told * window;
   if (miss.since < 0.0) miss.since = std::max(0.0, flow.state.time - miss.lasts);
   miss.total += is_new ? miss.lasts : dt;
   if (std::abs(miss.mean) > std::abs(miss.most)) miss.most = miss.mean;
