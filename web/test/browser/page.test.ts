@@ -29,11 +29,14 @@ test("a live run: frames come in, the page follows, the camera stays; scrubbing,
     // Scrubbing: there is a picture at every moment, and the right one soon.
     await view.evaluate(`(async () => {
       globalThis.blanks = globalThis.sharp = 0;
+      let before = 0, last = 0; // when the clock was set
       for (let i = 0; i <= 100; ++i) {
+        [before, last] = [last, performance.now()];
         tailwater.player.seek(tailwater.player.range[1] * ((i * 37) % 101) / 100);
         if (!tailwater.shownRuns()[0].frames.at(tailwater.player.time)) ++globalThis.blanks;
         await new Promise(requestAnimationFrame);
-        if (i > 10 && tailwater.view.effort.sharpness > 1) ++globalThis.sharp;
+        // Where the machine is so busy that the clock stood for a while, it may be.
+        if (performance.now() - before < 300 && tailwater.view.effort.sharpness > 1) ++globalThis.sharp;
       }
     })()`);
     assert.deepEqual(await view.evaluate("[blanks, sharp]"), [0, 0], "a picture at once, with more pixels than the screen only where it stands");
