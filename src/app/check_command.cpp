@@ -15,6 +15,7 @@
 #include "app/commands.h"
 #include "app/files_of_others.h"
 #include "app/pictures.h"
+#include "base/json.h"
 #include "case/case_toml.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
@@ -69,7 +70,7 @@ void print_as_json(const CheckOptions& options) {
   const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
   const TrialSteps trial = options.takes_trial_steps ? TrialSteps::some : TrialSteps::none;
   fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, options.overrides, trial)
-                         .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+                         .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 /// Writes the previews, with the places that are wrong marked, and says where they are.

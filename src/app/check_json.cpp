@@ -27,8 +27,6 @@
 namespace tailwater {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t most_drawn_particles = 20000;
 
 std::optional<int> take_place_number(std::string_view& text) {

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/sweep_plan.h"
 #include "app/sweep_table.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "run/provenance.h"
 #include "run/run_info.h"
@@ -15,15 +16,13 @@ namespace tailwater {
 namespace {
 
 void show_program() {
-  const nlohmann::ordered_json about = provenance();
+  const Json about = provenance();
   const auto& machine = about["machine"];
   fmt::print("{}\nbuild:     {}, {}\nlibraries: {}\nmachine:   {}, {} ({} cores)\n", version_line(),
              about["compiler"].get<std::string>(), about["options"].get<std::string>(),
              about["libraries"].get<std::string>(), machine["name"].get<std::string>(),
              machine["processor"].get<std::string>(), machine["cores"].get<int>());
 }
-
-using Json = nlohmann::ordered_json;
 
 /// What an engineer wants to know before the numbers of a run are used.
 void show_digest(const Json& summary) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "case/overrides.h"
 #include "case/reader.h"
@@ -191,30 +192,30 @@ SweepPlan read_sweep_record(const std::filesystem::path& folder) {
   std::ifstream file(path);
   if (!file) throw IoError("cannot read '{}'", path.string());
   try {
-    const nlohmann::ordered_json record = nlohmann::ordered_json::parse(file);
+    const Json record = Json::parse(file);
     if (record.at("format") != sweep_record_format) {
       throw IoError("'{}' has format {}, and this program reads format {}; remedy: use {}", path.string(),
                     record.at("format").dump(), sweep_record_format, record.value("program", "another"));
     }
     SweepPlan plan;
     record.at("keys").get_to(plan.keys);
-    for (const nlohmann::ordered_json& member : record.at("members")) {
+    for (const Json& member : record.at("members")) {
       plan.members.push_back({member.at("folder"), member.at("values")});
       if (plan.members.back().values.size() == plan.keys.size()) continue;
       throw IoError("'{}': a member has not as many values as there are keys", path.string());
     }
     return plan;
-  } catch (const nlohmann::ordered_json::exception& error) {
+  } catch (const Json::exception& error) {
     throw IoError("'{}' is not the record of a sweep: {}", path.string(), error.what());
   }
 }
 
 void write_sweep_record(const std::filesystem::path& folder, const SweepPlan& plan) {
-  nlohmann::ordered_json members = nlohmann::ordered_json::array();
+  Json members = Json::array();
   for (const SweepMember& member : plan.members) {
     members.push_back({{"folder", member.folder}, {"values", member.values}});
   }
-  const nlohmann::ordered_json record = {
+  const Json record = {
       {"format", sweep_record_format}, {"program", version_line()}, {"keys", plan.keys}, {"members", members}};
   write_text_file(folder / sweep_record_name, record.dump(2) + "\n");
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "base/json.h"
 #include "io/run_folder.h"
 
 namespace tailwater {
@@ -50,10 +51,10 @@ constexpr std::array<TableColumn, 26> summary_columns{{
 }};
 
 /// The summary of a member; empty if it has none that can be read.
-nlohmann::ordered_json summary_of(const std::filesystem::path& member) {
+Json summary_of(const std::filesystem::path& member) {
   std::ifstream file(member / summary_name);
-  nlohmann::ordered_json summary = nlohmann::ordered_json::parse(file, nullptr, false);
-  return summary.is_object() ? summary : nlohmann::ordered_json::object();
+  Json summary = Json::parse(file, nullptr, false);
+  return summary.is_object() ? summary : Json::object();
 }
 
 std::string quoted_field(const std::string& text) {
@@ -63,7 +64,7 @@ std::string quoted_field(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string status_of(const nlohmann::ordered_json& summary, const MemberNews& news) {
+std::string status_of(const Json& summary, const MemberNews& news) {
   if (news.is_running) return "running";
   const std::string status = summary.value("status", "waiting");
   if (status == "running") return "killed";  // nobody is at work
@@ -72,18 +73,18 @@ std::string status_of(const nlohmann::ordered_json& summary, const MemberNews& n
 }
 
 /// A number of the summary as the table shows it; nothing where there is none.
-std::string number_at(const nlohmann::ordered_json& summary, const char* place) {
-  const nlohmann::ordered_json::json_pointer pointer(place);
+std::string number_at(const Json& summary, const char* place) {
+  const Json::json_pointer pointer(place);
   return summary.contains(pointer) && summary.at(pointer).is_number() ? summary.at(pointer).dump() : "";
 }
 
 /// What a member's run says of a measurement: its name in the table, and the places of its numbers.
-using Scores = std::map<std::string, nlohmann::ordered_json>;
+using Scores = std::map<std::string, Json>;
 
 /// By "PROBE_COLUMN", of a second file of both "PROBE_COLUMN_2".
-Scores scores_of(const nlohmann::ordered_json& summary) {
+Scores scores_of(const Json& summary) {
   Scores scores;
-  for (const nlohmann::ordered_json& score : summary.value("measurements", nlohmann::ordered_json::array())) {
+  for (const Json& score : summary.value("measurements", Json::array())) {
     const std::string name = score.value("probe", "") + "_" + score.value("column", "");
     std::string own = name;
     for (int k = 2; scores.contains(own); ++k) own = fmt::format("{}_{}", name, k);
@@ -102,7 +103,7 @@ constexpr std::array<TableColumn, 5> score_columns{{{"rms", "/rms"},
 std::string score_at(const Scores& scores, const std::string& name, const char* place) {
   const auto found = scores.find(name);
   if (found == scores.end()) return "";
-  const nlohmann::ordered_json::json_pointer pointer(place);
+  const Json::json_pointer pointer(place);
   if (found->second.contains(pointer) && found->second.at(pointer).is_boolean()) {
     return found->second.at(pointer).get<bool>() ? "1" : "0";
   }
@@ -110,9 +111,9 @@ std::string score_at(const Scores& scores, const std::string& name, const char* 
 }
 
 /// Of all measurements of all members, in the order of their names.
-std::set<std::string> measured_in(const std::vector<nlohmann::ordered_json>& summaries) {
+std::set<std::string> measured_in(const std::vector<Json>& summaries) {
   std::set<std::string> names;
-  for (const nlohmann::ordered_json& summary : summaries) {
+  for (const Json& summary : summaries) {
     for (const auto& [name, score] : scores_of(summary)) names.insert(name);
   }
   return names;
@@ -130,7 +131,7 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   for (const std::string& key : plan.keys) names.push_back(quoted_field(key));
   names.insert(names.end(), {"status", "exit_code"});
   for (const TableColumn& column : summary_columns) names.emplace_back(column.name);
-  std::vector<nlohmann::ordered_json> summaries;
+  std::vector<Json> summaries;
   for (const SweepMember& member : plan.members) summaries.push_back(summary_of(sweep / member.folder));
   const std::set<std::string> measured = measured_in(summaries);
   for (const std::string& name : measured) {
@@ -140,9 +141,9 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
   std::string table = fmt::format("{}\n", fmt::join(names, ","));
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     const SweepMember& member = plan.members[m];
-    nlohmann::ordered_json& summary = summaries[m];
+    Json& summary = summaries[m];
     const std::string status = status_of(summary, news[m]);
-    if (status == "running") summary = nlohmann::ordered_json::object();  // of its start, or of an earlier part
+    if (status == "running") summary = Json::object();  // of its start, or of an earlier part
     std::vector<std::string> fields{quoted_field(member.folder)};
     for (const std::string& value : member.values) fields.push_back(quoted_field(value));
     fields.push_back(status);
@@ -165,9 +166,9 @@ std::string sweep_digest(const std::filesystem::path& sweep, const SweepPlan& pl
   std::string text = fmt::format("{:12}  {:>12}  {:>8}  {:>10}  {:>12}  {:>13}  {}\n", "status", "time reached",
                                  "steps", "CPU s", "energy rise", "density error", "member");
   for (const SweepMember& member : plan.members) {
-    const nlohmann::ordered_json summary = summary_of(sweep / member.folder);
+    const Json summary = summary_of(sweep / member.folder);
     const auto number = [&](const char* place) {
-      const nlohmann::ordered_json::json_pointer pointer(place);
+      const Json::json_pointer pointer(place);
       return summary.contains(pointer) ? fmt::format("{:.4g}", summary.at(pointer).get<double>()) : "";
     };
     text += fmt::format("{:12}  {:>12}  {:>8}  {:>10}  {:>12}  {:>13}  {}\n", status_of(summary, {}),

@@ -19,6 +19,7 @@
 #include "app/sweep_plan.h"
 #include "app/sweep_table.h"
 #include "base/error.h"
+#include "base/json.h"
 #include "case/help.h"
 #include "io/folder_lock.h"
 #include "io/run_folder.h"
@@ -29,7 +30,6 @@ namespace tailwater {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// The title in the text of a case.
 std::string title_of(std::string_view text) {

@@ -20,6 +20,7 @@
 #include "app/sweep_plan.h"
 #include "app/temporary_folder.h"
 #include "app/view_actions.h"
+#include "base/json.h"
 #include "io/messages.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
@@ -31,7 +32,6 @@ namespace tailwater {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view report_name = "report.json";
 constexpr std::string_view study_name = "study.json";

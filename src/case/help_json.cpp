@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "case/expression.h"
 #include "case/help.h"
 #include "case/key_info.h"
@@ -11,8 +12,6 @@
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json value_of(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "case/expression.h"
 #include "case/help.h"
 #include "case/key_info.h"
@@ -16,8 +17,6 @@
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What no expression is: a number with a unit ("0.6 m"), and a number with a decimal comma.
 constexpr const char* expression = R"(^(?!\s*[0-9.]+\s*(?![eE][-+]?[0-9])[A-Za-z])(?![^(]*,))";

@@ -1,13 +1,12 @@
 #include "case/schema_rules.h"
 
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The key has one of these values, written out or, where `is_default`, left out.
 Json is(const char* key, std::initializer_list<const char*> values, bool is_default = false) {

@@ -2,18 +2,19 @@
 // neighbours check them. Only what a JSON schema can see: no arithmetic, no expressions, no names of other tables.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "base/json.h"
 
 namespace tailwater {
 
 /// Schemas that a table of that name must all fulfil; an empty list if there are none.
-nlohmann::ordered_json table_rules_of_schema(std::string_view table);
+Json table_rules_of_schema(std::string_view table);
 
 /// Schemas that the whole file must all fulfil.
-nlohmann::ordered_json file_rules_of_schema();
+Json file_rules_of_schema();
 
 /// What the file must fulfil in 2 or in 3 dimensions, besides the length of its vectors.
-nlohmann::ordered_json dimension_rules_of_schema(int dimension);
+Json dimension_rules_of_schema(int dimension);
 
 }  // namespace tailwater

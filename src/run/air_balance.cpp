@@ -1,14 +1,16 @@
 #include "run/air_balance.h"
 
+#include <nlohmann/json.hpp>
+
 #include "flow/air_pressure.h"
 #include "flow/measure.h"
 
 namespace tailwater {
 
 template <int Dim>
-nlohmann::ordered_json pockets_of(const Flow<Dim>& flow) {
+Json pockets_of(const Flow<Dim>& flow) {
   const AirState& air = flow.state.air;
-  nlohmann::ordered_json now = nlohmann::ordered_json::array();
+  Json now = Json::array();
   for (const AirPocket& pocket : air.pockets) {
     now.push_back({{"number", pocket.number},
                    {"volume_m3", pocket.volume},

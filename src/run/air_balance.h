@@ -1,8 +1,7 @@
 // What became of enclosed air, and what there is of it.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "base/json.h"
 #include "flow/flow.h"
 #include "probes/context.h"
 
@@ -10,7 +9,7 @@ namespace tailwater {
 
 /// The block `pockets` of summary.json.
 template <int Dim>
-nlohmann::ordered_json pockets_of(const Flow<Dim>& flow);
+Json pockets_of(const Flow<Dim>& flow);
 
 /// What a probe reads of all pockets.
 template <int Dim>

@@ -101,7 +101,7 @@ auto expecting_a_checkpoint(const std::filesystem::path& path, Work&& work) {
   };
   try {
     return work();
-  } catch (const nlohmann::ordered_json::exception& error) {
+  } catch (const Json::exception& error) {
     refuse(error);
   } catch (const UserError& error) {
     refuse(error);

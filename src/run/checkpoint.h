@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "io/sealed_file.h"
@@ -20,7 +21,7 @@ inline constexpr int checkpoint_format = 16;
 template <int Dim>
 struct Checkpoint {
   State<Dim> state;                  ///< of this rank
-  nlohmann::ordered_json output;     ///< how far the run's output has come (RunOutput::saved); on all ranks
+  Json output;                       ///< how far the run's output has come (RunOutput::saved); on all ranks
   std::vector<double> probe_memory;  ///< of the probes (ProbeSet::memory); on all ranks
   std::vector<double> rank_log;      ///< of this rank (RankLog::saved)
   double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks

@@ -17,8 +17,8 @@ void require_fit(bool condition, const char* part) {
 }
 
 // There may be many.
-inline void to_json(nlohmann::ordered_json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
-inline void from_json(const nlohmann::ordered_json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
+inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
+inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
 
 TAILWATER_SAVED(inline, WaterAmount, particles, volume, energy)
 TAILWATER_SAVED(inline, LevelMiss, mean, lasts, since, total, most)
@@ -38,7 +38,7 @@ std::vector<double> list_of(const Numbers& numbers) {
 }
 
 template <class Numbers>
-void take_list(const nlohmann::ordered_json& json, Numbers& numbers) {
+void take_list(const Json& json, Numbers& numbers) {
   const auto list = json.get<std::vector<double>>();
   require_fit(list.size() == static_cast<std::size_t>(numbers.size()) &&
                   std::ranges::all_of(list, [](double number) { return std::isfinite(number); }),
@@ -47,7 +47,7 @@ void take_list(const nlohmann::ordered_json& json, Numbers& numbers) {
 }
 
 template <int Dim>
-nlohmann::ordered_json body_json(const BodyState<Dim>& body) {
+Json body_json(const BodyState<Dim>& body) {
   const auto& [time, placement, centre, velocity, acceleration, carried_over] = body;
   return {{"time", time},
           {"turn", list_of(placement.linear)},
@@ -59,7 +59,7 @@ nlohmann::ordered_json body_json(const BodyState<Dim>& body) {
 }
 
 template <int Dim>
-BodyState<Dim> body_of(const nlohmann::ordered_json& json) {
+BodyState<Dim> body_of(const Json& json) {
   BodyState<Dim> body;
   body.time = json.at("time");
   take_list(json.at("turn"), body.placement.linear);
@@ -78,27 +78,27 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
   const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
                density_share, air, fallen] = checkpoint.state;
-  nlohmann::ordered_json json{{"time", time},
-                              {"step", step},
-                              {"approach", approach},
-                              {"energy_rise", energy_rise},
-                              {"density_share", density_share},
-                              {"air", air},
-                              {"fallen", fallen},
-                              {"reference_step", checkpoint.reference_step},
-                              {"open_ends", open_ends},
-                              {"wave_makers", motion.wave_makers},
-                              {"bodies", nlohmann::ordered_json::array()},
-                              {"inertia", motion.bodies.inertia},
-                              {"section_volumes", section_volumes},
-                              {"output", checkpoint.output}};
+  Json json{{"time", time},
+            {"step", step},
+            {"approach", approach},
+            {"energy_rise", energy_rise},
+            {"density_share", density_share},
+            {"air", air},
+            {"fallen", fallen},
+            {"reference_step", checkpoint.reference_step},
+            {"open_ends", open_ends},
+            {"wave_makers", motion.wave_makers},
+            {"bodies", Json::array()},
+            {"inertia", motion.bodies.inertia},
+            {"section_volumes", section_volumes},
+            {"output", checkpoint.output}};
   for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(body_json(body));
   return json.dump(1);
 }
 
 template <int Dim>
 void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+  const Json json = Json::parse(text);
   State<Dim>& state = checkpoint.state;
   state.time = json.at("time");
   state.step = json.at("step");
@@ -112,7 +112,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   checkpoint.reference_step = json.at("reference_step");
   json.at("open_ends").get_to(state.open_ends);
   json.at("wave_makers").get_to(state.motion.wave_makers);
-  for (const nlohmann::ordered_json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
+  for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
   json.at("inertia").get_to(state.motion.bodies.inertia);
   json.at("section_volumes").get_to(state.section_volumes);
   checkpoint.output = json.at("output");

@@ -10,7 +10,7 @@ namespace tailwater {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint);
 
-/// Throws nlohmann::ordered_json::exception or IoError for text that is not of a checkpoint.
+/// Throws Json::exception or IoError for text that is not of a checkpoint.
 template <int Dim>
 void take_text(const std::string& text, Checkpoint<Dim>& checkpoint);
 

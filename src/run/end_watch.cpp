@@ -48,9 +48,9 @@ void EndWatch::look(const Flow<Dim>& flow) {
   }
 }
 
-nlohmann::ordered_json EndWatch::saved() const { return told_; }
+Json EndWatch::saved() const { return told_; }
 
-void EndWatch::restore(const nlohmann::ordered_json& saved) { saved.get_to(told_); }
+void EndWatch::restore(const Json& saved) { saved.get_to(told_); }
 
 template void EndWatch::look(const Flow<2>&);
 template void EndWatch::look(const Flow<3>&);

@@ -1,10 +1,10 @@
 // Watches whether the open ends of a run do what the case asks of them, and warns once of each that does not.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "flow/flow.h"
 
 namespace tailwater {
@@ -17,8 +17,8 @@ class EndWatch {
   void look(const Flow<Dim>& flow);
 
   /// What has been warned of, for a checkpoint, and from one.
-  nlohmann::ordered_json saved() const;
-  void restore(const nlohmann::ordered_json& saved);
+  Json saved() const;
+  void restore(const Json& saved);
 
  private:
   /// Whether nothing of this kind was told of this end yet; from now on it was.

@@ -77,15 +77,15 @@ void FrameOutput<Dim>::write(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-nlohmann::ordered_json FrameOutput<Dim>::saved() const {
-  nlohmann::ordered_json saved = schedule_.saved();
+Json FrameOutput<Dim>::saved() const {
+  Json saved = schedule_.saved();
   saved["count"] = series_.size();
   saved["next_step"] = next_step_;
   return saved;
 }
 
 template <int Dim>
-void FrameOutput<Dim>::take_up(const nlohmann::ordered_json& saved, const Communicator& ranks) {
+void FrameOutput<Dim>::take_up(const Json& saved, const Communicator& ranks) {
   series_.go_on(saved.at("count"), ranks);
   schedule_.take_up(saved);
   next_step_ = saved.value("next_step", next_step_);

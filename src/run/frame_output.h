@@ -1,8 +1,7 @@
 // The stream of a run for viewers: view/scene.json, and view/00000.frame, ... when they are due.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "base/json.h"
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "io/run_folder.h"
@@ -24,8 +23,8 @@ class FrameOutput {
   void write(const Flow<Dim>& flow);
 
   /// How far the stream has come, for a checkpoint, and going on from it.
-  nlohmann::ordered_json saved() const;
-  void take_up(const nlohmann::ordered_json& saved, const Communicator& ranks);
+  Json saved() const;
+  void take_up(const Json& saved, const Communicator& ranks);
 
  private:
   FrameSeries<Dim> series_;

@@ -105,8 +105,8 @@ std::optional<double> last_of(const std::vector<double>& time) {
   return time.empty() ? std::nullopt : std::optional(time.back());
 }
 
-nlohmann::ordered_json difference_json(const Difference& difference, double scatter) {
-  nlohmann::ordered_json json{{"rms", difference.rms}, {"bias", difference.bias}};
+Json difference_json(const Difference& difference, double scatter) {
+  Json json{{"rms", difference.rms}, {"bias", difference.bias}};
   if (scatter > 0.0) json["share_inside"] = difference.share_inside;
   return json;
 }
@@ -178,11 +178,11 @@ std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std
   return scores;
 }
 
-nlohmann::ordered_json json_of(const std::vector<MeasurementScore>& scores) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+Json json_of(const std::vector<MeasurementScore>& scores) {
+  Json all = Json::array();
   for (const MeasurementScore& score : scores) {
-    nlohmann::ordered_json one{{"probe", score.probe}, {"column", score.column},   {"unit", score.unit},
-                               {"file", score.file},   {"samples", score.samples}, {"words", score.words()}};
+    Json one{{"probe", score.probe}, {"column", score.column},   {"unit", score.unit},
+             {"file", score.file},   {"samples", score.samples}, {"words", score.words()}};
     if (score.samples > 0) {
       one.update({{"from_s", score.from}, {"to_s", score.to}});
       one.update(difference_json(score.as_timed, score.scatter));

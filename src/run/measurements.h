@@ -3,10 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "case/spec.h"
 #include "run/probe_table.h"
 
@@ -61,6 +61,6 @@ MeasurementScore score(const MeasurementTable& measurement, const ProbeProfiles&
 std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std::filesystem::path& run);
 
 /// The block "measurements" of the summary.
-nlohmann::ordered_json json_of(const std::vector<MeasurementScore>& scores);
+Json json_of(const std::vector<MeasurementScore>& scores);
 
 }  // namespace tailwater

@@ -171,12 +171,12 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
   return results;
 }
 
-nlohmann::ordered_json json_of(const std::vector<ProbeResult>& results) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::object();
+Json json_of(const std::vector<ProbeResult>& results) {
+  Json all = Json::object();
   for (const ProbeResult& result : results) {
-    nlohmann::ordered_json quantities = nlohmann::ordered_json::array();
+    Json quantities = Json::array();
     for (const Quantity& quantity : result.quantities) {
-      nlohmann::ordered_json one{{"name", quantity.name}, {"value", quantity.value}};
+      Json one{{"name", quantity.name}, {"value", quantity.value}};
       if (quantity.to) one["to"] = *quantity.to;
       one["unit"] = quantity.unit;
       one["what"] = quantity.what;

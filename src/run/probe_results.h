@@ -3,11 +3,11 @@
 // stop tells the same as one that was never stopped.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "case/spec.h"
 #include "io/run_folder.h"
 
@@ -36,6 +36,6 @@ struct ProbeResult {
 std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time);
 
 /// The block "results" of the summary: by probe its type, quantities and words.
-nlohmann::ordered_json json_of(const std::vector<ProbeResult>& results);
+Json json_of(const std::vector<ProbeResult>& results);
 
 }  // namespace tailwater

@@ -30,7 +30,7 @@ std::string host_name() {
 
 }  // namespace
 
-nlohmann::ordered_json provenance() {
+Json provenance() {
   return {{"version", version},
           {"commit", commit},
           {"compiler", compiler},

@@ -81,7 +81,7 @@ void RankLog::write(const Flow<Dim>& flow, const Repartition& repartition) {
   });
 }
 
-nlohmann::ordered_json RankLog::json() const {
+Json RankLog::json() const {
   if (ranks_.is_alone()) return {{"count", 1}};
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count() * ranks_.size();
   const Traffic& traffic = *ranks_.traffic();

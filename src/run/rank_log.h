@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "base/json.h"
 #include "flow/measure.h"
 #include "flow/step.h"
 #include "io/csv_writer.h"
@@ -26,7 +26,7 @@ class RankLog {
   void write(const Flow<Dim>& flow, const Repartition& repartition);
 
   /// Block "ranks" of the summary. Collective; valid on the root.
-  nlohmann::ordered_json json() const;
+  Json json() const;
 
   /// All sums of this rank, for a checkpoint, and from one.
   std::vector<double> saved() const;

@@ -74,17 +74,17 @@ void ResultLimits::warn_of_largest() {
   }
 }
 
-nlohmann::ordered_json ResultLimits::saved() const {
-  nlohmann::ordered_json saved;
+Json ResultLimits::saved() const {
+  Json saved;
   for (const Limit* limit : {&energy_, &volume_}) {
     saved[limit->keys] = {limit->told, limit->largest, limit->time_of_largest};
   }
   return saved;
 }
 
-void ResultLimits::restore(const nlohmann::ordered_json& saved) {
+void ResultLimits::restore(const Json& saved) {
   for (Limit* limit : {&energy_, &volume_}) {
-    const nlohmann::ordered_json& numbers = saved.at(limit->keys);
+    const Json& numbers = saved.at(limit->keys);
     numbers.at(0).get_to(limit->told);
     numbers.at(1).get_to(limit->largest);
     numbers.at(2).get_to(limit->time_of_largest);

@@ -1,8 +1,7 @@
 // Watches the errors of a run's own balances: a warning beyond one limit, the end of the run beyond another.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "base/json.h"
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
@@ -24,8 +23,8 @@ class ResultLimits {
   void warn_of_largest();
 
   /// What has been warned of and what was largest, for a checkpoint, and from one.
-  nlohmann::ordered_json saved() const;
-  void restore(const nlohmann::ordered_json& saved);
+  Json saved() const;
+  void restore(const Json& saved);
 
  private:
   struct Limit {

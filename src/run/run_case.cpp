@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/json.h"
 #include "checks/check.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
@@ -79,7 +80,7 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
   const auto make_run = [&] {
     try {
       return std::make_unique<Run<Dim>>(spec, options, ranks, std::move(read));
-    } catch (const nlohmann::ordered_json::exception& error) {
+    } catch (const Json::exception& error) {
       if (checkpoint == nullptr) throw;
       throw IoError(
           "checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from the one "

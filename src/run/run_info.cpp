@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -23,7 +24,6 @@ namespace tailwater {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 double number_of(const Json& block, const char* key) { return block.at(key).get<double>(); }
 std::string text_of_key(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
@@ -238,7 +238,7 @@ Json run_info(const fs::path& run) {
   try {
     return info_from(run, read_summary(run));
   } catch (const IoError&) {
-  } catch (const nlohmann::ordered_json::exception&) {
+  } catch (const Json::exception&) {
   }
   return {{"state", "waiting"},
           {"time", 0.0},

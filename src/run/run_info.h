@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "base/json.h"
 
 namespace tailwater {
 
@@ -19,15 +20,15 @@ struct InfoLine {
 std::map<std::string, double> last_step(const std::filesystem::path& run);
 
 /// The summary that a run has left in its folder. Throws IoError.
-nlohmann::ordered_json read_summary(const std::filesystem::path& run);
+Json read_summary(const std::filesystem::path& run);
 
-/// What an engineer wants to know before the numbers of a run are used. Throws nlohmann::ordered_json::exception if the
+/// What an engineer wants to know before the numbers of a run are used. Throws Json::exception if the
 /// summary is not of this version.
-std::vector<InfoLine> summary_digest(const nlohmann::ordered_json& summary);
+std::vector<InfoLine> summary_digest(const Json& summary);
 
 /// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, measurements,
 /// controls}
 /// (docs/reference/view.md). What cannot be read is left out: never throws for what is in the folder.
-nlohmann::ordered_json run_info(const std::filesystem::path& run);
+Json run_info(const std::filesystem::path& run);
 
 }  // namespace tailwater

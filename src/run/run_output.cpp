@@ -47,22 +47,22 @@ double peak_memory_bytes() {
 }
 
 /// Bytes of a file to go on with; none for a new run.
-std::optional<std::int64_t> kept_bytes(const nlohmann::ordered_json* kept, const char* file) {
+std::optional<std::int64_t> kept_bytes(const Json* kept, const char* file) {
   if (kept == nullptr) return std::nullopt;
   const auto bytes = kept->at("bytes").at(file).get<std::int64_t>();
   return bytes > 0 ? std::optional(bytes) : std::nullopt;
 }
 
-std::vector<ProbeMark> marks_of(const nlohmann::ordered_json& kept) {
+std::vector<ProbeMark> marks_of(const Json& kept) {
   std::vector<ProbeMark> marks;
-  for (const nlohmann::ordered_json& mark : kept.at("probes")) marks.push_back({mark.at("taken"), mark.at("bytes")});
+  for (const Json& mark : kept.at("probes")) marks.push_back({mark.at("taken"), mark.at("bytes")});
   return marks;
 }
 
 /// What has passed the sections of discharge probes since the start.
 template <int Dim>
-nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
-  nlohmann::ordered_json discharges = nlohmann::ordered_json::array();
+Json discharges_of(const Flow<Dim>& flow) {
+  Json discharges = Json::array();
   const double time = flow.state.time;
   for (std::size_t s = 0; s < flow.setup.sections.size(); ++s) {
     const double volume = flow.state.section_volumes[s];
@@ -76,8 +76,7 @@ nlohmann::ordered_json discharges_of(const Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow,
-                          const nlohmann::ordered_json* kept)
+RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow, const Json* kept)
     : spec_(spec),
       options_(options),
       case_file_(options.case_file.string()),
@@ -112,10 +111,10 @@ RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const
 }
 
 template <int Dim>
-nlohmann::ordered_json RunOutput<Dim>::saved() const {
-  nlohmann::ordered_json probes = nlohmann::ordered_json::array();
+Json RunOutput<Dim>::saved() const {
+  Json probes = Json::array();
   for (const ProbeMark& mark : probes_.marks()) probes.push_back({{"taken", mark.taken}, {"bytes", mark.size}});
-  nlohmann::ordered_json fields = fields_schedule_.saved();
+  Json fields = fields_schedule_.saved();
   fields["times"] = series_.times();
   fields["wall_times"] = wall_series_.times();
   return {{"case_file", case_file_},
@@ -132,13 +131,13 @@ nlohmann::ordered_json RunOutput<Dim>::saved() const {
 }
 
 template <int Dim>
-void RunOutput<Dim>::take_up(const nlohmann::ordered_json& kept) {
+void RunOutput<Dim>::take_up(const Json& kept) {
   kept.at("case_file").get_to(case_file_);
   const std::optional<std::int64_t> ranks_bytes = kept_bytes(&kept, "ranks");
   do_on_root(ranks_, [&] {
     if (ranks_.is_alone() && ranks_bytes) cut_file(folder_.ranks(), *ranks_bytes);
   });
-  const nlohmann::ordered_json& fields = kept.at("fields");
+  const Json& fields = kept.at("fields");
   series_.go_on(fields.at("times"), ranks_);
   wall_series_.go_on(fields.at("wall_times"), ranks_);
   fields_schedule_.take_up(fields);
@@ -149,14 +148,14 @@ void RunOutput<Dim>::take_up(const nlohmann::ordered_json& kept) {
   limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
   end_watch_.restore(kept.at("end_watch"));
-  const nlohmann::ordered_json& cost = kept.at("cost");
+  const Json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
   cpu_seconds_before_ = cost.at("cpu_seconds");
   runs_before_ = cost.at("runs");
 }
 
 template <int Dim>
-void RunOutput<Dim>::add_costs(nlohmann::ordered_json& saved) const {
+void RunOutput<Dim>::add_costs(Json& saved) const {
   saved["cost"] = {{"wall_seconds", wall_seconds()}, {"cpu_seconds", cpu_seconds()}, {"runs", runs_before_ + 1}};
 }
 
@@ -304,27 +303,27 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   const double cpu = cpu_seconds();
   const double memory = ranks_.sum(peak_memory_bytes());
   const auto fluid = static_cast<std::size_t>(water_in(flow).particles);
-  nlohmann::ordered_json summary = {{"title", spec_.general.title},
-                                    {"case", case_file_},
-                                    {"status", status},
-                                    {"exit_code", nullptr},
-                                    {"message", message},
-                                    {"warnings", warnings()},
-                                    {"spacing_m", spec_.particles.spacing},
-                                    {"seed", spec_.particles.seed},
-                                    {"particles", {{"fluid", fluid}, {"wall", flow.walls.all}}},
-                                    {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
-                                    {"cost",
-                                     {{"runs", runs_before_ + 1},
-                                      {"wall_clock_s", wall_seconds()},
-                                      {"cpu_s", cpu},
-                                      {"cpu_s_per_simulated_s", flow.state.time > 0.0 ? cpu / flow.state.time : 0.0},
-                                      {"peak_memory_bytes", memory}}},
-                                    {"ranks", rank_log_.json()}};
+  Json summary = {{"title", spec_.general.title},
+                  {"case", case_file_},
+                  {"status", status},
+                  {"exit_code", nullptr},
+                  {"message", message},
+                  {"warnings", warnings()},
+                  {"spacing_m", spec_.particles.spacing},
+                  {"seed", spec_.particles.seed},
+                  {"particles", {{"fluid", fluid}, {"wall", flow.walls.all}}},
+                  {"time_s", {{"end", spec_.time.end}, {"reached", flow.state.time}}},
+                  {"cost",
+                   {{"runs", runs_before_ + 1},
+                    {"wall_clock_s", wall_seconds()},
+                    {"cpu_s", cpu},
+                    {"cpu_s_per_simulated_s", flow.state.time > 0.0 ? cpu / flow.state.time : 0.0},
+                    {"peak_memory_bytes", memory}}},
+                  {"ranks", rank_log_.json()}};
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
   if (flow.air.is_on()) summary["pockets"] = pockets_of(flow);
-  nlohmann::ordered_json discharges = discharges_of(flow);
+  Json discharges = discharges_of(flow);
   if (!discharges.empty()) summary["discharge"] = std::move(discharges);
   for (const auto& [probe, lines] : probes_.summaries()) {
     for (const auto& [name, value] : lines) summary["probes"][probe][name] = value;

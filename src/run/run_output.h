@@ -3,13 +3,13 @@
 #pragma once
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "case/spec.h"
 #include "flow/flow.h"
 #include "io/pvd_series.h"
@@ -36,8 +36,7 @@ class RunOutput {
   /// The last check of a case: throws InputError for a probe in the wrong place, an end time out of reach or an
   /// unusable folder, and then leaves nothing behind. Otherwise creates the folder. Borrows `spec` and `options`.
   /// With `kept`, which is what an earlier run has `saved`, goes on with its files and cuts off what came later.
-  RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow,
-            const nlohmann::ordered_json* kept = nullptr);
+  RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow, const Json* kept = nullptr);
 
   const RunFolder& folder() const { return folder_; }
   RankLog& rank_log() { return rank_log_; }
@@ -45,12 +44,12 @@ class RunOutput {
 
   /// How far the output has come, for a checkpoint: clocks, sums, and the sizes of all files. Not collective; the sizes
   /// are those of the root.
-  nlohmann::ordered_json saved() const;
+  Json saved() const;
   /// What the probes remember, and taking it up again (probe_set.h).
   std::vector<double> probe_memory() const { return probes_.memory(); }
   void restore_probe_memory(std::span<const double> memory) { probes_.restore(memory, folder_.checkpoints()); }
   /// Adds to it what the run has cost so far. Collective.
-  void add_costs(nlohmann::ordered_json& saved) const;
+  void add_costs(Json& saved) const;
 
   /// Writes the summary of a run that goes on, which stays if the program is killed.
   void begin(const Flow<Dim>& flow);
@@ -73,7 +72,7 @@ class RunOutput {
   using Clock = std::chrono::steady_clock;
 
   RunFolder make_folder(const Flow<Dim>& flow, bool goes_on) const;
-  void take_up(const nlohmann::ordered_json& kept);
+  void take_up(const Json& kept);
   void require_folder_in_place();
   double wall_seconds() const;  ///< of the earlier runs too, as the next
   double cpu_seconds() const;   ///< of all ranks; collective

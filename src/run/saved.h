@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/json.h"
+
 namespace tailwater {
 
 /// The first of `names`, which are divided by ", ", and takes it away from them.
@@ -16,13 +18,13 @@ inline std::string take_name(std::string_view& names) {
 }
 
 template <class... Members>
-void save_members(nlohmann::ordered_json& json, std::string_view names, const Members&... members) {
+void save_members(Json& json, std::string_view names, const Members&... members) {
   ((json[take_name(names)] = members), ...);
 }
 
-/// Throws nlohmann::ordered_json::exception if one is missing or of another type.
+/// Throws Json::exception if one is missing or of another type.
 template <class... Members>
-void restore_members(const nlohmann::ordered_json& json, std::string_view names, Members&... members) {
+void restore_members(const Json& json, std::string_view names, Members&... members) {
   (json.at(take_name(names)).get_to(members), ...);
 }
 
@@ -30,12 +32,12 @@ void restore_members(const nlohmann::ordered_json& json, std::string_view names,
 
 /// `to_json` and `from_json` of a struct: `inline` beside it, `friend` in it. A new member does not compile until it is
 /// named.
-#define TAILWATER_SAVED(kind, Struct, ...)                               \
-  kind void to_json(nlohmann::ordered_json& json, const Struct& all) {   \
-    const auto& [__VA_ARGS__] = all;                                     \
-    tailwater::save_members(json, #__VA_ARGS__, __VA_ARGS__);            \
-  }                                                                      \
-  kind void from_json(const nlohmann::ordered_json& json, Struct& all) { \
-    auto& [__VA_ARGS__] = all;                                           \
-    tailwater::restore_members(json, #__VA_ARGS__, __VA_ARGS__);         \
+#define TAILWATER_SAVED(kind, Struct, ...)                       \
+  kind void to_json(Json& json, const Struct& all) {             \
+    const auto& [__VA_ARGS__] = all;                             \
+    tailwater::save_members(json, #__VA_ARGS__, __VA_ARGS__);    \
+  }                                                              \
+  kind void from_json(const Json& json, Struct& all) {           \
+    auto& [__VA_ARGS__] = all;                                   \
+    tailwater::restore_members(json, #__VA_ARGS__, __VA_ARGS__); \
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
+
 namespace tailwater {
 
 class Schedule {
@@ -20,8 +22,8 @@ class Schedule {
   void set_last(double time) { last_ = time; }
 
   /// For a checkpoint, and from one of a run whose interval may have been another.
-  nlohmann::ordered_json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
-  void take_up(const nlohmann::ordered_json& saved) {
+  Json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
+  void take_up(const Json& saved) {
     saved.at("next").get_to(next_);
     saved.at("last").get_to(last_);
     if (saved.at("interval") != interval_) set_next(last_);

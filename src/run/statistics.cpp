@@ -1,6 +1,7 @@
 #include "run/statistics.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace tailwater {
 
@@ -46,7 +47,7 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   interventions_ += report.interventions;
 }
 
-nlohmann::ordered_json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const {
+Json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const {
   const auto steps = static_cast<double>(std::max<std::int64_t>(steps_, 1));
   const double particle_steps = steps * static_cast<double>(std::max<std::size_t>(fluid_particles, 1));
   const auto divergence_reports = static_cast<double>(std::max<std::int64_t>(divergence_reports_, 1));

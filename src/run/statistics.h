@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "flow/measure.h"
 #include "flow/step.h"
 #include "run/saved.h"
@@ -22,7 +22,7 @@ class RunStatistics {
   double energy_rise() const { return energy_rise_; }
 
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
-  nlohmann::ordered_json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
+  Json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
   /// All of it is saved in a checkpoint.
   TAILWATER_SAVED(friend, RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,

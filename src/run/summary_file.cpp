@@ -4,15 +4,16 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "io/write_file.h"
 
 namespace tailwater {
 namespace {
 
 /// Not an object if the file is none.
-nlohmann::ordered_json parse_summary(const std::filesystem::path& path) {
+Json parse_summary(const std::filesystem::path& path) {
   std::ifstream file(path);
-  return nlohmann::ordered_json::parse(file, nullptr, false);
+  return Json::parse(file, nullptr, false);
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ void write_last_file(const std::filesystem::path& path, const std::string& text)
 }
 
 void mark_as_failed(const std::filesystem::path& summary, ExitCode code, const std::string& message) {
-  nlohmann::ordered_json json = parse_summary(summary);
+  Json json = parse_summary(summary);
   if (!json.is_object() || !json.contains("status") || json["status"] != "running") return;
   json["status"] = "failed";
   json["exit_code"] = static_cast<int>(code);
@@ -39,14 +40,14 @@ void mark_as_failed(const std::filesystem::path& summary, ExitCode code, const s
 }
 
 std::filesystem::path case_named_in(const std::filesystem::path& summary) {
-  const nlohmann::ordered_json json = parse_summary(summary);
+  const Json json = parse_summary(summary);
   const bool names_one = json.is_object() && json.contains("case") && json["case"].is_string();
   return names_one ? json["case"].get<std::string>() : std::string();
 }
 
 int ranks_named_in(const std::filesystem::path& summary) {
-  const nlohmann::ordered_json json = parse_summary(summary);
-  const nlohmann::ordered_json::json_pointer count("/ranks/count");
+  const Json json = parse_summary(summary);
+  const Json::json_pointer count("/ranks/count");
   return json.contains(count) && json[count].is_number_integer() ? std::max(1, json[count].get<int>()) : 1;
 }
 

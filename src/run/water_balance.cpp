@@ -14,12 +14,12 @@
 namespace tailwater {
 namespace {
 
-nlohmann::ordered_json amount_json(const WaterAmount& water, double density) {
+Json amount_json(const WaterAmount& water, double density) {
   return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
 }
 
 /// By how much, since when and for how long a prescribed level was missed; null: it was held.
-nlohmann::ordered_json json_of_miss(const LevelMiss& miss) {
+Json json_of_miss(const LevelMiss& miss) {
   if (miss.since < 0.0) return nullptr;
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }
@@ -148,21 +148,21 @@ WaterAmount water_came(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-nlohmann::ordered_json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
+Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
   const double density = flow.setup.density;
   const auto json_of_passed = [&](const WaterAmount& passed) {
-    nlohmann::ordered_json json = amount_json(passed, density);
+    Json json = amount_json(passed, density);
     json["energy_J"] = passed.energy;
     return json;
   };
-  nlohmann::ordered_json inlets = nlohmann::ordered_json::array();
-  nlohmann::ordered_json outlets = nlohmann::ordered_json::array();
+  Json inlets = Json::array();
+  Json outlets = Json::array();
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
     const Opening<Dim>& opening = flow.setup.open_ends[e].opening;
     const OpenEndState& end = flow.state.open_ends[e];
     const bool is_inlet = opening.kind == OpeningKind::inlet;
     // On the way that is meant, and `back`.
-    nlohmann::ordered_json json;
+    Json json;
     json["name"] = opening.name;
     json.update(json_of_passed(is_inlet ? end.arrived : end.departed));
     json["back"] = json_of_passed(is_inlet ? end.departed : end.arrived);

@@ -2,9 +2,9 @@
 // is out has left through an open end, and what is in has come through one.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "base/json.h"
 #include "flow/flow.h"
 
 namespace tailwater {
@@ -37,6 +37,6 @@ WaterAmount water_came(const Flow<Dim>& flow);
 
 /// Block "water_balance" of the summary; collective.
 template <int Dim>
-nlohmann::ordered_json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow);
+Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow);
 
 }  // namespace tailwater

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "server/guard.h"
 
 namespace tailwater {
 
-using Json = nlohmann::ordered_json;
 using httplib::Request;
 using httplib::Response;
 

@@ -4,12 +4,12 @@
 #include <httplib.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/json.h"
 #include "server/folder_reader.h"
 
 namespace tailwater {
@@ -22,7 +22,7 @@ std::optional<std::uint32_t> whole_number(std::string_view text);
 /// A text as it is. httplib would compress `set_content` with Brotli at its highest quality, which takes more than a
 /// second for the page, and who reads it is on this machine.
 void answer_text(httplib::Response& response, std::string text, const char* type, int status = 200);
-void answer_json(httplib::Response& response, const nlohmann::ordered_json& json, int status = 200);
+void answer_json(httplib::Response& response, const Json& json, int status = 200);
 /// {"error": message}
 void answer_error(httplib::Response& response, int status, std::string_view message);
 /// A file, or the part of it that was asked for; all of it where there is no such part.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "io/base64.h"
 #include "io/deflate.h"
 #include "run/run_info.h"
@@ -17,8 +18,6 @@
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Where an exported page holds its data.
 constexpr std::string_view marker = "<!-- tailwater-data -->";

@@ -1,5 +1,6 @@
 // The scenes that the page draws.
 #include "base/error.h"
+#include "base/json.h"
 #include "case/reader.h"
 #include "geometry/boundary.h"
 #include "io/run_folder.h"
@@ -9,8 +10,6 @@
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <int Dim>
 Json scene_from_case(const CaseSpec& spec) {

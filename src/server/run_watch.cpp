@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "io/run_folder.h"
 #include "run/run_info.h"
 
@@ -16,9 +17,8 @@ constexpr auto least_time_between_infos = std::chrono::seconds(1);
 /// So many times as long as an info has taken pass until the next one: where tables are long it takes a while.
 constexpr int rest_over_work = 20;
 
-std::string event(std::string_view name, const nlohmann::ordered_json& data) {
-  return fmt::format("event: {}\ndata: {}\n\n", name,
-                     data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+std::string event(std::string_view name, const Json& data) {
+  return fmt::format("event: {}\ndata: {}\n\n", name, data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ std::string RunWatch::look() {
   if (!folder_.exists()) {
     if (is_gone_) return "";
     is_gone_ = true;
-    return event("gone", nlohmann::ordered_json::object());
+    return event("gone", Json::object());
   }
   is_gone_ = false;
   return info() + frames() + tables();

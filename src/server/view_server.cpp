@@ -25,7 +25,6 @@ namespace tailwater {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using httplib::Request;
 using httplib::Response;
 
@@ -145,7 +144,7 @@ class ViewServer::Service {
       if (!is_known) answer_error(response, 404, "there is no such thing");
     } catch (const UserError& error) {
       answer_error(response, error.code() == ExitCode::io_failed ? 500 : 400, error.what());
-    } catch (const nlohmann::ordered_json::exception&) {
+    } catch (const Json::exception&) {
       answer_error(response, 400, "the request is not what it should be");
     }
   }

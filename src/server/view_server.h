@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "base/json.h"
+
 namespace tailwater {
 
 struct ViewedRun {
   std::string name;
   std::filesystem::path path;
-  nlohmann::ordered_json parameters = {};  ///< of a member of a sweep: values by key
+  Json parameters = {};  ///< of a member of a sweep: values by key
 };
 
 /// What is shown.
@@ -23,12 +25,11 @@ struct ViewContent {
   std::string mode;  ///< "run", "sweep", "case", "report" or "study"
   std::vector<ViewedRun> runs;
   std::optional<std::filesystem::path> case_file;
-  nlohmann::ordered_json report = {};  ///< what `tailwater validate` or `tailwater study` found
+  Json report = {};  ///< what `tailwater validate` or `tailwater study` found
 };
 
 /// What only the whole program can do. Each may be called by several threads at once; a failure is a UserError.
 struct ViewActions {
-  using Json = nlohmann::ordered_json;
   std::function<Json(const std::string& text)> check;
   std::function<Json(const std::string& text)> estimate;  ///< the same with the time that a run takes; slower
   std::function<std::filesystem::path(const std::string& text, const std::string& out, int ranks)> start;
@@ -70,6 +71,6 @@ class ViewServer {
 std::string exported_page(const ViewContent& content, const std::string& version);
 
 /// The scene of a run: what it has written, or, of one without a stream, made from its case.
-nlohmann::ordered_json scene_of_run(const std::filesystem::path& run);
+Json scene_of_run(const std::filesystem::path& run);
 
 }  // namespace tailwater

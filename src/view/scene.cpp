@@ -21,8 +21,6 @@
 namespace tailwater {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// As many digits as a picture needs: a mesh has a hundred thousand coordinates.
 double rounded(double number) { return std::strtod(fmt::format("{:.7g}", number).c_str(), nullptr); }
 

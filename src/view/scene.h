@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 
+#include "base/json.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
 
@@ -25,6 +25,6 @@ std::vector<int> pose_of_walls(const Boundary<Dim>& boundary);
 
 /// The scene of a case whose walls are where they are drawn.
 template <int Dim>
-nlohmann::ordered_json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary);
+Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 }  // namespace tailwater

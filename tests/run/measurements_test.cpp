@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/json.h"
 #include "case/reader.h"
 #include "io/run_folder.h"
 #include "io/temporary_folder.h"
@@ -136,7 +137,7 @@ TEST(MeasurementScores, AreReadFromTheTablesOfProbes) {
   EXPECT_NEAR(scores[1].as_timed.bias, 0.1, 1e-12);
   EXPECT_NEAR(scores[1].as_timed.rms, std::sqrt(0.02), 1e-12);
   EXPECT_NEAR(scores[0].as_timed.bias, -0.01, 1e-12);
-  const nlohmann::ordered_json json = json_of(scores);
+  const Json json = json_of(scores);
   EXPECT_EQ(json[0]["is_inside"], true);
   EXPECT_EQ(json[0]["samples"], 3);
   EXPECT_NE(json[0]["words"].get<std::string>().find("inside the scatter of 0.02 m"), std::string::npos) << json;

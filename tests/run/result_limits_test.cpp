@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "io/messages.h"
 #include "run/pond.h"
 #include "run/result_limits.h"
@@ -45,7 +46,7 @@ TEST(ResultLimits, TellsInTheEndWhatTheEnergyRoseTo) {
   run.rise_to(33.0);
   ASSERT_EQ(run.count(), 1U);
   ResultLimits& limits = run.limits();
-  const nlohmann::ordered_json saved = limits.saved();
+  const Json saved = limits.saved();
   limits.restore(saved);
   limits.warn_of_largest();
   ASSERT_EQ(run.count(), 2U);

@@ -6,13 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "case/reader.h"
 #include "io/temporary_folder.h"
 
 namespace tailwater {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* start = R"(
 [particles]
