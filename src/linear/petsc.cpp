@@ -1,8 +1,10 @@
 #include "linear/petsc.h"
 
 #include <dlfcn.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -59,6 +61,13 @@ void need_petsc() {
 
 void end_petsc() {
   if (std::exchange(is_running, false)) PetscFinalize();
+}
+
+std::string petsc_version() {
+  if (library == nullptr) return "PETSc not loaded";
+  std::array<PetscInt, 3> number{};
+  check_petsc(PetscGetVersionNumber(&number[0], &number[1], &number[2], nullptr));
+  return fmt::format("PETSc {}", fmt::join(number, "."));
 }
 
 void check_petsc(PetscErrorCode code) {

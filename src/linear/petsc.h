@@ -4,6 +4,7 @@
 
 #include <petscksp.h>
 
+#include <string>
 #include <utility>
 
 namespace tailwater {
@@ -14,6 +15,9 @@ void need_petsc();
 
 /// Ends it where it was started.
 void end_petsc();
+
+/// Of the library: "PETSc 3.18.5", or that none is loaded.
+std::string petsc_version();
 
 /// The address of a function of PETSc's, which must be loaded.
 void* petsc_address(const char* name);
@@ -82,6 +86,7 @@ TAILWATER_LOADED(PCShellSetApply);
 TAILWATER_LOADED(PCShellSetContext);
 TAILWATER_LOADED(PetscErrorMessage);
 TAILWATER_LOADED(PetscFinalize);
+TAILWATER_LOADED(PetscGetVersionNumber);
 TAILWATER_LOADED(PetscInitializeNoArguments);
 TAILWATER_LOADED(PetscObjectTypeCompare);
 TAILWATER_LOADED(PetscOptionsClear);

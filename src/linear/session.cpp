@@ -83,8 +83,7 @@ std::string linear_library_version() {
   MPI_Get_library_version(mpi, &length);
   const std::string_view name(mpi, static_cast<std::size_t>(length));
   // The rest tells how MPI was built.
-  return fmt::format("PETSc {}.{}.{}, {}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
-                     name.substr(0, name.find_first_of(",\n")));
+  return fmt::format("{}, {}", petsc_version(), name.substr(0, name.find_first_of(",\n")));
 }
 
 }  // namespace tailwater

@@ -76,6 +76,12 @@ class OutputContract(ProgramTest):
             self.assertIn(block, summary)
         self.assertEqual((summary["seed"], summary["ranks"]["count"]), (1, 1))
 
+    def test_the_summary_tells_which_petsc_was_loaded(self):
+        for preconditioner, version in (("ssor", r"^PETSc not loaded, "), ("jacobi", r"^PETSc \d+\.\d+\.\d+, ")):
+            self.call("run", "small.toml", "--out", preconditioner, "--quiet", "--set", "time.end=0.01", "--set",
+                      f"pressure_solver.preconditioner={preconditioner}")
+            self.assertRegex(self.summary(preconditioner)["libraries"], version)
+
     def test_the_effective_case_gives_the_same_run(self):
         overrides = ("--set", "scheme.integrator=implicit", "--set", "particles.jitter=0.2", "--set",
                      "particles.seed=7")
