@@ -51,9 +51,7 @@ def run_up(run):
 def late_discharge(run):
     """Over that of shallow water, which is the limit of late times: from T = 3 to 4 it is 1 % less, from 5 to 6 0.2 %. So
     that of the second half of the run."""
-    T, passed = shallow_water.water_passed(run)
-    late = T > 0.5 * T[-1] - 0.01
-    return shallow_water.slope(T[late], passed[late]) / (8 / 27)
+    return shallow_water.late_discharge(run, since=0.5 * run.parameters["T"]) / (8 / 27)
 
 
 # What it is, where its truth is from; the case; the coarsest spacing (the finest is half of it); how it is read.

@@ -182,6 +182,15 @@ def water_passed(run):
     return np.array([frame.time for frame in frames]) / scale, (np.array(ahead) - ahead[0]) * (dx / depth) ** 2
 
 
+def late_discharge(run, since=LATE):
+    """Through x = 0, over sqrt(g) h0^1.5, from T = `since` on. Throws DataError for fewer than three frames."""
+    T, passed = water_passed(run)
+    late = T > since - 0.01
+    if late.sum() < 3:
+        raise DataError(f"{run.path}: has {late.sum()} frames from T = {since:g} on, too few for a slope")
+    return slope(T[late], passed[late])
+
+
 def last_place(x, depth, level):
     """The farthest x at which the depth is `level`, linear between samples."""
     above = np.flatnonzero(depth >= level)
@@ -208,14 +217,12 @@ def shallow_dam_break(run, exact, discharge, front, speed):
     sqrt(h0/g) to become shallow: it lags behind by a length that stays, so speeds and the discharge are slopes over T,
     and the profile is the last one's."""
     profiles = late_profiles(run)
-    times, passed = water_passed(run)
-    late = times > LATE - 0.01
-    if min(len(profiles), late.sum()) < 3:
-        raise DataError(f"{run.path}: has {len(profiles)} profiles and {late.sum()} frames from T = {LATE:g} on, too few for a slope")
+    if len(profiles) < 3:
+        raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
     T, x, depth = profiles[-1]
     inside = (x > -1.2 * T) & (x < 2.0 * T)
     return {
-        "discharge_error": slope(times[late], passed[late]) / discharge - 1,
+        "discharge_error": late_discharge(run) / discharge - 1,
         "front_error": slope([T for T, _, _ in profiles], [front(x, depth) for _, x, depth in profiles]) / speed - 1,
         "profile_error": rms(depth[inside] - exact(x[inside] / T)),
     }
