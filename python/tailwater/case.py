@@ -1,6 +1,5 @@
 """Cases: a case file as a dict that knows its keys."""
 
-import difflib
 import html
 import json
 import os
@@ -151,22 +150,14 @@ class Case:
         return self
 
     def _require_known(self, key, steps):
+        """Of a key that no case has, or a parameter that this one has not, the program says what is wrong."""
         tables = known_tables()
-        names = list(tables)
         if steps[0] in tables:
             has_free_keys, keys = tables[steps[0]]
             last = [step for step in steps if isinstance(step, str)][-1]
-            if has_free_keys:
-                keys = self._data.get(steps[0], {})
-            if last in keys:
+            if last in (self._data.get(steps[0], {}) if has_free_keys else keys):
                 return
-            wrong, names = last, list(keys)
-        else:
-            wrong = steps[0]
-        by_letters = {name.lower(): name for name in names}
-        near = difflib.get_close_matches(wrong.lower(), by_letters, 1)
-        hint = f'did you mean "{by_letters[near[0]]}"? ' if near else ""
-        raise InputError(f'--set {key}=...: unknown key; {hint}valid: ' + ", ".join(f'"{name}"' for name in names))
+        call("check", *self.words(), "--set", f"{key}=0")
 
     def words(self, without=()) -> list:
         """The case as words of a command line: its file and its changes, but of keys `without` change."""
