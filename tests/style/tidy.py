@@ -28,7 +28,7 @@ CHECKS = """
     bugprone-swapped-arguments bugprone-too-small-loop-variable
     performance-for-range-copy performance-implicit-conversion-in-loop
     performance-noexcept-move-constructor
-    misc-unused-alias-decls misc-unused-parameters cppcoreguidelines-pro-type-cstyle-cast
+    misc-unused-alias-decls misc-unused-parameters
 """.split()
 
 # Its memory is one piece in pages of 2 MB: to fetch a gigabyte in pages of 4 kB cost a seventh of the time.
