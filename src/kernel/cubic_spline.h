@@ -28,15 +28,10 @@ class CubicSpline {
   }
 
   template <class Number>
-  Number derivative(Number r) const {
+  Number steepness(Number r) const {
     const Number s = (Real(2.0) / radius_) * r;
     const Number a = max_of(Number{}, Real(2.0) - s);
-    return (Real(-1.5) * scale_ / radius_) * (s < Real(1.0) ? s * (Real(4.0) - Real(3.0) * s) : a * a);
-  }
-
-  template <class Number>
-  Number steepness(Number r) const {
-    return -derivative(r) / r;
+    return (Real(1.5) * scale_ / radius_) * (s < Real(1.0) ? s * (Real(4.0) - Real(3.0) * s) : a * a) / r;
   }
 
  private:

@@ -24,13 +24,8 @@ class FarzinKernel {
   }
 
   template <class Number>
-  Number derivative(Number r) const {
-    return (Real(-2.0) * scale_ / radius_) * max_of(Number{}, Real(1.0) - r / radius_);
-  }
-
-  template <class Number>
   Number steepness(Number r) const {
-    return -derivative(r) / r;
+    return (Real(2.0) * scale_ / radius_) * max_of(Number{}, Real(1.0) - r / radius_) / r;
   }
 
  private:

@@ -11,9 +11,9 @@ namespace tailwater {
 
 enum class KernelName { wendland_c2, cubic_spline, farzin };
 
-/// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim], `derivative(r)` =
-/// dW/dr [1/m^(Dim+1)] and `steepness(r)`, F = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the kind of its constants: double
-/// where r is one, float where it is in lanes.
+/// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim] and `steepness(r)`,
+/// F = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the kind of its constants: double where r is one, float where it is in
+/// lanes.
 template <int Dim, class Real = double>
 using Kernel = std::variant<WendlandC2<Dim, Real>, CubicSpline<Dim, Real>, FarzinKernel<Dim, Real>>;
 
@@ -62,11 +62,6 @@ inline Number kernel_value(const Kernel<Dim, Real>& kernel, Number r) {
 template <int Dim, class Real, class Number>
 inline Number kernel_steepness(const Kernel<Dim, Real>& kernel, Number r) {
   return with_kernel<Dim, Real>(kernel, [r](const auto& chosen) { return chosen.steepness(r); });
-}
-
-template <int Dim>
-double kernel_derivative(const Kernel<Dim>& kernel, double r) {
-  return std::visit([r](const auto& chosen) { return chosen.derivative(r); }, kernel);
 }
 
 }  // namespace tailwater

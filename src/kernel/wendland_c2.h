@@ -34,11 +34,6 @@ class WendlandC2 {  // products in pairs, because loops wait for the longest cha
     return (a * a) * (steepness_scale_ * a);
   }
 
-  template <class Number>
-  Number derivative(Number r) const {
-    return -steepness(r) * r;
-  }
-
  private:
   /// 1 - q, and 0 exactly at the rim
   template <class Number>

@@ -38,7 +38,7 @@ Row row_below_surface(const Kernel<Dim>& kernel, double depth, double fine, doub
         const double height = z * fine;
         const double r = fine * std::sqrt(static_cast<double>(x * x + y * y + z * z));
         if (r == 0.0 || r >= support) continue;
-        const double c = morris_laplacian_weight(volume, -kernel_derivative(kernel, r) / r, r * r, fine);
+        const double c = morris_laplacian_weight(volume, kernel_steepness(kernel, r), r * r, fine);
         full += c;
         if (height < depth) {
           row.sum += c;

@@ -85,7 +85,7 @@ void expect_rows_hold_the_support(const Particles<Dim>& particles, const Neighbo
       const double r = pairs.r(i, k);
       const double rounding = 16.0 * eps * kernel_value(neighbourhood.kernel(), 0.0);
       ASSERT_NEAR(pairs.value(i, k), kernel_value(neighbourhood.kernel(), r), rounding);
-      ASSERT_NEAR(pairs.F(i, k), -kernel_derivative(neighbourhood.kernel(), r) / r,
+      ASSERT_NEAR(pairs.F(i, k), kernel_steepness(neighbourhood.kernel(), r),
                   20.0 * single_eps / eps * rounding / (radius * radius));
     }
     for (std::size_t j = 0; j < particles.owned; ++j) {

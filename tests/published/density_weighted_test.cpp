@@ -93,7 +93,7 @@ TYPED_TEST(DensityWeightedTest, ShaoLoWeightsAreSymmetricAndMorrisWithoutEta) {
   const auto kernel = make_kernel<TypeParam::value>(KernelName::cubic_spline, radius);
   for (int n = 1; n <= 240; ++n) {
     const double r = 0.01 * n * dx;
-    const double dW = kernel_derivative(kernel, r);
+    const double dW = -kernel_steepness(kernel, r) * r;
     const double weight = shao_lo_laplacian_weight(0.01, 0.7, 1.1, r, dW, shao_lo_eta_squared(radius));
     EXPECT_GE(weight, 0.0);
     EXPECT_EQ(weight, shao_lo_laplacian_weight(0.01, 1.1, 0.7, r, dW, shao_lo_eta_squared(radius)));
