@@ -26,6 +26,9 @@ struct PressureSource {
   std::vector<double> density;
 };
 
+/// Later passes of a repeated projection keep the marks of the surface that earlier ones have found.
+enum class SurfaceMarks { found, kept };
+
 /// The operators of a formulation. Those of the gradient, the divergence and the rows read the pairs and what the first
 /// two functions have found.
 template <int Dim>
@@ -33,9 +36,9 @@ class Discretisation {
  public:
   virtual ~Discretisation() = default;
 
-  /// Marks the free surface, unless the marks shall stay, and finds how far inside the particles are, ghosts too. Needs
+  /// Marks the free surface, unless the marks are kept, and finds how far inside the particles are, ghosts too. Needs
   /// the kernel's sums (flow/locate.cpp). Collective.
-  virtual void find_surface(Flow<Dim>& flow, bool keep_marks) = 0;
+  virtual void find_surface(Flow<Dim>& flow, SurfaceMarks marks) = 0;
 
   /// Finds how gradient and divergence see pairs of particles. Collective.
   virtual void find_pair_vectors(Flow<Dim>& flow) = 0;

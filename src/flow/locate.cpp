@@ -31,7 +31,7 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
 }  // namespace
 
 template <int Dim>
-void locate(Flow<Dim>& flow, bool keep_marks) {
+void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   const Setup<Dim>& setup = flow.setup;
   if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
   flow.forget_matrix();
@@ -49,7 +49,7 @@ void locate(Flow<Dim>& flow, bool keep_marks) {
   for_each(particles.owned, [&](std::size_t i) { here.takes_part[i] = particles.is_fluid(i) || here.is_wet[i]; });
   sum_kernel(flow, here);
   flow.halo().exchange(here.is_wet, here.takes_part, here.concentration, here.first_moment);
-  flow.discretisation().find_surface(flow, keep_marks);
+  flow.discretisation().find_surface(flow, marks);
   here.mean_interior.assign(particles.owned, 0.0);
   flow.discretisation().find_pair_vectors(flow);
   flow.is_located = true;

@@ -12,10 +12,9 @@
 
 namespace tailwater {
 
-/// Finds neighbours, ghosts, kernel values and `flow.here` at the present positions. `keep_marks` keeps the surface
-/// marks as they are; later passes of the implicit iteration freeze them.
+/// Finds neighbours, ghosts, kernel values and `flow.here` at the present positions.
 template <int Dim>
-void locate(Flow<Dim>& flow, bool keep_marks = false);
+void locate(Flow<Dim>& flow, SurfaceMarks marks = SurfaceMarks::found);
 
 /// Wraps the particles into a periodic domain and returns r^n, u^n and their energy. Lists reach only a skin beyond the
 /// domain, so no particle may stay outside for more than a step.

@@ -26,10 +26,10 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
  public:
   explicit FarmaniDiscretisation(double eta_squared) : eta_squared_(eta_squared) {}
 
-  void find_surface(Flow<Dim>& flow, bool keep_marks) override {  // (B21)
+  void find_surface(Flow<Dim>& flow, SurfaceMarks marks) override {  // (B21)
     Surroundings<Dim>& here = flow.here;
     const Particles<Dim>& particles = flow.state.particles;
-    if (!keep_marks) {
+    if (marks == SurfaceMarks::found) {
       mark_by_density<Dim>(flow.pairs(), particles, here.concentration, here.is_surface);
       flow.halo().exchange(here.is_surface);
       find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.spacing, here.is_surface, here.interior);

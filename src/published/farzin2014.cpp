@@ -33,13 +33,13 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
   FarzinDiscretisation(std::shared_ptr<Tensors<Dim>> tensors, const ShiftingLaw& shifting)
       : tensors_(std::move(tensors)), shifting_(shifting) {}
 
-  void find_surface(Flow<Dim>& flow, bool keep_marks) override {
+  void find_surface(Flow<Dim>& flow, SurfaceMarks marks) override {
     Surroundings<Dim>& here = flow.here;
     const Pairs<Dim>& pairs = flow.pairs();
     const Particles<Dim>& particles = flow.state.particles;
     tensors_->resize(particles.owned);
     compute_renormalisation<Dim>(pairs, particles.volume, here.takes_part, *tensors_);  // (F10), (F13)
-    if (!keep_marks) {
+    if (marks == SurfaceMarks::found) {
       mark_by_cone<Dim>({pairs, here.concentration, here.concentration_gradient, *tensors_, flow.setup.spacing},
                         particles, here.is_surface);
       flow.halo().exchange(here.is_surface);

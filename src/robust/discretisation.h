@@ -30,7 +30,7 @@ class RobustDiscretisation final : public Discretisation<Dim> {
  public:
   explicit RobustDiscretisation(const RobustLaws& laws) : laws_(laws) {}
 
-  void find_surface(Flow<Dim>& flow, bool keep_marks) override;
+  void find_surface(Flow<Dim>& flow, SurfaceMarks marks) override;
   void find_pair_vectors(Flow<Dim>& flow) override;
   void add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
                          std::vector<Vec<Dim>>& acceleration) const override;

@@ -8,7 +8,7 @@
 namespace tailwater {
 
 template <int Dim>
-void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, bool /*keep_marks*/) {
+void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, SurfaceMarks /*marks*/) {
   Surroundings<Dim>& here = flow.here;
   const Particles<Dim>& particles = flow.state.particles;
   find_interior<Dim>(flow.pairs(), particles, here.concentration, flow.setup.kernel_values.W_0, here.interior);
@@ -41,8 +41,8 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
       here.open_faces, here.mean_interior);
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                         \
-  template void RobustDiscretisation<Dim>::find_surface(Flow<Dim>&, bool); \
+#define TAILWATER_INSTANTIATE(Dim)                                                 \
+  template void RobustDiscretisation<Dim>::find_surface(Flow<Dim>&, SurfaceMarks); \
   template void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -41,7 +41,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   CaseSpec spec = tank_case<Dim>(dx, width, depth);
   spec.walls.push_back(plate_to<Dim>(0.3));
   Flow<Dim> flow = make_flow<Dim>(spec);
-  locate(flow, false);
+  locate(flow);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const double support = kernel_radius(flow.setup.kernel);
@@ -101,7 +101,7 @@ TYPED_TEST(PlateTest, IsNotPassed) {
     CaseSpec spec = tank_case<Dim>(dx, width, 0.1);
     spec.walls.push_back(plate_to<Dim>(0.2));
     Flow<Dim> flow = make_flow<Dim>(spec);
-    locate(flow, false);
+    locate(flow);
     Particles<Dim>& particles = flow.state.particles;
     const std::vector<Vec<Dim>> before(particles.position.begin(), particles.position.begin() + particles.owned);
     std::size_t jumping = particles.owned;
