@@ -43,13 +43,13 @@ void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
 template <int Dim>
 void gather_walls(Flow<Dim>& flow) {
   if (!flow.setup.ranks.any(flow.near_walls.misses_some(flow.state.particles))) return;
-  add_walls<Dim>(flow, flow.near_walls.update(flow.walls, flow.state.particles, false));
+  add_walls<Dim>(flow, flow.near_walls.update(flow.walls, flow.state.particles, FarWalls::kept));
 }
 
 template <int Dim>
 void regather_walls(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
-  std::vector<std::int32_t> arrived = flow.near_walls.update(flow.walls, particles, true);
+  std::vector<std::int32_t> arrived = flow.near_walls.update(flow.walls, particles, FarWalls::dropped);
   const std::vector<std::size_t> kept = indices_where(particles.owned, [&](std::size_t i) {
     return particles.is_fluid(i) || flow.near_walls.is_near(flow.walls, particles.wall_row[i]);
   });

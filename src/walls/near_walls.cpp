@@ -48,7 +48,7 @@ NearWalls<Dim>::NearWalls(const Communicator& ranks, const Walls<Dim>& walls, co
 
 template <int Dim>
 std::vector<std::int32_t> NearWalls<Dim>::update(const Walls<Dim>& walls, const Particles<Dim>& particles,
-                                                 bool drops_far) {
+                                                 FarWalls far) {
   std::vector<int> is_wet(is_near_.size(), 0);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: many particles mark one cell
     if (!particles.is_fluid(i)) continue;
@@ -60,7 +60,7 @@ std::vector<std::int32_t> NearWalls<Dim>::update(const Walls<Dim>& walls, const 
   ranks_.largest_of_each(is_wet);
 
   const std::vector<std::uint8_t> was_near = is_near_;
-  if (drops_far) std::fill(is_near_.begin(), is_near_.end(), 0);
+  if (far == FarWalls::dropped) std::fill(is_near_.begin(), is_near_.end(), 0);
   for (std::size_t cell = 0; cell < is_wet.size(); ++cell) {
     if (is_wet[cell]) for_each_beside(static_cast<std::int32_t>(cell), [&](std::int32_t c) { is_near_[c] = 1; });
   }

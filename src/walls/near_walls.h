@@ -12,6 +12,9 @@
 
 namespace tailwater {
 
+/// Whether walls that are no longer near still count as near.
+enum class FarWalls { kept, dropped };
+
 template <int Dim>
 class NearWalls {
  public:
@@ -19,9 +22,8 @@ class NearWalls {
   /// far it moves in a step. Collective.
   NearWalls(const Communicator& ranks, const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach);
 
-  /// Finds which walls are near, and returns those of the rows kept here that were not before. Those that no longer are
-  /// stay near unless `drops_far`. Collective.
-  std::vector<std::int32_t> update(const Walls<Dim>& walls, const Particles<Dim>& particles, bool drops_far);
+  /// Finds which walls are near, and returns those of the rows kept here that were not before. Collective.
+  std::vector<std::int32_t> update(const Walls<Dim>& walls, const Particles<Dim>& particles, FarWalls far);
 
   bool is_near(const Walls<Dim>& walls, std::int32_t row) const {
     return static_cast<std::size_t>(row) < walls.moving || is_near_[cell_of(walls.particles.position[row])] != 0;

@@ -69,7 +69,7 @@ TYPED_TEST(NearWallsTest, AreThoseInReach) {
   EXPECT_TRUE(near.is_near(walls, 0));  // it moves
   for (double x = -6.0; x < 6.0; x += 0.07) {
     const Particles<Dim> water = water_at<Dim>(x);
-    near.update(walls, water, true);
+    near.update(walls, water, FarWalls::dropped);
     expect_all_in_reach_are_near(near, walls, water);
     EXPECT_FALSE(near.misses_some(water));
   }
@@ -79,16 +79,16 @@ TYPED_TEST(NearWallsTest, ArriveOnceAndStayUntilTheFarOnesAreDropped) {
   constexpr int Dim = TypeParam::value;
   const Walls<Dim> walls = long_wall<Dim>();
   NearWalls<Dim> near({}, walls, {}, reach);
-  const std::vector<std::int32_t> first = near.update(walls, water_at<Dim>(-3.0), true);
+  const std::vector<std::int32_t> first = near.update(walls, water_at<Dim>(-3.0), FarWalls::dropped);
   EXPECT_FALSE(first.empty());
   const Particles<Dim> gone = water_at<Dim>(2.0);
   EXPECT_TRUE(near.misses_some(gone));
-  const std::vector<std::int32_t> second = near.update(walls, gone, false);
+  const std::vector<std::int32_t> second = near.update(walls, gone, FarWalls::kept);
   EXPECT_FALSE(near.misses_some(gone));
   const std::set<std::int32_t> rows(first.begin(), first.end());
   EXPECT_TRUE(std::ranges::none_of(second, [&](std::int32_t row) { return rows.contains(row); }));
   EXPECT_TRUE(std::ranges::all_of(first, [&](std::int32_t row) { return near.is_near(walls, row); }));
-  EXPECT_TRUE(near.update(walls, gone, true).empty());
+  EXPECT_TRUE(near.update(walls, gone, FarWalls::dropped).empty());
   EXPECT_TRUE(std::ranges::none_of(first, [&](std::int32_t row) { return near.is_near(walls, row); }));
   EXPECT_TRUE(std::ranges::all_of(second, [&](std::int32_t row) { return near.is_near(walls, row); }));
 }
@@ -100,7 +100,7 @@ TYPED_TEST(NearWallsTest, AreSeenAcrossAPeriodicEdge) {
   domain[0] = std::pair{-5.0, 5.0};
   NearWalls<Dim> near({}, walls, domain, reach);
   EXPECT_TRUE(near.misses_some(water_at<Dim>(4.95)));
-  near.update(walls, water_at<Dim>(4.95), true);
+  near.update(walls, water_at<Dim>(4.95), FarWalls::dropped);
   EXPECT_TRUE(near.is_near(walls, 1));
   EXPECT_TRUE(near.is_near(walls, 101));
   EXPECT_FALSE(near.is_near(walls, 51));
@@ -112,7 +112,7 @@ TYPED_TEST(NearWallsTest, AreRestoredFromTheParticles) {
   NearWalls<Dim> near({}, walls, {}, reach);
   const Particles<Dim> water = water_at<Dim>(1.0);
   std::vector<Vec<Dim>> points{water.position[0]};
-  const std::vector<std::int32_t> rows = near.update(walls, water, true);
+  const std::vector<std::int32_t> rows = near.update(walls, water, FarWalls::dropped);
   for (const std::int32_t row : rows) points.push_back(walls.particles.position[row]);
   Particles<Dim> all = fluid_at<Dim>(points, dx);
   for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -123,7 +123,7 @@ TYPED_TEST(NearWallsTest, AreRestoredFromTheParticles) {
   restored.restore(walls, all);
   for (std::int32_t row = 0; row < 102; ++row) EXPECT_EQ(restored.is_near(walls, row), near.is_near(walls, row)) << row;
   EXPECT_EQ(restored.misses_some(all), near.misses_some(all));
-  EXPECT_TRUE(restored.update(walls, all, true).empty());
+  EXPECT_TRUE(restored.update(walls, all, FarWalls::dropped).empty());
 }
 
 }  // namespace near_walls_test
