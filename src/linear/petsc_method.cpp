@@ -114,7 +114,7 @@ void PetscMethod::set_up(const LinearSystem& system) {
   if (ranks.any(pattern_is_new || solver_size_ != system.size())) {
     check_petsc(KSPCreate(ranks.handle(), solver_.create()));
     solver_size_ = system.size();
-    configure(solver_.get(), settings_, traits_of(system, water_), ranks.is_alone());
+    configure(solver_.get(), settings_, traits_of(system, water_), ranks);
   }
   wrap_multigrid(system);
   // While the pattern is the same the rows change little, and setting up multigrid costs as much as a solve.

@@ -41,12 +41,12 @@ KSPType krylov_type(KrylovMethod method) {
   return KSPBCGS;
 }
 
-PCType preconditioner_type(PreconditionerName name, bool is_alone) {
+PCType preconditioner_type(PreconditionerName name, const Communicator& ranks) {
   switch (name) {
     case PreconditionerName::cell_multigrid:
       return PCSHELL;
     case PreconditionerName::ilu:
-      return is_alone ? PCILU : PCBJACOBI;  // one block per rank, each with ILU
+      return ranks.is_alone() ? PCILU : PCBJACOBI;  // one block per rank, each with ILU
     case PreconditionerName::boomeramg:
       return PCHYPRE;
     case PreconditionerName::gamg:
@@ -82,7 +82,7 @@ void ask_for_all_options(const PressureSolverTable& settings) {
     PetscKrylovSolver solver;
     check_petsc(KSPCreate(PETSC_COMM_SELF, solver.create()));
     check_petsc(KSPSetOperators(solver.get(), identity.get(), identity.get()));
-    configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = false}, true);
+    configure(solver.get(), settings, {.rows_deep = rows_deep, .constant_is_free = false}, Communicator());
     check_petsc(KSPSetUp(solver.get()));
   }
 }
@@ -140,13 +140,13 @@ void require_harmless(const PressureSolverTable& settings) {
 
 }  // namespace
 
-void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone) {
+void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, const Communicator& ranks) {
   const SolverChoice choice = choose_solver(settings, system);
   check_petsc(KSPSetOptionsPrefix(solver, "pressure_"));
   check_petsc(KSPSetType(solver, krylov_type(choice.method)));
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner));
-  check_petsc(PCSetType(preconditioner, preconditioner_type(choice.preconditioner, is_alone)));
+  check_petsc(PCSetType(preconditioner, preconditioner_type(choice.preconditioner, ranks)));
   check_petsc(PCSORSetOmega(preconditioner, ssor_factor));
   check_petsc(PCSORSetSymmetric(preconditioner, SOR_LOCAL_SYMMETRIC_SWEEP));
   // With right preconditioning PETSc does not remove the free constant from multigrid's result, and it grows without

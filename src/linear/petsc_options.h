@@ -6,8 +6,8 @@
 
 namespace tailwater {
 
-/// Sets type, preconditioner, tolerances and the user's own options of `solver`. `is_alone`: the run has one rank.
-void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, bool is_alone);
+/// Sets type, preconditioner, tolerances and the user's own options of the `solver` of these ranks.
+void configure(KSP solver, const PressureSolverTable& settings, const SystemTraits& system, const Communicator& ranks);
 
 /// Hands petsc_options to PETSc. Throws InputError for options that neither the solver of shallow nor that of deep
 /// water asks for, because PETSc ignores them silently.
