@@ -105,7 +105,7 @@ void require_sound_probes(const CaseSpec& spec) {
 CaseSpec read_member(const std::filesystem::path& case_file, const std::vector<std::string>& overrides) {
   CaseSpec spec = read_case(case_file, overrides);
   with_places(spec, [&] {
-    require_sound_geometry(spec, {}, false);
+    require_sound_geometry(spec, {}, CaseWarnings::left_out);
     if (spec.general.dimension == 2) {
       require_sound_probes<2>(spec);
     } else {

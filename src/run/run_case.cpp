@@ -103,7 +103,7 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 }
 
 template <int Dim>
-void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, bool warns) {
+void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, CaseWarnings warnings) {
   Boundary<Dim> boundary = make_boundary<Dim>(spec);
   // What a machine has for its ranks is enough for as many times more on all machines.
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
@@ -119,7 +119,7 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
   for (const Finding& finding : findings) {
     if (finding.severity == Severity::error) {
       errors.push_back(finding.message);
-    } else if (warns) {
+    } else if (warnings == CaseWarnings::told) {
       warn(spec.sources.placed(finding.message));
     }
   }
@@ -133,18 +133,18 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
 
 }  // namespace
 
-void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks, bool warns) {
+void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks, CaseWarnings warnings) {
   if (spec.general.dimension == 2) {
-    require_sound_geometry_in<2>(spec, ranks, warns);
+    require_sound_geometry_in<2>(spec, ranks, warnings);
   } else {
-    require_sound_geometry_in<3>(spec, ranks, warns);
+    require_sound_geometry_in<3>(spec, ranks, warnings);
   }
 }
 
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
                   const SealedFile* checkpoint) {
   return with_places(spec, [&] {
-    require_sound_geometry(spec, ranks, checkpoint == nullptr);
+    require_sound_geometry(spec, ranks, checkpoint == nullptr ? CaseWarnings::told : CaseWarnings::left_out);
     return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
                                        : run_in<3>(spec, options, ranks, checkpoint);
   });

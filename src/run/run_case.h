@@ -22,9 +22,13 @@ auto with_places(const CaseSpec& spec, const Work& work) {
   }
 }
 
-/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told
-/// (io/messages.h), unless an earlier run of the case has told them. Throws InputError with all errors found.
-void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks = {}, bool warns = true);
+/// Warnings are left out where an earlier run of the case has told them, or its own run will.
+enum class CaseWarnings { told, left_out };
+
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told by
+/// io/messages.h. Throws InputError with all errors found.
+void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks = {},
+                            CaseWarnings warnings = CaseWarnings::told);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
 /// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
