@@ -117,6 +117,7 @@ class Case:
 
     @property
     def title(self) -> str:
+        """case.title"""
         return self["case.title"]
 
     def copy(self) -> "Case":

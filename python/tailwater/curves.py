@@ -12,6 +12,8 @@ __all__ = ["Curve", "read_curve"]
 
 @dataclass(frozen=True)
 class Curve:
+    """`time` (n), strictly increasing, and `value` (n)."""
+
     time: np.ndarray
     value: np.ndarray
 
@@ -28,6 +30,7 @@ class Curve:
         return cls(unique, np.bincount(owner, weights=value) / np.bincount(owner))
 
     def scaled(self, time=1.0, value=1.0) -> "Curve":
+        """The same curve in other units: times and values are multiplied by these."""
         return Curve(self.time * time, self.value * value)
 
     def shifted(self, delay) -> "Curve":

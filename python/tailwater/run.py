@@ -152,6 +152,7 @@ class Run:
 
     @property
     def dimension(self) -> int:
+        """2 or 3"""
         return self.case["case"]["dimension"]
 
     @property

@@ -38,7 +38,7 @@ def warn_of_new():
 
 
 class Body:
-    """A floating body in a step. Vectors have 2 or 3 components; angles and moments are single numbers in 2D. In 2D
+    """A floating body in a step, by its `name`. Vectors have 2 or 3 components; angles and moments are single numbers in 2D. In 2D
     forces, masses and moments are those of a metre of width."""
 
     def __init__(self, flow, number, name):
@@ -174,6 +174,8 @@ class Simulation:
     `hook(step)` is called before each step, and once more at the start, where the pressure is found and `dt` is 0: a
     force that acts from the start on belongs there.
 
+    `dimension`, `spacing` (m), `density` (kg/m^3) and `end` (s) are the case's.
+
     With `out` it also writes a run's folder, as `tailwater run` does. Throws InputError, IoError and SolverError;
     Ctrl-C is Python's, between two steps. Under mpirun all ranks do the same in step; each has the particles of its part
     of space. Ending a run is work of all ranks too, so an error of the script on any of them ends all at once, without
@@ -209,10 +211,12 @@ class Simulation:
 
     @property
     def rank(self) -> int:
+        """Of this process, from 0."""
         return _simulation.rank()
 
     @property
     def ranks(self) -> int:
+        """How many processes the run has."""
         return _simulation.ranks()
 
     def _attempt(self, work):

@@ -26,6 +26,7 @@ class View:
         atexit.register(self.close)
 
     def close(self):
+        """Ends the server; the page then shows no more."""
         self._child.terminate()
         self._child.communicate()
         atexit.unregister(self.close)
