@@ -80,7 +80,7 @@ class ViewServer::Service {
       return begin_answer(request, response) ? HttpServer::HandlerResponse::Unhandled
                                              : HttpServer::HandlerResponse::Handled;
     });
-    http_.Post(R"(/[\s\S]*)", [this](const Request& request, Response& response) { guarded(request, response, true); });
+    http_.Post(R"(/[\s\S]*)", [this](const Request& request, Response& response) { answer(request, response); });
     http_.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
       answer_error(response, 500, "the server could not answer");
     });
@@ -133,14 +133,14 @@ class ViewServer::Service {
       answer_error(response, 405, "only GET and POST are answered");
       return false;
     }
-    guarded(request, response, false);
+    answer(request, response);
     return false;
   }
 
-  void guarded(const Request& request, Response& response, bool is_post) {
+  void answer(const Request& request, Response& response) {
     const std::vector<std::string> path = segments_of(request.path);
     try {
-      const bool is_known = is_post ? post(request, response, path) : get(request, response, path);
+      const bool is_known = request.method == "POST" ? post(request, response, path) : get(request, response, path);
       if (!is_known) answer_error(response, 404, "there is no such thing");
     } catch (const UserError& error) {
       answer_error(response, error.code() == ExitCode::io_failed ? 500 : 400, error.what());
@@ -175,16 +175,21 @@ class ViewServer::Service {
       return text.has_value();
     }
     if (path.size() != 3) return false;
-    if (what == "state") answer_json(response, state());
-    if (what == "spec") answer_json(response, actions_.spec());
-    if (what == "templates") answer_json(response, actions_.templates());
-    if (what == "sweeps") answer_json(response, actions_.sweeps());
-    if (what == "case" && case_file_) {
+    if (what == "state") {
+      answer_json(response, state());
+    } else if (what == "spec") {
+      answer_json(response, actions_.spec());
+    } else if (what == "templates") {
+      answer_json(response, actions_.templates());
+    } else if (what == "sweeps") {
+      answer_json(response, actions_.sweeps());
+    } else if (what == "case" && case_file_) {
       const FolderReader folder(folder_of_case());
       answer_text(response, folder.text_of({case_file_->filename().string()}), "application/toml");
-      return true;
+    } else {
+      return false;
     }
-    return what == "state" || what == "spec" || what == "templates" || what == "sweeps";
+    return true;
   }
 
   bool get_of_run(const Request& request, Response& response, Run& run, const std::vector<std::string>& path) {
