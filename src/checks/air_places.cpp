@@ -8,8 +8,7 @@ namespace tailwater {
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
-  Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
   const double tolerance = 0.5 * spec.particles.spacing;
   const auto check = [&](const std::string& owner, const Coordinates& at) {
     const Vec<Dim> x = to_vec<Dim>(at, owner, "at");

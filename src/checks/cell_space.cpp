@@ -13,8 +13,7 @@ template <int Dim>
 CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces,
                           const Eigen::AlignedBox<double, Dim>& water, double most)
     : tolerance_(corner_tolerance * spec.particles.spacing) {
-  Eigen::AlignedBox<double, Dim> box = water;
-  for (const WallFace<Dim>& face : faces) box.extend(face.box());
+  const Eigen::AlignedBox<double, Dim> box = water.merged(box_around(faces));
   low_ = box.min();
   const Vec<Dim> high = box.max();
   const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);

@@ -16,11 +16,8 @@ constexpr int looks_at_walls = 100;
 template <int Dim>
 Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<Dim>& drawn,
                                            const FluidParticles<Dim>& fluid) {
-  Eigen::AlignedBox<double, Dim> box = fluid.box();
-  for (const WallFace<Dim>& face : drawn.faces) box.extend(face.box());
-  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
-    for (const WallFace<Dim>& face : end.as_faces()) box.extend(face.box());
-  }
+  Eigen::AlignedBox<double, Dim> box = fluid.box().merged(box_around(drawn.faces));
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) box.extend(box_around(end.as_faces()));
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (!drawn.walls[w].moves()) continue;
     const int wall = static_cast<int>(w);

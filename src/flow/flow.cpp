@@ -46,17 +46,20 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   return particles;
 }
 
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_around_case(const Boundary<Dim>& boundary, const std::vector<OpenEnd<Dim>>& ends) {
+  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  for (const OpenEnd<Dim>& end : ends) box.extend(box_around(end.opening.as_faces()));
+  return box;
+}
+
 /// Looks at the walls in a run, for the box around all places where they are.
 constexpr int looks_at_moving_walls = 1000;
 
 template <int Dim>
 AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
   if (spec.air.pockets == AirPockets::none) return {};
-  Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
-  for (const OpenEnd<Dim>& end : setup.open_ends) {
-    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
-  }
+  Eigen::AlignedBox<double, Dim> box = box_around_case(boundary, setup.open_ends);
   MotionState<Dim> start;
   start.wave_makers.resize(setup.wave_plates.size());
   for (const auto& moving : setup.wall_motion.moving()) {
@@ -131,12 +134,7 @@ void Flow<Dim>::restore(State<Dim> saved) {
 
 template <int Dim>
 Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
-  Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : walls.boundary.faces) box.extend(face.box());
-  for (const OpenEnd<Dim>& end : setup.open_ends) {
-    for (const WallFace<Dim>& face : end.opening.as_faces()) box.extend(face.box());
-  }
-  return box;
+  return box_around_case(walls.boundary, setup.open_ends);
 }
 
 template struct Flow<2>;

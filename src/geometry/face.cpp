@@ -20,6 +20,13 @@ Eigen::AlignedBox<double, Dim> WallFace<Dim>::box() const {
   return box;
 }
 
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_around(const std::vector<WallFace<Dim>>& faces) {
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : faces) box.extend(face.box());
+  return box;
+}
+
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
   const Vec<2> edge = face.corners[1] - face.corners[0];
   return face.corners[0] + std::clamp(edge.dot(x - face.corners[0]) / edge.squaredNorm(), 0.0, 1.0) * edge;
@@ -70,6 +77,7 @@ bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to
 
 template struct WallFace<2>;
 template struct WallFace<3>;
+TAILWATER_IN_2D_AND_3D(box_around);
 TAILWATER_IN_2D_AND_3D(meet);
 TAILWATER_IN_2D_AND_3D(crosses);
 

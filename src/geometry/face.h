@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "base/vec.h"
 
@@ -25,6 +26,10 @@ struct WallFace {
   /// The axis-parallel box around it.
   Eigen::AlignedBox<double, Dim> box() const;
 };
+
+/// The box around all of them; empty if there are none.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_around(const std::vector<WallFace<Dim>>& faces);
 
 /// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
 /// corner 2 to corner 0.

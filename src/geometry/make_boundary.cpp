@@ -220,8 +220,7 @@ void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, co
 
 /// The meshes of the blocks of water.
 std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spec, const Boundary<3>& boundary) {
-  Eigen::AlignedBox<double, 3> walls;
-  for (const WallFace<3>& face : boundary.faces) walls.extend(face.box());
+  const Eigen::AlignedBox<double, 3> walls = box_around(boundary.faces);
   std::vector<std::shared_ptr<const MeshSurface>> water(spec.fluid.size());
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     if (spec.fluid[b].shape != BlockShape::mesh) continue;

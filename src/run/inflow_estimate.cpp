@@ -23,10 +23,7 @@ struct Basin {
 
 template <int Dim>
 Basin basin_of(const Boundary<Dim>& boundary, const std::vector<ChannelEnd<Dim>>& ends, const Vec<Dim>& up) {
-  Eigen::AlignedBox<double, Dim> box;
-  for (const WallFace<Dim>& face : boundary.faces) {
-    for (const Vec<Dim>& corner : face.corners) box.extend(corner);
-  }
+  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
   for (const ChannelEnd<Dim>& end : ends) box.extend(end.low);
   int axis = 0;
   up.cwiseAbs().maxCoeff(&axis);

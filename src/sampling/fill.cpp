@@ -29,7 +29,7 @@ class Fill {
         level_(block.level),
         near_(2.0 * dx_) {
     boundary.visit_plain_faces([&](int f) { file(boundary.faces[f], boundary.faces[f].box()); });
-    for (const WallFace<Dim>& face : boundary.faces) box_.extend(face.box());
+    box_ = box_around(boundary.faces);
     Eigen::AlignedBox<double, Dim> around = box_;
     around.min().array() -= beyond_walls * dx_;
     around.max().array() += beyond_walls * dx_;

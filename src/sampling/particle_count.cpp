@@ -23,8 +23,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
       count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
     } else if (block.shape == BlockShape::fill) {
       // At most: the box around the walls up to the level.
-      Eigen::AlignedBox<double, Dim> box;
-      for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+      Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
       if (box.isEmpty()) continue;
       box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
       count.fluid += std::max(box.volume(), 0.0) / power<Dim>(dx);  // below 0 with a level below the walls

@@ -98,7 +98,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
   std::array<LatticeAxis, Dim> lattice;
   Eigen::AlignedBox<double, Dim> box;
   if (water.shape == BlockShape::fill) {
-    for (const WallFace<Dim>& face : boundary.faces) box.extend(face.box());
+    box = box_around(boundary.faces);
     box.extend(to_vec<Dim>(water.seed, owner, "seed"));
     box.max()[Dim - 1] = water.level;
   } else if (Dim == 3 && water.shape == BlockShape::mesh) {

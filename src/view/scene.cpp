@@ -269,14 +269,8 @@ std::vector<Opening<Dim>> sound_open_ends(const CaseSpec& spec) {
 /// The box around what is drawn; null where there is nothing.
 template <int Dim>
 Json box_json(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
-  Eigen::AlignedBox<double, Dim> box;
-  const auto include = [&](const std::vector<WallFace<Dim>>& faces) {
-    for (const WallFace<Dim>& face : faces) {
-      for (const Vec<Dim>& corner : face.corners) box.extend(corner);
-    }
-  };
-  include(boundary.faces);
-  for (const Opening<Dim>& end : ends) include(end.as_faces());
+  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  for (const Opening<Dim>& end : ends) box.extend(box_around(end.as_faces()));
   if (box.isEmpty()) return {};
   return {{"min", point<Dim>(box.min())}, {"max", point<Dim>(box.max())}};
 }
