@@ -35,9 +35,7 @@ template <int Dim>
 SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt) {
   const double density = flow.setup.density;
   Particles<Dim>& particles = flow.state.particles;
-  SecondProjection second;
-  PressureReport& report = second.report;
-  report.interventions.fallback_rows = assemble_weights(flow, drive);
+  const std::size_t fallback_rows = assemble_weights(flow, drive);
   show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> source(particles.owned, 0.0);
   flow.discretisation().find_divergence(flow, particles.velocity, source);
@@ -46,11 +44,10 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   const double fullness = find_fullness(flow);
   take_out_mean(flow, fullness, source);
   for_each(particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, source[i]); });
-  const SolveReport solved =
-      solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance()));
-  report.iterations = solved.iterations;
-  report.residual = solved.residual;
-  report.interventions.restarted_solves = solved.restarts;
+  SecondProjection second;
+  second.report =
+      report_of(solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance())));
+  second.report.interventions.fallback_rows = fallback_rows;
   flow.has_matrix = flow.setup.keeps_matrix();
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;

@@ -30,12 +30,6 @@ void hold_suction(Flow<Dim>& flow) {
   });
 }
 
-PressureReport report_of(const SolveReport& solved) {
-  PressureReport report{.iterations = solved.iterations, .residual = solved.residual, .interventions = {}};
-  report.interventions.restarted_solves = solved.restarts;
-  return report;
-}
-
 }  // namespace
 
 template <int Dim>

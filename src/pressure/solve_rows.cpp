@@ -17,6 +17,12 @@ SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double to
   return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
 }
 
+PressureReport report_of(const SolveReport& solved) {
+  PressureReport report{.iterations = solved.iterations, .residual = solved.residual, .interventions = {}};
+  report.interventions.restarted_solves = solved.restarts;
+  return report;
+}
+
 TAILWATER_IN_2D_AND_3D(solve_rows);
 
 }  // namespace tailwater

@@ -12,4 +12,7 @@ namespace tailwater {
 template <int Dim>
 SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double tolerance);
 
+/// What a projection tells of its solve.
+PressureReport report_of(const SolveReport& solved);
+
 }  // namespace tailwater
