@@ -1,6 +1,6 @@
 // The verbs of a step that do not involve the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020).
 // Each does one thing. It takes what it needs and returns what later verbs need, so the signatures show the order. The
-// verbs of the pressure are in pressure/verbs.h; explicit_projection.cpp, implicit_projection.cpp and two_step.cpp in
+// verbs of the pressure are in pressure/verbs.h; explicit_projection.cpp, two_projections.cpp and two_step.cpp in
 // schemes put all of them in order. Verbs are collective; a result about the whole flow is the same on all ranks.
 #pragma once
 
