@@ -74,10 +74,10 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return fluid.extent_along(gravity.normalized()) + spacing;
 }
 
-/// Depth of the water [m] that there may be: at the start, and what open ends bring.
+/// Depth of the water [m] that there may be: at the start, and what open ends bring. Collective.
 template <int Dim>
-double depth_scale(const CaseSpec& spec, double fluid_height) {
-  double depth = fluid_height;
+double depth_scale(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
+  double depth = fluid_height(fluid, gravity, spec.particles.spacing);
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     depth = std::max(depth, end.largest_depth(spec.time.end));
   }
@@ -148,9 +148,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       spacing(spec.particles.spacing),
       first_wall_id(drawing.fluid.all),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      length(formulation.length > 0.0 ? formulation.length
-                                      : depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing))),
-      rows_deep(depth_scale<Dim>(spec, fluid_height(drawing.fluid, gravity, spacing)) / spacing),
+      length(formulation.length > 0.0 ? formulation.length : depth_scale(spec, drawing.fluid, gravity)),
+      rows_deep(depth_scale(spec, drawing.fluid, gravity) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       finds_wall_forces(!spec.bodies.empty() || has_force_probe(spec)),
       finds_wall_pressure(has_force_probe(spec)),
