@@ -169,12 +169,11 @@ Method& LinearSolver::method_for(const LinearSystem& system) {
   return methods_->petsc;
 }
 
-SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution,
-                                std::optional<double> tolerance_asked) {
+SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution, double tolerance) {
   TAILWATER_ASSERT(solution.size() == system.size(), "the solution must have one entry per row");
   const SuspendFpTraps suspended;
   if (system.constant_is_free()) system.make_rhs_consistent();
-  Solve solve(system, solution, tolerance_asked.value_or(settings_.tolerance));
+  Solve solve(system, solution, tolerance);
   if (!solve.has_source()) {
     solve.begin_at_zero();
     return {};

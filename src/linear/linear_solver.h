@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "case/spec.h"
@@ -30,9 +29,8 @@ class LinearSolver {
 
   /// On entry `solution` is the starting guess; a guess with a huge residual is replaced by 0. If the method breaks
   /// down, the solve restarts once, from 0 with GMRES, which cannot break down. Where a constant is free the solution
-  /// gets mean 0. Throws SolverError with the residual history when the tolerance is not reached. `tolerance` overrides
-  /// that of the settings. Collective.
-  SolveReport solve(LinearSystem& system, std::span<double> solution, std::optional<double> tolerance = {});
+  /// gets mean 0. Throws SolverError with the residual history when the tolerance is not reached. Collective.
+  SolveReport solve(LinearSystem& system, std::span<double> solution, double tolerance);
 
   /// Frees what belongs to the pattern of the last solve. Call when no other solve has the same: a new pattern needs
   /// all of it anew.
@@ -41,7 +39,7 @@ class LinearSolver {
   /// Whether it solves by the multigrid on cells, so that systems must tell theirs.
   bool needs_cells() const;
 
-  /// Relative residual at which a solve ends.
+  /// Relative residual at which the case wants a solve to end.
   double tolerance() const { return settings_.tolerance; }
 
  private:

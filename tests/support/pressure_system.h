@@ -11,7 +11,7 @@ class PressureSystem : public LinearSystem {
   explicit PressureSystem(const PressureSolverTable& settings, const Communicator& ranks = {})
       : LinearSystem(ranks), solver_(settings) {}
 
-  SolveReport solve(std::span<double> solution) { return solver_.solve(*this, solution); }
+  SolveReport solve(std::span<double> solution) { return solver_.solve(*this, solution, solver_.tolerance()); }
 
  private:
   LinearSolver solver_;
